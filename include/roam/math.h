@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Points, boxes and the two conventions everything else relies on.
+///
+/// Lengths are metres and angles are radians unless a name says otherwise. The up axis is +z. Positions are doubles
+/// in the scene's own frame; no part of roam shifts or rotates what the caller passed.
+
+#include <glm/vec3.hpp>
+
+#include <limits>
+
+namespace roam {
+
+/// A point or a displacement, in metres.
+using Vec3 = glm::dvec3;
+
+/// An axis-aligned box. A default-constructed box is empty and grows from nothing.
+struct Box {
+  Vec3 lower{std::numeric_limits<double>::infinity()};
+  Vec3 upper{-std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+  [[nodiscard]] Vec3 size() const { return upper - lower; }
+  [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
+
+  void include(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = p[k] < lower[k] ? p[k] : lower[k];
+      upper[k] = p[k] > upper[k] ? p[k] : upper[k];
+    }
+  }
+  void include(const Box& b) {
+    include(b.lower);
+    include(b.upper);
+  }
+};
+
+}  // namespace roam

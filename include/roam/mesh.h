@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// Triangles as they come from a file or from a program: the input of World::build.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "roam/math.h"
+
+namespace roam {
+
+/// Three corners, in metres. Points and segments (equal corners) are triangles too.
+using Triangle = std::array<Vec3, 3>;
+
+/// A run of triangles that belong to one object of the scene: a node, a mesh or a layer of the file.
+struct Mesh {
+  std::string name;                                     ///< the object's name as the file gives it; may be empty
+  std::vector<Vec3> vertices;                           ///< metres, scene frame
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices; either winding
+
+  [[nodiscard]] Triangle triangle(std::size_t i) const {
+    const auto& t = triangles[i];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+};
+
+}  // namespace roam
