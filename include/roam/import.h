@@ -1,0 +1,122 @@
+#pragma once
+/// \file
+/// Triangles out of other people's files.
+///
+///     const roam::Scene scene = roam::import_scene("mine.dae");
+///     const roam::World world = roam::World::build(scene.meshes);
+///     for (const std::string& note : scene.report.notes) std::cerr << note << "\n";
+///
+/// Library target roam::import. It links no reader: files are opened by the program `roam-reader`, which runs as a
+/// child with limits on memory and time and answers through a pipe. A file that makes a reader crash, hang or eat
+/// memory therefore costs a roam::Error, not the program. docs/importing.md lists the formats and what is kept.
+///
+/// The reader is looked for at: ImportOptions::reader; the environment variable ROAM_READER; `roam-reader` beside the
+/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to.
+///
+/// Coordinates are those of the file. Nothing is shifted, rotated or scaled unless ImportOptions say so, with two
+/// exceptions that the report tells: glTF, whose y axis is up by definition, is turned so that +z is up; and a second
+/// folder of photogrammetry tiles is placed relative to the first by the difference of their SRSOrigins.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "roam/error.h"
+#include "roam/math.h"
+#include "roam/mesh.h"
+
+namespace roam {
+
+/// The axis of a file that points up. Reading turns it to +z by a proper rotation:
+/// x: (x, y, z) -> (-z, y, x);  y: (x, y, z) -> (x, -z, y);  z: as it is.
+enum class UpAxis : std::uint8_t { x, y, z };
+/// The length of 1 in a file: metre, centimetre, millimetre, international foot (0.3048 m), inch (0.0254 m).
+enum class LengthUnit : std::uint8_t { m, cm, mm, ft, in };
+
+/// "x", "y" or "z"; anything else throws roam::Error.
+[[nodiscard]] UpAxis parse_up_axis(std::string_view text);
+/// "m", "cm", "mm", "ft" or "in"; anything else throws roam::Error.
+[[nodiscard]] LengthUnit parse_length_unit(std::string_view text);
+/// How many metres one unit is; exact.
+[[nodiscard]] double metres_per(LengthUnit unit);
+
+/// How far an import has come.
+struct ImportProgress {
+  std::filesystem::path path;     ///< the file or folder being read, as it was passed
+  std::uint64_t bytes_read = 0;   ///< of bytes_total; stands still while a foreign reader works on one large file
+  std::uint64_t bytes_total = 0;  ///< size of all files and folders that were passed
+  std::uint64_t triangles = 0;    ///< received so far
+};
+
+/// What an import may be told. The defaults suit files in metres with z up.
+struct ImportOptions {
+  std::optional<UpAxis> up;         ///< unset: y for glTF, z for everything else
+  LengthUnit unit = LengthUnit::m;  ///< multiplies every coordinate by metres_per(unit)
+  std::vector<std::string> ignore;  ///< leaves out objects whose name, or an ancestor's, matches one of these shell
+                                    ///< patterns (fnmatch: * ? [a-z], case counts, * matches / too)
+  std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= 64 MiB: of the reader's memory, and of the meshes it sends
+  double silence_limit = 120.0;  ///< seconds, > 0: a reader that reports nothing for so long, plus 1 s for each 4 MB
+                                 ///< of its file, has hung and is ended
+  std::filesystem::path reader;  ///< the program roam-reader; empty: looked for as told above
+  /// Called from the calling thread at least twice a second. Returning false ends the reader and throws Cancelled.
+  std::function<bool(const ImportProgress&)> progress;
+};
+
+/// An object that was left out as a whole or in part.
+struct LeftOutObject {
+  std::string name;
+  std::uint64_t vertices = 0;   ///< that are not finite or beyond World::coordinate_limit (1e9 m); 0 where ignored
+  std::uint64_t triangles = 0;  ///< that had such a corner, or that belong to an ignored object
+};
+
+/// Where the scene's frame lies in the world, as metadata.xml of the first folder of tiles says: world = scene +
+/// origin.
+struct Georeference {
+  std::string srs;  ///< spatial reference system, e.g. "EPSG:32632" or "ENU:46.2,8.1"
+  Vec3 origin{0.0};
+};
+
+/// What was read and what was not. Lists of names stop at name_limit entries; counts do not.
+struct ImportReport {
+  static constexpr std::size_t name_limit = 100;
+
+  std::uint64_t files = 0;              ///< that were opened and read, pages and external references included
+  std::uint64_t vertices = 0;           ///< of all meshes
+  std::uint64_t triangles = 0;          ///< of all meshes
+  std::uint64_t bad_vertices = 0;       ///< left out: not finite, or beyond 1e9 m
+  std::uint64_t bad_triangles = 0;      ///< left out: they have a bad vertex, or an index beyond the vertices
+  std::uint64_t ignored_triangles = 0;  ///< left out by ImportOptions::ignore
+  std::uint64_t missing_pages = 0;      ///< files that a scene refers to and that are absent or unreadable
+  std::vector<LeftOutObject> bad_objects;
+  std::vector<LeftOutObject> ignored_objects;
+  std::vector<std::string> missing_page_files;
+  std::optional<Georeference> georeference;
+  /// Whole sentences for the user: everything above that is not as it should be, an up axis or unit that the file
+  /// states and that was not applied, patterns of `ignore` that matched nothing. Empty when all is well.
+  std::vector<std::string> notes;
+};
+
+/// What was imported. Meshes come in the order of the paths and, within one, of the file; their triangles in the order
+/// of the file, polygons fanned from their first corner, quads as 0,1,2 and 0,2,3. Points and segments are kept.
+struct Scene {
+  std::vector<Mesh> meshes;
+  ImportReport report;
+};
+
+/// Reads files and folders (a folder of photogrammetry: the one that holds Data/Tile_*/Tile_*.osgb) into one scene.
+/// The same input gives the same bits. Blocks; may be called from several threads at once, each with its own reader.
+///
+/// Throws roam::Error when a path is missing, of no known format, malformed, gives no triangle, makes its reader
+/// crash, or needs more memory or time than allowed; the message names the file, the cause and what to do.
+/// Throws roam::Cancelled when the progress callback says so. No child process is left behind either way.
+[[nodiscard]] Scene import_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options = {});
+
+/// The same for one path.
+[[nodiscard]] Scene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
+
+}  // namespace roam
