@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Path files: the places that a body is sent along.
+///
+/// A line is a waypoint `x y z`, in metres in the scene's frame, or a line of osgViewer's animation path
+/// `t x y z qx qy qz qw`, as its key Z records it. `#` begins a comment, also behind numbers; empty lines mean nothing.
+/// One file holds one of the two kinds.
+
+#include <array>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/math.h"
+
+namespace roam {
+
+/// Where the camera of an animation path was at its moment, and how it looked.
+struct PathPose {
+  double time = 0.0;                 ///< seconds, never less than that of the line before
+  std::array<double, 4> rotation{};  ///< the quaternion x, y, z, w as the file gives it
+};
+
+/// One line of a path file.
+struct Waypoint {
+  Vec3 position{0.0};            ///< metres, scene frame
+  std::optional<PathPose> pose;  ///< of an animation path
+  int line = 0;                  ///< of the file, from 1, for messages
+};
+
+/// Reads a path. `name` stands for the file in messages. Throws roam::Error naming the line for anything but numbers,
+/// for a wrong count of them, for numbers that are not finite or a time that runs backwards, and for a path of fewer
+/// than two waypoints.
+[[nodiscard]] std::vector<Waypoint> read_path(std::istream& in, const std::string& name);
+
+/// The same from a file. Throws roam::Error also when it cannot be opened.
+[[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
+
+}  // namespace roam

@@ -1,0 +1,105 @@
+#include "roam/path_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <string_view>
+
+#include "roam/error.h"
+
+namespace roam {
+namespace {
+
+constexpr std::size_t waypoint_numbers = 3;
+constexpr std::size_t pose_numbers = 8;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view blanks = " \t\r\v\f";
+
+/// The numbers of one line; more than pose_numbers are counted, not kept.
+struct Numbers {
+  std::array<double, pose_numbers> value{};
+  std::size_t count = 0;
+};
+
+[[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
+  throw Error(name + ":" + std::to_string(line) + ": " + what);
+}
+
+Numbers parse(std::string_view text, const std::string& name, int line) {
+  Numbers numbers;
+  text = text.substr(0, text.find('#'));
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return numbers;
+    text.remove_prefix(begin);
+    const std::string_view word = text.substr(0, text.find_first_of(blanks));
+    // from_chars takes no leading plus, which printf-like writers leave before numbers.
+    const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
+    double value = 0.0;
+    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {
+      fail(
+          name, line,
+          "'" + std::string(word) + "' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment");
+    }
+    if (status != std::errc() || !std::isfinite(value)) {
+      fail(name, line, "'" + std::string(word) + "' is not a finite number; correct or remove the line");
+    }
+    if (numbers.count < pose_numbers) numbers.value[numbers.count] = value;
+    ++numbers.count;
+    text.remove_prefix(word.size());
+  }
+}
+
+Waypoint waypoint(const Numbers& numbers, const std::string& name, int line) {
+  const auto& v = numbers.value;
+  if (numbers.count == waypoint_numbers) return {{v[0], v[1], v[2]}, std::nullopt, line};
+  if (numbers.count == pose_numbers) return {{v[1], v[2], v[3]}, PathPose{v[0], {v[4], v[5], v[6], v[7]}}, line};
+  fail(name, line,
+       "found " + std::to_string(numbers.count) +
+           " numbers; a waypoint has 3 (x y z), a line of osgViewer's path has 8 (t x y z qx qy qz qw)");
+}
+
+}  // namespace
+
+std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
+  std::vector<Waypoint> path;
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line) {
+    std::string_view view = text;
+    if (line == 1 && view.starts_with(byte_order_mark)) view.remove_prefix(byte_order_mark.size());
+    const Numbers numbers = parse(view, name, line);
+    if (numbers.count == 0) continue;
+    const Waypoint next = waypoint(numbers, name, line);
+    if (!path.empty()) {
+      const Waypoint& last = path.back();
+      if (last.pose.has_value() != next.pose.has_value()) {
+        fail(name, line,
+             "waypoints 'x y z' and lines 't x y z qx qy qz qw' are mixed (the other kind is in line " +
+                 std::to_string(last.line) + "); use one kind in a file");
+      }
+      if (next.pose && next.pose->time < last.pose->time) {
+        fail(name, line,
+             "the time runs backwards (line " + std::to_string(last.line) + " is later); sort the lines by time");
+      }
+    }
+    path.push_back(next);
+  }
+  if (in.bad()) throw Error(name + ": reading failed; check the disk and the file's permissions");
+  if (path.size() < 2) {
+    throw Error(name + ": holds " + (path.empty() ? "no waypoint" : "only one waypoint") +
+                "; a path needs a start and at least one place to go to, one 'x y z' a line");
+  }
+  return path;
+}
+
+std::vector<Waypoint> load_path(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw Error("cannot open the path file " + file.string() + "; check its name and permissions");
+  }
+  return read_path(in, file.string());
+}
+
+}  // namespace roam

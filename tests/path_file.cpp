@@ -1,0 +1,85 @@
+#include "roam/path_file.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "roam/error.h"
+
+namespace {
+
+std::vector<roam::Waypoint> read(const std::string& text) {
+  std::istringstream in(text);
+  return roam::read_path(in, "walk.path");
+}
+
+std::string message(const std::string& text) {
+  try {
+    (void)read(text);
+  } catch (const roam::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PathFile, ReadsWaypointsWithEveryDigit) {
+  const auto path = read("-13739.123456789012 253 182\n1e-3 +2 .5\n");
+  ASSERT_EQ(path.size(), 2u);
+  EXPECT_EQ(path[0].position, roam::Vec3(-13739.123456789012, 253, 182));
+  EXPECT_EQ(path[1].position, roam::Vec3(1e-3, 2, 0.5));
+  EXPECT_FALSE(path[0].pose);
+}
+
+TEST(PathFile, ReadsTheLinesThatOsgviewerRecords) {
+  const auto path = read("0 1 2 3 0 0 0 1\n0.0166 1.5 2 3 0.1 0.2 0.3 0.9\n");
+  ASSERT_EQ(path.size(), 2u);
+  EXPECT_EQ(path[1].position, roam::Vec3(1.5, 2, 3));
+  ASSERT_TRUE(path[1].pose);
+  EXPECT_EQ(path[1].pose->time, 0.0166);
+  EXPECT_EQ(path[1].pose->rotation, (std::array<double, 4>{0.1, 0.2, 0.3, 0.9}));
+}
+
+TEST(PathFile, SkipsCommentsBlankLinesAndTheMarksOfOtherSystems) {
+  const auto path = read("\xEF\xBB\xBF# path 1\r\n\r\n  0 0 0 # the start\r\n\t1\t0\t0\r\n#");
+  ASSERT_EQ(path.size(), 2u);
+  EXPECT_EQ(path[0].line, 3);
+  EXPECT_EQ(path[1].line, 4);
+}
+
+TEST(PathFile, NamesTheLineAndTheWordThatAreWrong) {
+  EXPECT_EQ(message("0 0 0\n1 zero 0\n"),
+            "walk.path:2: 'zero' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment");
+  EXPECT_EQ(message("0 0 0\n1,5 0 0\n").substr(0, 31), "walk.path:2: '1,5' is no number");
+  EXPECT_EQ(message("0 0 0\n\n1 2\n").substr(0, 30), "walk.path:3: found 2 numbers; ");
+  EXPECT_EQ(message("0 0 0\n1 2 3 4 5 6 7 8 9\n").substr(0, 28), "walk.path:2: found 9 numbers");
+}
+
+TEST(PathFile, RefusesNumbersThatAreNotFinite) {
+  for (const char* word : {"nan", "inf", "-inf", "1e999"}) {
+    EXPECT_NE(message(std::string("0 0 0\n1 2 ") + word + "\n").find("is not a finite number"), std::string::npos)
+        << word;
+  }
+}
+
+TEST(PathFile, RefusesMixedKindsAndTimesThatRunBackwards) {
+  EXPECT_NE(message("0 0 0\n0 1 2 3 0 0 0 1\n").find("walk.path:2: waypoints"), std::string::npos);
+  EXPECT_NE(message("1 0 0 0 0 0 0 1\n0.5 1 2 3 0 0 0 1\n").find("walk.path:2: the time runs backwards"),
+            std::string::npos);
+}
+
+TEST(PathFile, NeedsTwoWaypoints) {
+  EXPECT_NE(message("# nothing\n").find("holds no waypoint"), std::string::npos);
+  EXPECT_NE(message("1 2 3\n").find("only one waypoint"), std::string::npos);
+}
+
+TEST(PathFile, SaysWhichFileCannotBeOpened) {
+  try {
+    (void)roam::load_path("no/such.path");
+    FAIL() << "opened a file that is not there";
+  } catch (const roam::Error& error) {
+    EXPECT_EQ(std::string(error.what()), "cannot open the path file no/such.path; check its name and permissions");
+  }
+  EXPECT_THROW((void)roam::load_path("."), roam::Error);
+}
+
+}  // namespace
