@@ -1,1 +1,34 @@
 # cmake --install, and find_package(roam) with the target roam::roam.
+#
+# Each library is an export set of its own, so that a program that only asks for the core needs none of what the
+# readers need: find_package(roam) finds glm and TBB, find_package(roam COMPONENTS import) what roam::import needs.
+include(CMakePackageConfigHelpers)
+set(roam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roam)
+
+# roam_install(TARGET COMPONENT): installs a library as roam::COMPONENT.
+function(roam_install target component)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  install(TARGETS ${target} EXPORT roam-${component} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(EXPORT roam-${component} NAMESPACE roam:: DESTINATION ${roam_package_dir})
+endfunction()
+
+roam_install(roam roam)
+install(DIRECTORY include/roam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(ROAM_TOOLS)
+  foreach(component IN ITEMS path import generate)
+    if(TARGET roam_${component})
+      roam_install(roam_${component} ${component})
+    endif()
+  endforeach()
+  foreach(program IN ITEMS roam_app roam-reader)
+    if(TARGET ${program})
+      install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
+  endforeach()
+endif()
+
+configure_package_config_file(cmake/roamConfig.cmake.in roamConfig.cmake INSTALL_DESTINATION ${roam_package_dir})
+write_basic_package_version_file(roamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/roamConfig.cmake ${PROJECT_BINARY_DIR}/roamConfigVersion.cmake
+        DESTINATION ${roam_package_dir})
