@@ -7,3 +7,10 @@ target_compile_options(roam_compiler INTERFACE
   -ffp-contract=off -fno-fast-math
   # g++ 12.2 drops the rounding of double -> float -> double in 3-vectors (its SLP vectoriser) at -O2 and above.
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+
+# Builds again what it has built before from its cache, where ccache is there.
+find_program(ROAM_CCACHE ccache)
+mark_as_advanced(ROAM_CCACHE)
+if(ROAM_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ROAM_CCACHE})
+endif()
