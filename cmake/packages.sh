@@ -1,0 +1,54 @@
+# What roam is built from, as Debian and Ubuntu name it, and how what is missing gets installed.
+# Sourced by ./demo and ./check; docs/dependencies.md says what each package is for.
+
+program_packages="g++ cmake ninja-build ccache pkg-config
+  libglm-dev libtbb-dev libhwy-dev
+  libopenscenegraph-dev libassimp-dev libtinyobjloader-dev libfast-float-dev libtinyxml2-dev libxxhash-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev"
+test_packages="libgtest-dev librapidcheck-dev libboost-dev libmpfr-dev"
+
+# install_missing PACKAGE...: asks apt only for packages that are not there, and is silent when all of them are.
+install_missing() {
+  if ! command -v dpkg-query > /dev/null; then
+    echo "This is no Debian or Ubuntu: roam needs what these packages hold, from wherever you get them:" >&2
+    echo "  $*" >&2
+    return 0
+  fi
+  local installed package missing=()
+  installed=" $(dpkg-query --show --showformat='${db:Status-Status}=${Package} ' 2> /dev/null)"
+  for package in "$@"; do
+    [[ $installed == *" installed=$package "* ]] || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+
+  local as_root=()
+  if (($(id -u) != 0)); then
+    if ! command -v sudo > /dev/null; then
+      echo "roam needs these packages, and there is no sudo here to install them with. As root:" >&2
+      echo "  apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing with apt-get: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq < /dev/null &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends "${missing[@]}" < /dev/null && return 0
+  echo "apt-get could not install all of: ${missing[*]}" >&2
+  echo "Install them by hand and start again; docs/dependencies.md says what each one is for." >&2
+  return 1
+}
+
+# configure PRESET [ARGUMENTS...]: quiet when it succeeds, the whole log when it does not.
+configure() {
+  local log
+  # Paths relative to the clone, so that the cache serves every clone alike.
+  export CCACHE_BASEDIR=$PWD
+  if log=$(cmake --preset "$@" 2>&1 < /dev/null); then
+    return 0
+  fi
+  echo "$log" >&2
+  echo "Configuring failed. A build directory that another compiler or clone has left behind can cause this:" >&2
+  echo "remove it and start again." >&2
+  return 1
+}
