@@ -1,0 +1,122 @@
+// Times roam alone: what to run while changing the index. Wrong answers come before times.
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+
+#include "judge.h"
+#include "memory.h"
+#include "query_sets.h"
+#include "roam/world.h"
+#include "scene.h"
+#include "timing.h"
+
+namespace {
+
+using namespace roam::bench;
+
+struct Options {
+  SceneChoice scene;
+  std::vector<double> origin{0.0, 0.0, 0.0};
+  std::vector<std::string> sets = query_set_names();
+  std::size_t queries = 100000;
+  int rounds = 5;
+  bool lossless = false;
+  bool check = true;
+};
+
+double seconds_to_build(const Scene& scene, const roam::BuildOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const roam::World world = roam::World::build(scene.meshes, options);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void print_build(const Scene& scene, bool lossless, const roam::World& world, std::size_t allocated) {
+  const auto triangles = static_cast<double>(scene.triangles());
+  for (const int threads : {1, 2}) {
+    constexpr int builds = 3;
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < builds; ++i) {
+      best = std::min(best, seconds_to_build(scene, {.threads = threads, .lossless = lossless, .progress = {}}));
+    }
+    std::printf("build, %d thread%s: %.3f s, %.2f M triangles/s (best of %d)\n", threads, threads > 1 ? "s" : "", best,
+                1e-6 * triangles / best, builds);
+  }
+  std::printf("resident: %.2f bytes a triangle as the world counts, %.2f as malloc counts; %llu tiles\n",
+              static_cast<double>(world.stats().bytes) / triangles, static_cast<double>(allocated) / triangles,
+              static_cast<unsigned long long>(world.stats().tiles));
+}
+
+int run(const Options& options) {
+  const Scene scene = make_scene(options.scene);
+  std::printf("%s\n", scene.name.c_str());
+  const std::size_t before = allocated_bytes();
+  const roam::World world =
+      roam::World::build(scene.meshes, {.threads = 0, .lossless = options.lossless, .progress = {}});
+  print_build(scene, options.lossless, world, allocated_bytes() - before);
+  const Reference reference(scene.meshes);
+  const auto ask = [&world](const Query& q) {
+    const roam::WorldSweep s = world.sweep(q.body, q.from, q.motion);
+    return Answer{s.hit, s.time};
+  };
+  if (options.check)
+    std::printf("%-9s %8s %8s %6s %6s %6s %6s %11s", "set", "queries", "hits", "missed", "late", "early", "false",
+                "deepest");
+  std::printf("   %8s %8s %8s %8s   ns\n", "p50", "p99", "hit p50", "max");
+  bool wrong = false;
+  for (const std::string& name : options.sets) {
+    const QuerySet set = make_queries(name, options.queries, reference);
+    std::vector<Answer> answers;
+    std::vector<bool> hits;
+    for (const Query& q : set.queries) {
+      answers.push_back(ask(q));
+      hits.push_back(answers.back().hit);
+    }
+    if (options.check) {
+      std::vector<Answer> truth;
+      for (const Query& q : set.queries) truth.push_back(reference.sweep(q));
+      const Verdict v = judge(answers, truth, set.queries, reference);
+      wrong = wrong || v.wrong() > 0;
+      std::printf("%-9s %8zu %8zu %6zu %6zu %6zu %6zu %8.3g mm", name.c_str(), v.queries, v.hits, v.missed, v.late,
+                  v.early, v.false_hits, 1e3 * v.deepest);
+      std::fflush(stdout);
+    } else {
+      std::printf("%-9s", name.c_str());
+    }
+    const Ask asked[] = {timed(ask)};
+    const std::size_t counts[] = {set.queries.size()};
+    const Summary s = summarize(time_in_turns(asked, counts, set.queries, options.rounds)[0], hits);
+    std::printf("   %8.0f %8.0f %8.0f %8.0f\n", s.p50, s.p99, s.hit_p50, s.most);
+    std::fflush(stdout);
+  }
+  return wrong ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Times roam's sweeps in one scene; exit code 1 when an answer is wrong"};
+  app.add_option("--scene", options.scene.scene, "gallery, terrain, or a file")->capture_default_str();
+  app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
+  app.add_option("--origin", options.origin, "where the scene's centre is moved, metres: x,y,z")
+      ->delimiter(',')
+      ->expected(3)
+      ->capture_default_str();
+  app.add_option("--sets", options.sets, "which query sets: random,coherent,long,capsule")->delimiter(',');
+  app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--rounds", options.rounds, "each query's time is the median over these")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--lossless", options.lossless, "build with BuildOptions::lossless");
+  app.add_flag("!--no-check", options.check, "leave out the comparison with the reference: faster to start");
+  CLI11_PARSE(app, argc, argv);
+  options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// How many of an engine's answers are wrong, and by how much.
+
+#include <cstddef>
+#include <span>
+
+#include "query.h"
+#include "reference.h"
+
+namespace roam::bench {
+
+/// Deeper than this is a wrong answer: the body is in a wall. Ten times the depth that roam promises never to reach.
+constexpr double depth_allowed = 1e-5;  // m
+/// An answer that stops the body farther off than this keeps it out of places that it fits into.
+constexpr double gap_allowed = 2e-3;  // m
+
+/// Wrong answers among some queries. "Depth" is radius minus the smallest distance of the body's axis from any triangle
+/// on the whole way that the engine calls free, as the reference measures it: a body that is let through a sheet and
+/// out at its other side is counted by what happened in between.
+struct Verdict {
+  std::size_t queries = 0;
+  std::size_t hits = 0;        ///< by the reference
+  std::size_t missed = 0;      ///< called free, yet deeper than depth_allowed
+  std::size_t late = 0;        ///< hit, but the way to it is deeper than depth_allowed
+  std::size_t early = 0;       ///< hit, more than gap_allowed away from every triangle at the time given
+  std::size_t false_hits = 0;  ///< hit, more than gap_allowed away, where the reference says free
+  double deepest = 0;          ///< metres, over missed and late answers
+
+  [[nodiscard]] std::size_t wrong() const { return missed + late + early + false_hits; }
+};
+
+/// `says_when` false: the engine tells only hit or free, and a hit can be neither late nor early; a hit is false
+/// where the body never comes within gap_allowed of a triangle.
+[[nodiscard]] Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth,
+                            std::span<const Query> queries, const Reference& reference, bool says_when = true);
+
+}  // namespace roam::bench

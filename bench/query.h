@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// What every engine of a benchmark is asked.
+
+#include <string>
+#include <vector>
+
+#include "roam/math.h"
+#include "roam/sweep.h"
+
+namespace roam::bench {
+
+/// One sweep: the body's centre goes from `from` to `from + motion` (metres, scene frame).
+struct Query {
+  Body body;
+  Vec3 from{0.0};
+  Vec3 motion{0.0};
+};
+
+/// Queries of one kind, in the order in which they are asked: consecutive ones of a walk are neighbours in space.
+struct QuerySet {
+  std::string name;
+  std::vector<Query> queries;
+};
+
+/// What an engine says about one query.
+struct Answer {
+  bool hit = false;
+  double time = 1.0;  ///< fraction of the motion until the first touch; 1 when free
+};
+
+}  // namespace roam::bench

@@ -1,0 +1,58 @@
+#include "scene.h"
+
+#include <filesystem>
+
+#include "roam/error.h"
+#include "roam/generate.h"
+#ifdef ROAM_BENCH_READS_FILES
+#include "roam/import.h"
+#endif
+
+namespace roam::bench {
+namespace {
+
+std::vector<Mesh> read(const std::string& file) {
+#ifdef ROAM_BENCH_READS_FILES
+  return import_scene(file).meshes;
+#else
+  throw Error("cannot read '" + file +
+              "': this build has no readers; choose gallery or terrain, or configure with -DROAM_TOOLS=ON");
+#endif
+}
+
+void center_at(std::vector<Mesh>& meshes, const Vec3& origin) {
+  Box box;
+  for (const Mesh& mesh : meshes) {
+    for (const Vec3& v : mesh.vertices) box.include(v);
+  }
+  const Vec3 shift = origin - box.center();
+  for (Mesh& mesh : meshes) {
+    for (Vec3& v : mesh.vertices) v += shift;
+  }
+}
+
+}  // namespace
+
+std::uint64_t Scene::triangles() const {
+  std::uint64_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
+Scene make_scene(const SceneChoice& choice) {
+  Scene scene;
+  if (choice.scene == "gallery") {
+    scene.meshes = generate::collect(generate::gallery({.triangles = choice.triangles}));
+  } else if (choice.scene == "terrain") {
+    scene.meshes = generate::collect(generate::terrain({.triangles = choice.triangles}));
+  } else {
+    scene.meshes = read(choice.scene);
+  }
+  center_at(scene.meshes, choice.origin);
+  scene.name = std::filesystem::path(choice.scene).filename().string() + ", " + std::to_string(scene.triangles()) +
+               " triangles, centre at (" + std::to_string(choice.origin.x) + ", " + std::to_string(choice.origin.y) +
+               ", " + std::to_string(choice.origin.z) + ") m";
+  return scene;
+}
+
+}  // namespace roam::bench

@@ -1,0 +1,91 @@
+#include "timing.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace roam::bench {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double ticks_per_nanosecond() {
+  static const double rate = [] {
+    constexpr auto span = std::chrono::milliseconds(50);
+    const auto start = SteadyClock::now();
+    const std::uint64_t before = clock_before();
+    while (SteadyClock::now() - start < span) {
+    }
+    const std::uint64_t after = clock_after();
+    const std::chrono::duration<double, std::nano> passed = SteadyClock::now() - start;
+    return static_cast<double>(after - before) / passed.count();
+  }();
+  return rate;
+}
+
+double empty_ticks() {
+  std::vector<double> empty(1001);
+  for (double& ticks : empty) {
+    const std::uint64_t before = clock_before();
+    ticks = static_cast<double>(clock_after() - before);
+  }
+  return median(empty);
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+  return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace
+
+std::vector<Times> time_in_turns(std::span<const Ask> asked, std::span<const std::size_t> queries,
+                                 std::span<const Query> all, int rounds) {
+  std::vector<std::vector<std::vector<double>>> runs(asked.size());
+  std::vector<std::uint64_t> ticks(all.size());
+  std::vector<Answer> answers(all.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t e = 0; e < asked.size(); ++e) {
+      const std::size_t count = std::min(queries[e], all.size());
+      const double empty = empty_ticks();
+      asked[e](all.first(count), ticks, answers);
+      std::vector<double>& run = runs[e].emplace_back(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        run[i] = std::max(0.0, static_cast<double>(ticks[i]) - empty) / ticks_per_nanosecond();
+      }
+    }
+  }
+  std::vector<Times> times(asked.size());
+  for (std::size_t e = 0; e < asked.size(); ++e) {
+    times[e].resize(runs[e].front().size());
+    for (std::size_t i = 0; i < times[e].size(); ++i) {
+      std::vector<double> of_query;
+      for (const auto& run : runs[e]) of_query.push_back(run[i]);
+      times[e][i] = median(of_query);
+    }
+  }
+  return times;
+}
+
+Summary summarize(const Times& times, const std::vector<bool>& hits) {
+  std::vector<double> sorted = times;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> of_hits;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (hits[i]) of_hits.push_back(times[i]);
+  }
+  std::sort(of_hits.begin(), of_hits.end());
+  const auto count = static_cast<double>(std::max<std::size_t>(times.size(), 1));
+  return {.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / count,
+          .p50 = quantile(sorted, 0.5),
+          .p99 = quantile(sorted, 0.99),
+          .most = quantile(sorted, 1.0),
+          .hit_p50 = quantile(of_hits, 0.5),
+          .hit_share = static_cast<double>(of_hits.size()) / count};
+}
+
+}  // namespace roam::bench
