@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sweep/error_bound.h"
+#include "sweep/gap_line.h"
+#include "sweep/support_plane.h"
+
+namespace roam::certified {
+namespace {
+
+/// The signed distance at one time, and the plane that bounds it from below at all times.
+struct Sample {
+  double time;
+  SupportPlane plane;
+  double distance;  ///< m, not yet less the error bound
+  double slope;     ///< m for the whole motion
+
+  /// Half the derivative of the squared distance: a polygon over time, so that a secant finds its root.
+  [[nodiscard]] double pull() const { return distance > 0.0 ? distance * slope : slope; }
+};
+
+/// Lower bound of the signed distance between two samples, the left falling and the right not: where their planes
+/// cross.
+struct Crossing {
+  Crossing(const Sample& left, const Sample& right) {
+    const double fall = -left.slope, rise = right.slope, width = right.time - left.time;
+    time = left.time + (left.distance - right.distance + rise * width) / (fall + rise);
+    distance = (left.distance * rise + right.distance * fall - fall * rise * width) / (fall + rise);
+  }
+
+  double time;
+  double distance;
+};
+
+double secant(const Sample& left, const Sample& right) {
+  return left.time + (right.time - left.time) * (left.pull() / (left.pull() - right.pull()));
+}
+
+}  // namespace
+
+Approach approach(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
+                  double t_end) noexcept {
+  const Obstacle obstacle(triangle.corner, body.half_height);
+  const ErrorBound error = error_bound(body, motion, triangle);
+  const double doubt = error.at(t_end);
+  const auto sample = [&](double time) {
+    const Vec3 centre = time * motion;
+    const SupportPlane plane = support_plane(obstacle, centre, doubt);
+    return Sample{time, plane, plane.value(centre), glm::dot(plane.normal, motion)};
+  };
+  const auto answer = [&](const Sample& s, double lower) {
+    // One bound for the planes, one for the arithmetic between them.
+    const double certified = lower - body.radius - 2.0 * doubt;
+    return Approach{s.time, {s.plane.point, s.plane.normal, s.plane.feature, certified}};
+  };
+
+  Sample left = sample(t_begin);
+  if (left.slope >= 0.0 || t_end <= t_begin) return answer(left, left.distance);
+  Sample right = sample(t_end);
+  if (right.slope <= 0.0) return answer(right, right.distance);
+  Crossing lower(left, right);
+  for (int step = 0; step < advance_limit; ++step) {
+    const Sample& least = left.distance <= right.distance ? left : right;
+    if (least.distance - lower.distance <= std::max(approach_tolerance * std::abs(least.distance), doubt)) break;
+    // The secant is exact once both samples share a feature; the crossing and the middle make sure that no side of
+    // the bracket stands still for long.
+    const double guess[] = {secant(left, right), lower.time, 0.5 * (left.time + right.time)};
+    const double time = guess[step % 3];
+    if (!(left.time < time && time < right.time)) continue;
+    const Sample s = sample(time);
+    (s.slope < 0.0 ? left : right) = s;
+    lower = Crossing(left, right);
+  }
+  return left.distance <= right.distance ? answer(left, lower.distance) : answer(right, lower.distance);
+}
+
+}  // namespace roam::certified

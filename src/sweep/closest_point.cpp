@@ -1,0 +1,119 @@
+#include "sweep/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roam::certified {
+namespace {
+
+Closest at_vertex(const Obstacle& o, int i, const Vec3& p) {
+  const Vec3 away = p - o.corner[i];
+  return {away, glm::dot(away, away), o.corner[i], Feature::vertex, false};
+}
+
+Closest at_edge(const Obstacle& o, int i, const Vec3& p) {
+  const Vec3 x = p - o.corner[i];
+  const double s = o.edge_squared[i] > 0.0 ? glm::dot(x, o.edge[i]) / o.edge_squared[i] : 0.0;
+  if (!(s > 0.0)) return at_vertex(o, i, p);
+  if (!(s < 1.0)) return at_vertex(o, (i + 1) % 3, p);
+  const Vec3 away = perpendicular_to_edge(o, i, x);
+  return {away, glm::dot(away, away), o.corner[i] + s * o.edge[i], Feature::edge, false};
+}
+
+Closest at_any_edge(const Obstacle& o, const Vec3& p) {
+  Closest best = at_edge(o, 0, p);
+  for (int i = 1; i < 3; ++i) {
+    const Closest c = at_edge(o, i, p);
+    if (c.squared < best.squared) best = c;
+  }
+  return best;
+}
+
+bool is_degenerate(const Obstacle& o) { return o.face_normal == Vec3(0.0); }
+
+/// The axis, without its ends, against one edge. Where their closest points are not inside the axis, an end of the
+/// axis is closer to the triangle and `best` has it already.
+void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Closest& best) {
+  const Vec3 x = centre - o.corner[i];
+  const Vec3& e = o.edge[i];
+  const double flat = e.x * e.x + e.y * e.y;
+  const double s = flat > 0.0 ? std::clamp((x.x * e.x + x.y * e.y) / flat, 0.0, 1.0)
+                              : (e.z != 0.0 ? std::clamp(x.z / e.z, 0.0, 1.0) : 0.0);
+  if (!(std::abs(s * e.z - x.z) <= o.half_height)) return;
+  const bool inside = s > 0.0 && s < 1.0;
+  Closest c{};
+  c.point = o.corner[i] + s * e;
+  c.feature = inside ? Feature::edge : Feature::vertex;
+  if (inside && flat > 0.0) {
+    // Exactly perpendicular to the axis, and to the edge as well as its digits allow.
+    const double across = (x.x * e.y - x.y * e.x) / flat;
+    c.away = {across * e.y, -across * e.x, 0.0};
+  } else {
+    const Vec3& nearest = s < 1.0 ? o.corner[i] : o.corner[(i + 1) % 3];
+    c.away = {centre.x - nearest.x, centre.y - nearest.y, 0.0};
+  }
+  c.squared = glm::dot(c.away, c.away);
+  if (c.squared < best.squared) best = c;
+}
+
+/// Whether the vertical line through `centre` meets the face within the axis; `point` is set if so.
+bool pierces(const Obstacle& o, const Vec3& centre, Vec3& point) {
+  const Vec3 a = o.corner[0] - centre, b = o.corner[1] - centre, c = o.corner[2] - centre;
+  const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+  const bool left = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
+  const bool right = ab <= 0.0 && bc <= 0.0 && ca <= 0.0;
+  const double area = ab + bc + ca;
+  if (!(left || right) || area == 0.0) return false;
+  const double z = (bc * a.z + ca * b.z + ab * c.z) / area;
+  if (!(std::abs(z) <= o.half_height)) return false;
+  point = {centre.x, centre.y, centre.z + z};
+  return true;
+}
+
+}  // namespace
+
+Vec3 perpendicular_to_edge(const Obstacle& o, int i, const Vec3& x) noexcept {
+  const Vec3& e = o.edge[i];
+  const Vec3 once = x - e * (glm::dot(x, e) / o.edge_squared[i]);
+  // The first pass leaves an error relative to |x|, the second relative to what the first left (Kahan and Parlett's
+  // "twice is enough": Parlett, "The Symmetric Eigenvalue Problem", 6.9).
+  return once - e * (glm::dot(once, e) / o.edge_squared[i]);
+}
+
+// The regions follow Ericson, "Real-Time Collision Detection", 5.1.5.
+Closest closest_to_point(const Obstacle& o, const Vec3& p) noexcept {
+  if (is_degenerate(o)) return at_any_edge(o, p);
+  const Vec3& ab = o.edge[0];
+  const Vec3 ac = -o.edge[2];
+  const Vec3 ap = p - o.corner[0];
+  const double ap_ab = glm::dot(ab, ap), ap_ac = glm::dot(ac, ap);
+  if (ap_ab <= 0.0 && ap_ac <= 0.0) return at_vertex(o, 0, p);
+  const Vec3 bp = p - o.corner[1];
+  const double bp_ab = glm::dot(ab, bp), bp_ac = glm::dot(ac, bp);
+  if (bp_ab >= 0.0 && bp_ac <= bp_ab) return at_vertex(o, 1, p);
+  const double c_share = ap_ab * bp_ac - bp_ab * ap_ac;
+  if (c_share <= 0.0 && ap_ab >= 0.0 && bp_ab <= 0.0) return at_edge(o, 0, p);
+  const Vec3 cp = p - o.corner[2];
+  const double cp_ab = glm::dot(ab, cp), cp_ac = glm::dot(ac, cp);
+  if (cp_ac >= 0.0 && cp_ab <= cp_ac) return at_vertex(o, 2, p);
+  const double b_share = cp_ab * ap_ac - ap_ab * cp_ac;
+  if (b_share <= 0.0 && ap_ac >= 0.0 && cp_ac <= 0.0) return at_edge(o, 2, p);
+  const double a_share = bp_ab * cp_ac - cp_ab * bp_ac;
+  if (a_share <= 0.0 && bp_ac >= bp_ab && cp_ab >= cp_ac) return at_edge(o, 1, p);
+  const double height = glm::dot(o.face_normal, ap);
+  const Vec3 away = height * o.face_normal;
+  return {away, height * height, p - away, Feature::face, false};
+}
+
+Closest closest_to_axis(const Obstacle& o, const Vec3& centre) noexcept {
+  if (o.half_height == 0.0) return closest_to_point(o, centre);
+  const Vec3 up(0.0, 0.0, o.half_height);
+  Closest best = closest_to_point(o, centre + up);
+  const Closest bottom = closest_to_point(o, centre - up);
+  if (bottom.squared < best.squared) best = bottom;
+  for (int i = 0; i < 3; ++i) improve_with_axis_and_edge(o, i, centre, best);
+  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, point, Feature::face, true};
+  return best;
+}
+
+}  // namespace roam::certified

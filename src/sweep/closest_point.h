@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// The closest points of a triangle and of a body's axis, with the direction between them made perpendicular to the
+/// feature, so that it serves as the normal of a supporting plane.
+
+#include "sweep/support_plane.h"
+
+namespace roam::certified {
+
+/// A pair of closest points.
+struct Closest {
+  Vec3 away;       ///< from the triangle's point towards the axis; perpendicular to the edge or face; not unit
+  double squared;  ///< |away|^2, m^2
+  Vec3 point;      ///< on the triangle
+  Feature feature;
+  bool meets;  ///< the axis pierces the face: `away` means nothing
+};
+
+/// Closest point of the triangle to a point.
+[[nodiscard]] Closest closest_to_point(const Obstacle& obstacle, const Vec3& p) noexcept;
+
+/// Closest points of the triangle and the vertical axis about `centre`.
+[[nodiscard]] Closest closest_to_axis(const Obstacle& obstacle, const Vec3& centre) noexcept;
+
+/// The part of `x` that is perpendicular to the edge, to working precision relative to itself.
+[[nodiscard]] Vec3 perpendicular_to_edge(const Obstacle& obstacle, int edge, const Vec3& x) noexcept;
+
+}  // namespace roam::certified

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The rounding-error bound of the certified sweep: every constant that the proof uses, in one place.
+/// docs/algorithm.md, "Error bound", counts the roundings.
+
+#include <limits>
+
+namespace roam::certified {
+
+/// Unit roundoff of IEEE double, round to nearest (Higham, "Accuracy and Stability of Numerical Algorithms", 2.2).
+inline constexpr double unit_roundoff = 0x1p-53;
+
+/// Roundings charged to each metre of the reach (corners, motion, half height, radius). 13 are counted; the rest
+/// covers second-order terms and the rounding of the bound itself.
+inline constexpr double roundings = 16.0;
+
+/// sqrt(3), rounded up: how far a corner moves along a unit normal when each coordinate is off by one.
+inline constexpr double corner_error_factor = 1.7320508075688774;
+
+/// Metres. Covers underflow in the products, so that the bound is never zero.
+inline constexpr double underflow_floor = std::numeric_limits<double>::min();
+
+/// Of the error bound at that time. A body whose certified gap is no more than this has arrived: below it the
+/// advance is no longer sure to halve what is left (docs/algorithm.md, "Termination").
+inline constexpr double arrival_factor = 4.0;
+
+/// Of the error bound: a hit answered with tolerance 0 lies within this many bounds of the radius. arrival_factor,
+/// plus one each for: the bound that was subtracted, the gap between lower bound and distance that is let pass,
+/// the rounding of the closest point, and the triangle's own error.
+inline constexpr double hit_factor = arrival_factor + 4.0;
+
+/// Directions shorter than the root of this (m^2) have no reliable length: their square would lose digits to
+/// underflow. They are not used; 1e-130 m is less than any error bound of a scene in metres.
+inline constexpr double shortest_squared = 1e-260;
+
+/// Advances in one sweep. The proof allows 113.
+inline constexpr int advance_limit = 128;
+
+/// What must be subtracted from a computed support value, in metres, as a function of time in [0, 1].
+struct ErrorBound {
+  double at_start;  ///< m
+  double per_time;  ///< m for the whole motion
+
+  [[nodiscard]] double at(double time) const { return at_start + time * per_time; }
+};
+
+}  // namespace roam::certified

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The supporting plane that separates a body's axis from a triangle best.
+
+#include <glm/geometric.hpp>
+
+#include "roam/sweep.h"
+
+namespace roam::certified {
+
+/// The triangle, and the half height of the body's axis: what stays the same while the body moves.
+struct Obstacle {
+  Obstacle(const Vec3 (&corners)[3], double half_height_m) noexcept;
+
+  Vec3 corner[3];
+  Vec3 edge[3];            ///< edge[i] runs from corner i to corner i + 1
+  double edge_squared[3];  ///< m^2
+  int longest;             ///< index of the longest edge
+  Vec3 face_normal;        ///< unit, perpendicular to the longest edge; zero for a segment or a point
+  double half_height;      ///< m, of the body's vertical axis
+};
+
+/// A unit normal, and the signed distance of the body's axis along it: normal . centre + offset.
+struct SupportPlane {
+  Vec3 normal;
+  double offset;  ///< metres: -max_i normal . corner_i - half_height * |normal.z|
+  Vec3 point;     ///< of the triangle: the one that is closest, or the last to be left when the axis meets it
+  Feature feature;
+
+  [[nodiscard]] double value(const Vec3& centre) const { return glm::dot(normal, centre) + offset; }
+};
+
+/// The plane of greatest value for a body at `centre`: its value is the signed distance of axis and triangle, less at
+/// most about `slack` (metres) for rounding. Any plane that comes out is a valid bound; slack decides when more work
+/// is spent on a better one.
+[[nodiscard]] SupportPlane support_plane(const Obstacle& obstacle, const Vec3& centre, double slack) noexcept;
+
+}  // namespace roam::certified

@@ -1,0 +1,81 @@
+#include "roam/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "roam/error.h"
+#include "sweep/certified.h"
+#include "sweep/error_bound.h"
+
+namespace roam {
+namespace {
+
+double largest(const Vec3& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
+
+/// Written so that NaN is refused.
+bool within_limit(double length) { return length <= certified::length_limit; }
+
+bool within_limit(const Vec3& x) {
+  return within_limit(std::abs(x.x)) && within_limit(std::abs(x.y)) && within_limit(std::abs(x.z));
+}
+
+[[noreturn]] void refuse(const char* what) {
+  throw Error(std::string(what) + " must be finite and at most 1e12 m in each coordinate");
+}
+
+void check(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
+  if (!(body.radius >= 0.0) || !within_limit(body.radius)) {
+    throw Error("the body's radius is " + std::to_string(body.radius) + " m; it must be 0 or more, and at most 1e12 m");
+  }
+  if (!(body.half_height >= 0.0) || !within_limit(body.half_height)) {
+    throw Error("the body's half height is " + std::to_string(body.half_height) +
+                " m; it must be 0 or more, and at most 1e12 m: a capsule's height is at least twice its radius");
+  }
+  if (!within_limit(from)) refuse("the body's position");
+  if (!within_limit(motion)) refuse("the body's motion");
+  for (const Vec3& corner : triangle) {
+    if (!within_limit(corner)) refuse("the triangle's corners");
+  }
+}
+
+/// Subtraction is the only rounding: at most unit_roundoff of each difference.
+certified::LocalTriangle seen_from(const Vec3& origin, const Triangle& t) {
+  const Vec3 a = t[0] - origin, b = t[1] - origin, c = t[2] - origin;
+  return {{a, b, c}, certified::unit_roundoff * std::max({largest(a), largest(b), largest(c)})};
+}
+
+}  // namespace
+
+const char* name(Feature feature) {
+  switch (feature) {
+    case Feature::face:
+      return "face";
+    case Feature::edge:
+      return "edge";
+    case Feature::vertex:
+      return "vertex";
+  }
+  return "unknown";
+}
+
+SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
+  check(body, from, motion, triangle);
+  const certified::LocalTriangle local = seen_from(from, triangle);
+  SweepResult result = certified::sweep(body, motion, local, 0.0, 1.0, 0.0);
+  if (result.hit) {
+    result.point += from;
+  } else {
+    result.distance = std::max(result.distance, certified::approach(body, motion, local, 0.0, 1.0).proximity.distance);
+  }
+  return result;
+}
+
+Proximity proximity(const Body& body, const Vec3& place, const Triangle& triangle) {
+  check(body, place, Vec3(0.0), triangle);
+  Proximity result = certified::proximity(body, seen_from(place, triangle));
+  result.point += place;
+  return result;
+}
+
+}  // namespace roam
