@@ -1,0 +1,119 @@
+#pragma once
+/// \file
+/// Walking or flying along waypoints, and telling how it ended.
+///
+///     roam::Walker walker(world, {.radius = 0.3}, roam::Mode::walk, path[0]);
+///     roam::Route route(walker, path, {.speed = 1.4});
+///     while (!route.done()) route.advance();
+///     std::cout << roam::name(route.result().outcome) << "\n";
+///
+/// The body heads straight for one waypoint after the other and slides along what it meets: a route is followed, not
+/// searched. Deterministic as the Walker is.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roam/math.h"
+#include "roam/walker.h"
+
+namespace roam {
+
+struct RouteOptions {
+  double speed = 1.4;      ///< metres per second, > 0
+  double dt = 1.0 / 60.0;  ///< seconds a step, > 0. A step that comes to a waypoint ends there, earlier.
+  /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it came nearer to its waypoint by less
+  /// than a twentieth of what free motion at `speed` would have brought: sliding at less than that, 3 degrees off
+  /// head-on, is not getting on.
+  double patience = 1.0;
+};
+
+/// How a route ended. The outcomes are those of `roam walk`.
+enum class Outcome : std::uint8_t {
+  reached,     ///< was at every waypoint in turn
+  blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
+  left_scene,  ///< its box is apart from the box of all triangles and waypoints: nothing of the scene can be met
+               ///< without turning round
+  fell,        ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
+  held,        ///< did not fit where it was put and could not be freed, or never found ground below
+};
+
+/// "reached", "blocked", "left_scene", "fell" or "held".
+[[nodiscard]] const char* name(Outcome outcome);
+
+/// What a body was blocked by.
+struct Blockage {
+  Vec3 point{0.0};   ///< on the triangle, metres
+  Vec3 normal{0.0};  ///< from the point towards the body
+  TriangleId triangle = 0;
+  /// The width, metres, of the free opening in front of the blocked body, when there is one that is too narrow or too
+  /// low for it: the distance between the two points that it touches on either side (or above and below), provided that
+  /// a ray passes between them. Measured at the height of the contacts, to a few millimetres. None for a closed wall.
+  std::optional<double> opening;
+};
+
+/// An event of a step of a route.
+struct RouteEvent {
+  std::uint64_t step = 0;  ///< the first step is 1; 0 is the start
+  Event event;
+};
+
+struct RouteResult {
+  Outcome outcome = Outcome::reached;
+  double length = 0.0;  ///< metres that the centre moved, placing not counted
+  std::uint64_t steps = 0;
+  double simulated = 0.0;              ///< seconds
+  double least_clearance = 0.0;        ///< metres, certified, over all moves; capped as StepReport::clearance is
+  std::uint64_t throttled = 0;         ///< steps that ended early, see EventKind::throttled
+  std::size_t waypoints = 0;           ///< how many were reached, the start included
+  Vec3 end{0.0};                       ///< the centre at the end
+  std::optional<Blockage> blocked_at;  ///< when blocked by a contact
+  /// All events, in order; of a run of steps that report the same kind (sliding along a wall) only the first.
+  std::vector<RouteEvent> events;
+};
+
+/// One walk along waypoints, step by step, so that the caller can watch, time or draw each.
+class Route {
+ public:
+  /// Places the walker at waypoints[0]. In walk mode a waypoint counts as reached when it is within the body's radius
+  /// of the axis, seen from above, and at most the step height above the body's top or below its lowest point; in fly
+  /// mode when it is within the radius of the axis. The body still heads for the waypoint itself and only turns to the
+  /// next one when it is there, or when it counts as reached and something keeps the body from coming nearer: corners
+  /// are not cut.
+  ///
+  /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
+  /// waypoint that is not finite, options out of range, and a walker in ghost mode.
+  Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
+
+  [[nodiscard]] bool done() const { return done_; }
+
+  /// One step. Must not be called when done().
+  const StepReport& advance();
+
+  /// What has been so far; complete when done().
+  [[nodiscard]] const RouteResult& result() const { return result_; }
+  [[nodiscard]] const Walker& walker() const { return *walker_; }
+
+ private:
+  void note_events(const StepReport& report);
+  void finish(Outcome outcome);
+
+  Walker* walker_;
+  std::vector<Vec3> waypoints_;
+  RouteOptions options_;
+  RouteResult result_;
+  Box scene_;
+  std::size_t next_ = 1;
+  double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
+  double window_time_ = 0.0;  ///< seconds since
+  std::uint64_t window_steps_ = 0;
+  std::uint32_t last_kinds_ = 0;  ///< bit set of the kinds of the last step's events
+  bool done_ = false;
+};
+
+/// Follows the whole route.
+[[nodiscard]] RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
+
+}  // namespace roam

@@ -1,0 +1,244 @@
+#pragma once
+/// \file
+/// A body that moves through a World at a person's command and never through a wall.
+///
+///     roam::Walker walker(world, {.radius = 0.3}, roam::Mode::walk, start);
+///     const roam::StepReport& step = walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
+///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
+///
+/// What is promised, for any speed and any time step, in fly and walk mode:
+///   - the body only moves along straight pieces that World::sweep has certified free, so that at every instant its
+///     axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each with
+///     its own certified bound;
+///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
+///     such a way can be (see Walker::place), or held where it is, and the report says which;
+///   - the same world, settings and calls give the same bits on every run.
+///
+/// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap
+/// between surfaces is clearance - radius. Positions are those of the body's centre. Up is +z.
+///
+/// A Walker is one body: use it from one thread at a time. Any number of them may share a World. Moving allocates
+/// nothing. docs/walking.md explains the rules and their limits.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "roam/math.h"
+#include "roam/world.h"
+
+namespace roam {
+
+/// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
+enum class Mode : std::uint8_t { fly, walk, ghost };
+
+/// "fly", "walk" or "ghost".
+[[nodiscard]] const char* name(Mode mode);
+
+/// What the body is and what it can do. The defaults are a grown person on foot.
+struct WalkerSettings {
+  /// Metres, > 0, <= World::reach_limit / 4. Half the least width the body needs. Too large: kept out of rooms that a
+  /// person enters; too small: falls through cracks that a person steps over.
+  double radius = 0.3;
+  /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= World::reach_limit / 4.
+  double height = 1.8;
+  /// Camera above the lowest point when standing, metres, in [0, height]. Lowered in proportion when crouched.
+  double eye = 1.6;
+  /// Metres, in [0, height / 2]. Ground that lies at most this much higher or lower than the ground last stood on is
+  /// walked onto without a jump or a fall. 0: every kerb stops the body.
+  double step = 0.3;
+  /// Degrees, in [0, 89]. Ground steeper than this is a wall to go up and a slide to go down.
+  double slope_degrees = 45.0;
+  /// Metres per second, > 0, <= 1e4. Only wish_velocity uses it: Walker::step takes any velocity.
+  double speed = 1.4;
+  /// Factor on speed when hurrying, >= 1.
+  double fast_factor = 5.0;
+  /// Metres per second squared, >= 0. Walk mode only. 0: a body that leaves the ground floats on.
+  double gravity = 9.81;
+  /// How high a jump lifts the body, metres, in [0, 100]. 0: it does not jump.
+  double jump_height = 0.5;
+  /// Whole height when crouched, metres, > 0. Taken as 2 * radius where it is less; a body that is not taller than
+  /// that (a sphere never is) does not crouch.
+  double crouch_height = 1.1;
+  /// How far around the body's surface clearance is measured after each step, metres, in [0, World::reach_limit].
+  /// Reported clearances are capped at radius + clearance_reach. The larger, the slower in wide open scenes.
+  double clearance_reach = 1.0;
+};
+
+/// Throws roam::Error, naming the setting, its value and its range, when a setting is out of range or not a number.
+void check(const WalkerSettings& settings);
+
+/// The velocity of a person who pushes in `direction` (length at most 1 counts; longer is shortened to 1): m/s.
+[[nodiscard]] Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast);
+
+/// What a person wishes for one step.
+struct WalkerInput {
+  /// Metres per second, finite. Walk mode takes the horizontal part; in the air it steers as on the ground.
+  Vec3 velocity{0.0};
+  bool jump = false;    ///< walk mode: jump, when on the ground
+  bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.
+};
+
+/// What may happen in a step.
+enum class EventKind : std::uint8_t {
+  slid,          ///< touched something and went on along it
+  blocked,       ///< touched something and could not go on
+  stepped_up,    ///< walked up a kerb, stair or sill
+  stepped_down,  ///< walked down one
+  jumped,        ///< left the ground by a jump
+  airborne,      ///< left the ground otherwise
+  landed,        ///< came back to ground
+  fell,          ///< is more than Walker::fall_limit below where it last stood; once a fall
+  crouched,      ///< became low to pass under something, or on command
+  stood,         ///< found head-room and stood up again
+  placed,        ///< put at a place by the caller
+  freed,         ///< was put where it did not fit and moved, by a checked way, to where it does
+  held,          ///< cannot move: does not fit here and no checked way leads out, or nothing is below and it was put
+                 ///< back to the last safe place
+  returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
+  throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
+};
+
+/// The name of a kind as it stands above: "slid", "stepped_up", ...
+[[nodiscard]] const char* name(EventKind kind);
+
+/// Something that happened, and where.
+struct Event {
+  EventKind kind = EventKind::slid;
+  Vec3 point{0.0};  ///< of a contact: on the triangle; else the body's centre
+};
+
+/// A list of at most N values that lives where it is declared and never allocates. What is pushed beyond N is left out
+/// and only counted.
+template <class T, std::size_t N>
+class InlineList {
+ public:
+  static constexpr std::size_t capacity = N;
+  [[nodiscard]] std::size_t size() const { return total_ < N ? total_ : N; }
+  [[nodiscard]] std::size_t total() const { return total_; }  ///< how many were pushed, the left out included
+  [[nodiscard]] bool empty() const { return total_ == 0; }
+  [[nodiscard]] bool full() const { return total_ >= N; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
+  [[nodiscard]] T& operator[](std::size_t i) { return values_[i]; }
+  [[nodiscard]] const T* begin() const { return values_.data(); }
+  [[nodiscard]] const T* end() const { return values_.data() + size(); }
+  [[nodiscard]] const T& back() const { return values_[size() - 1]; }
+  [[nodiscard]] T& back() { return values_[size() - 1]; }
+  void clear() { total_ = 0; }
+  void push(const T& value) {
+    if (total_ < N) values_[total_] = value;
+    ++total_;
+  }
+
+ private:
+  std::array<T, N> values_;
+  std::size_t total_ = 0;
+};
+
+/// The end of one straight piece of a move.
+struct Corner {
+  Vec3 position{0.0};  ///< of the centre, metres
+  /// The body's whole height, metres, all along the piece that ends here. A change of height shows as a piece of its
+  /// own: crouching lowers the centre with the new, lower body (inside the old one); standing up raises the centre with
+  /// the old body and then has a corner at the same position with the new one.
+  double height = 0.0;
+  double time = 0.0;  ///< seconds since the step began
+  /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
+  /// and a body that is being freed). Never less than radius - 1e-6 otherwise.
+  double clearance = 0.0;
+  bool teleport = false;  ///< put here, not moved: nothing is said about the way
+};
+
+/// What one step did. Lives in the Walker; valid until its next call.
+struct StepReport {
+  InlineList<Corner, 64>
+      corners;  ///< of the move, in order; empty when the body did not move. Straight ones are merged
+  InlineList<Contact, 8> contacts;  ///< what was touched, in order; `distance` is the certified gap when it was
+  InlineList<Event, 16> events;     ///< what happened, in order
+  Vec3 from{0.0};                   ///< the centre before, metres
+  Vec3 to{0.0};                     ///< the centre now, metres: the last corner, if there is one
+  double height = 0.0;              ///< the body's whole height now, metres
+  /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach. 0: none (ghost, held
+  /// while embedded).
+  double clearance = 0.0;
+  double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
+  double elapsed = 0.0;          ///< seconds that were simulated: dt, or less when throttled
+  bool grounded = false;         ///< stands on something (walk mode)
+  bool blocked = false;          ///< ended this step unable to go on in the wished direction; contacts.back() is why
+  bool held = false;             ///< see EventKind::held
+
+  [[nodiscard]] bool has(EventKind kind) const {
+    for (const Event& e : events)
+      if (e.kind == kind) return true;
+    return false;
+  }
+};
+
+class Walker {
+ public:
+  /// Puts a body into `world`, which must outlive it, at `start` (of its centre), as place() does. Throws roam::Error
+  /// for bad settings and for a start that is not finite.
+  Walker(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& start);
+
+  /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
+  /// input that is not finite.
+  ///
+  /// Cost on free flat ground: one sweep along, one down to the ground, one clearance. Fly: one sweep, one clearance.
+  const StepReport& step(const WalkerInput& input, double dt);
+
+  /// Puts the standing body's centre at `centre`, at rest. Where it does not fit there, it is moved to the nearest
+  /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
+  /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
+  /// wall. Where there is no such place it is held: it stays, reports `held`, tries again at each step, and moves only
+  /// when placed elsewhere or in ghost mode.
+  const StepReport& place(const Vec3& centre);
+
+  /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is
+  /// found around it, or the last place of its way as a ghost where it fitted, whichever is nearer.
+  const StepReport& set_mode(Mode mode);
+
+  [[nodiscard]] const World& world() const { return *world_; }
+  [[nodiscard]] const WalkerSettings& settings() const { return settings_; }
+  [[nodiscard]] Mode mode() const { return mode_; }
+  [[nodiscard]] const Vec3& position() const { return position_; }  ///< of the centre, metres
+  [[nodiscard]] Vec3 feet() const;                                  ///< the lowest point, metres
+  [[nodiscard]] Vec3 eye() const;                                   ///< the camera, metres
+  [[nodiscard]] Body body() const;                                  ///< as it is now: standing or crouched
+  [[nodiscard]] bool crouched() const { return height_ < settings_.height; }
+  [[nodiscard]] bool grounded() const { return grounded_; }
+  [[nodiscard]] bool held() const { return held_; }
+  /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
+  [[nodiscard]] double rise_speed() const { return rise_speed_; }
+  /// What the last call did.
+  [[nodiscard]] const StepReport& report() const { return report_; }
+
+  /// The gap, metres, that the body keeps from what it slides along. Twice the world's largest error, the height of the
+  /// bumps that storing a flat wall may make in it, plus 0.1 mm. A soft target: passages that leave less than this on
+  /// either side are passed all the same, so that the skin never counts twice.
+  [[nodiscard]] double skin() const { return skin_; }
+
+  /// A drop of the lowest point by more than this, metres, below the ground last stood on is a fall: radius + step.
+  /// A round body that is carried by the rims of a crack sinks by less than its radius, and ground a step lower still
+  /// counts as walked on; what lies deeper can not be climbed out of on foot.
+  [[nodiscard]] double fall_limit() const { return settings_.radius + settings_.step; }
+
+ private:
+  const World* world_;
+  WalkerSettings settings_;
+  StepReport report_;
+  Vec3 position_{0.0};
+  Vec3 safe_{0.0};      ///< last place where the body stood, or, outside walk mode, fitted
+  Vec3 ground_{0.0};    ///< normal of the ground stood on; zero in the air
+  double stand_ = 0.0;  ///< height of the ground last stood on
+  double height_ = 0.0;
+  double rise_speed_ = 0.0;
+  double skin_ = 0.0;
+  double slope_cosine_ = 0.0;
+  Mode mode_ = Mode::fly;
+  bool grounded_ = false;
+  bool held_ = false;
+  bool stood_ = false;   ///< has stood on ground since it was placed, so that stand_ means something
+  bool fallen_ = false;  ///< the present fall has been reported
+};
+
+}  // namespace roam
