@@ -1,0 +1,93 @@
+#pragma once
+/// \file
+/// What a tile is made of in memory: 128-byte blocks (two cache lines), a node or a leaf each, and nothing else that a
+/// traversal reads.
+///
+/// All coordinates are whole steps of the tile's grid, so bounds and vertices are exact integers until the moment they
+/// are subtracted from the start of a query.
+
+#include <array>
+#include <cstdint>
+
+#include "roam/math.h"
+
+namespace roam::index {
+
+/// Children of a node, triangles and vertices of a leaf: one lane each of the widest vector unit.
+inline constexpr int kWidth = 16;
+
+/// Sixteen child boxes on a grid of their own: child i spans origin + (lower[k][i] .. upper[k][i]) << shift[k] steps.
+/// The first inner_count children are nodes, consecutive from first_node; the others are leaves (tiles, in the tree
+/// over tiles), consecutive from first_leaf.
+struct Node {
+  std::uint8_t lower[3][kWidth];
+  std::uint8_t upper[3][kWidth];
+  std::int32_t origin[3];
+  std::uint32_t first_node;
+  std::uint32_t first_leaf;
+  std::uint8_t shift[3];
+  std::uint8_t child_count;
+  std::uint8_t inner_count;
+  std::uint8_t unused[7];
+};
+static_assert(sizeof(Node) == 128);
+
+/// Up to sixteen triangles over up to sixteen vertices. Corner k of triangle i is vertex number
+/// (corner[k][i / 8] >> 4 * (i % 8)) & 15. Unused triangles repeat the first one.
+struct Leaf {
+  std::uint16_t vertex[3][kWidth];
+  std::uint32_t corner[3][2];
+  std::uint8_t triangle_count;
+  std::uint8_t id_bytes;  ///< bytes of each id in the tile's id stream, after a base of four
+  std::uint8_t unused[2];
+  std::uint32_t ids;  ///< where in the tile's id stream
+
+  [[nodiscard]] int vertex_of(int k, int triangle) const {
+    return static_cast<int>(corner[k][triangle / 8] >> (4 * (triangle % 8)) & 15U);
+  }
+};
+static_assert(sizeof(Leaf) == 128);
+
+union alignas(128) Block {
+  Node node;
+  Leaf leaf;
+};
+static_assert(sizeof(Block) == 128);
+
+/// The low 16 bits, with sign, of the vertices of one leaf of a fine tile: 1/65536 of the tile's step each.
+struct FineLeaf {
+  std::int16_t vertex[3][kWidth];
+};
+
+/// A cube of space with its own grid: vertex v lies at origin + step * v.
+struct Tile {
+  Vec3 origin;          ///< metres, a multiple of step on each axis
+  float step;           ///< metres, a power of two
+  float error;          ///< metres: no source vertex is farther from its stored one (16 bits)
+  float fine_error;     ///< the same with the low 16 bits; equal to error where there are none
+  bool fine;            ///< the tile has low bits, and answers are decided with them
+  std::uint32_t nodes;  ///< first node in the arena: the root
+  std::uint32_t leaves; ///< first leaf in the arena
+  std::uint32_t fine_leaves;  ///< first FineLeaf, when fine
+  std::uint64_t ids;          ///< first byte of its id stream
+};
+
+/// A box in grid steps, both ends included.
+struct StepBox {
+  std::array<std::int32_t, 3> lower{INT32_MAX, INT32_MAX, INT32_MAX};
+  std::array<std::int32_t, 3> upper{INT32_MIN, INT32_MIN, INT32_MIN};
+
+  void include(const StepBox& b) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = b.lower[k] < lower[k] ? b.lower[k] : lower[k];
+      upper[k] = b.upper[k] > upper[k] ? b.upper[k] : upper[k];
+    }
+  }
+  /// Half the surface area, in square steps.
+  [[nodiscard]] double half_area() const {
+    const double x = double(upper[0]) - lower[0], y = double(upper[1]) - lower[1], z = double(upper[2]) - lower[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+}  // namespace roam::index

@@ -1,0 +1,128 @@
+#include "index/collapse.h"
+
+#include <algorithm>
+#include <array>
+
+namespace roam::index {
+namespace {
+
+/// Visiting one more node costs as much as this many mean leaf areas, whatever its size: nodes take memory too.
+constexpr double kLeavesPerNode = 4.0;
+
+/// For each binary node, the least cost of its subtree when it may fill up to k of its parent's slots.
+struct Plan {
+  std::array<float, kWidth + 1> cost{};        ///< cost[k], k = 1 .. 16
+  std::array<std::uint8_t, kWidth + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
+  std::uint8_t left_own = 0;                   ///< the left child's share of the sixteen slots of the node itself
+};
+
+std::vector<Plan> plan(const BinaryTree& tree) {
+  double leaf_area = 0.0;
+  std::size_t leaf_count = 0;
+  for (const BinaryNode& n : tree.nodes) {
+    if (n.left < 0) {
+      leaf_area += n.box.half_area();
+      ++leaf_count;
+    }
+  }
+  const double per_node = kLeavesPerNode * leaf_area / double(leaf_count);
+  std::vector<Plan> plans(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parent
+    const BinaryNode& n = tree.nodes[i];
+    if (n.left < 0) continue;
+    Plan& p = plans[i];
+    const Plan& l = plans[n.left];
+    const Plan& r = plans[n.left + 1];
+    const auto share = [&](int slots) {
+      std::pair<float, int> best{l.cost[1] + r.cost[slots - 1], 1};
+      for (int k = 2; k < slots; ++k) {
+        const float cost = l.cost[k] + r.cost[slots - k];
+        if (cost < best.first) best = {cost, k};
+      }
+      return best;
+    };
+    const auto own = share(kWidth);
+    p.left_own = static_cast<std::uint8_t>(own.second);
+    p.cost[1] = static_cast<float>(n.box.half_area() + per_node) + own.first;
+    for (int slots = 2; slots <= kWidth; ++slots) {
+      const auto shared = slots == kWidth ? own : share(slots);
+      const bool open = shared.first < p.cost[1];
+      p.cost[slots] = open ? shared.first : p.cost[1];
+      p.left[slots] = static_cast<std::uint8_t>(open ? shared.second : 0);
+    }
+  }
+  return plans;
+}
+
+void gather(const BinaryTree& tree, const std::vector<Plan>& plans, std::int32_t index, int slots,
+            std::vector<std::int32_t>& children) {
+  const BinaryNode& n = tree.nodes[index];
+  const int left = n.left < 0 ? 0 : plans[index].left[slots];
+  if (left == 0) {
+    children.push_back(index);
+    return;
+  }
+  gather(tree, plans, n.left, left, children);
+  gather(tree, plans, n.left + 1, slots - left, children);
+}
+
+void set_boxes(Node& node, const BinaryTree& tree, const std::vector<std::int32_t>& children) {
+  StepBox all;
+  for (const auto c : children) all.include(tree.nodes[c].box);
+  for (int k = 0; k < 3; ++k) {
+    node.origin[k] = all.lower[k];
+    const std::int64_t extent = std::int64_t{all.upper[k]} - all.lower[k];
+    int shift = 0;
+    while ((extent + (std::int64_t{1} << shift) - 1) >> shift > 255) ++shift;
+    node.shift[k] = static_cast<std::uint8_t>(shift);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const StepBox& box = tree.nodes[children[i]].box;
+      const std::int64_t lower = std::int64_t{box.lower[k]} - all.lower[k];
+      const std::int64_t upper = std::int64_t{box.upper[k]} - all.lower[k];
+      node.lower[k][i] = static_cast<std::uint8_t>(lower >> shift);
+      node.upper[k][i] = static_cast<std::uint8_t>((upper + (std::int64_t{1} << shift) - 1) >> shift);
+    }
+  }
+}
+
+}  // namespace
+
+WideTree collapse(const BinaryTree& tree) {
+  const std::vector<Plan> plans = plan(tree);
+  WideTree wide;
+  wide.nodes.resize(1);
+  std::vector<std::pair<std::int32_t, std::uint32_t>> open{{0, 0}};  // binary node, wide node
+  std::vector<std::int32_t> children;
+  while (!open.empty()) {
+    const auto [index, slot] = open.back();
+    open.pop_back();
+    const BinaryNode& n = tree.nodes[index];
+    children.clear();
+    if (n.left < 0) {
+      children.push_back(index);  // a root that is a leaf itself
+    } else {
+      const int left = plans[index].left_own;
+      gather(tree, plans, n.left, left, children);
+      gather(tree, plans, n.left + 1, kWidth - left, children);
+    }
+    const auto first_leaf = std::stable_partition(children.begin(), children.end(),
+                                                  [&](std::int32_t c) { return tree.nodes[c].left >= 0; });
+    Node node{};
+    node.child_count = static_cast<std::uint8_t>(children.size());
+    node.inner_count = static_cast<std::uint8_t>(first_leaf - children.begin());
+    node.first_node = static_cast<std::uint32_t>(wide.nodes.size());
+    node.first_leaf = static_cast<std::uint32_t>(wide.leaves.size());
+    set_boxes(node, tree, children);
+    wide.nodes[slot] = node;
+    wide.nodes.resize(wide.nodes.size() + node.inner_count);
+    for (std::size_t i = node.inner_count; i < children.size(); ++i) {
+      wide.leaves.push_back(static_cast<std::uint32_t>(children[i]));
+    }
+    for (std::size_t i = node.inner_count; i-- > 0;) {
+      open.push_back({children[i], node.first_node + static_cast<std::uint32_t>(i)});
+    }
+  }
+  return wide;
+}
+
+}  // namespace roam::index

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Turns a binary tree into one of sixteen children a node, each node one block.
+
+#include <cstdint>
+#include <vector>
+
+#include "index/binary_tree.h"
+#include "index/block.h"
+
+namespace roam::index {
+
+struct WideTree {
+  std::vector<Node> nodes;                 ///< nodes[0] is the root; first_node and first_leaf count from 0
+  std::vector<std::uint32_t> leaves;       ///< binary leaves (indices into BinaryTree::nodes) in order of first_leaf
+};
+
+/// Chooses which binary nodes survive by dynamic programming over the number of child slots, so that the expected cost
+/// of visits is least (the idea of Ylitie et al., "Efficient incoherent ray traversal on GPUs through compressed wide
+/// BVHs", 2017, with sixteen children). The leaves are those of the binary tree.
+[[nodiscard]] WideTree collapse(const BinaryTree& tree);
+
+}  // namespace roam::index

@@ -1,0 +1,27 @@
+#include "index/grid.h"
+
+#include <cmath>
+
+namespace roam::index {
+
+Grid Grid::fitting(const Box& box) {
+  const Vec3 size = box.size();
+  const double extent = std::max(size.x, std::max(size.y, size.z));
+  int exponent = kFinestExponent;
+  for (;; ++exponent) {
+    Grid grid;
+    grid.step = std::ldexp(1.0, exponent);
+    // One step is lost to rounding the origin down, and one to rounding the far side up.
+    if (extent > grid.step * double(kGridSteps - 2)) continue;
+    for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
+    return grid;
+  }
+}
+
+std::array<std::int64_t, 3> Grid::fine(const Vec3& p) const {
+  std::array<std::int64_t, 3> f{};
+  for (int k = 0; k < 3; ++k) f[k] = std::llround((p[k] - origin[k]) / step * double(kFineSteps));
+  return f;
+}
+
+}  // namespace roam::index

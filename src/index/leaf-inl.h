@@ -1,0 +1,207 @@
+// The triangles of one leaf against a moving or resting body. Included once per instruction set by traverse.cpp.
+
+#if defined(ROAM_INDEX_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROAM_INDEX_LEAF_INL_H_
+#undef ROAM_INDEX_LEAF_INL_H_
+#else
+#define ROAM_INDEX_LEAF_INL_H_
+#endif
+
+#include "index/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// A vector of triangles, relative to the start of the query, and what does not change while the body moves.
+struct Triangles {
+  V3 a, b, c;
+  V3 ab, ac, bc, normal;
+  VF ab2, ac2, abac;
+  VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
+  VF farthest;  ///< largest absolute coordinate
+
+  [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
+};
+
+/// p minus the closest point of each triangle: the normal of the supporting plane. Inaccuracy costs only rounds.
+HWY_INLINE V3 Triangles::away(const V3& p) const {
+  const VF zero = hn::Zero(kF), one = set(1.0F);
+  const V3 pa = p - a, pb = p - b;
+  const VF d1 = dot(ab, pa), d2 = dot(ac, pa);
+  const VF d3 = hn::Sub(d1, ab2), d4 = hn::Sub(d2, abac), d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, ac2);
+  const V3 wab = pa - scale(ab, clamp(hn::Mul(d1, inv_ab2), zero, one));
+  const V3 wac = pa - scale(ac, clamp(hn::Mul(d2, inv_ac2), zero, one));
+  const V3 wbc = pb - scale(bc, clamp(hn::Mul(dot(bc, pb), inv_bc2), zero, one));
+  const VF lab = dot(wab, wab), lac = dot(wac, wac), lbc = dot(wbc, wbc);
+  const MF second = hn::Lt(lac, lab);
+  V3 w = select(second, wac, wab);
+  w = select(hn::Lt(lbc, hn::Min(lab, lac)), wbc, w);
+  // Inside all three edges (Ericson, "Real-Time Collision Detection", 5.1.5): the foot on the face.
+  const VF va = hn::Sub(hn::Mul(d3, d6), hn::Mul(d5, d4));
+  const VF vb = hn::Sub(hn::Mul(d5, d2), hn::Mul(d1, d6));
+  const VF vc = hn::Sub(hn::Mul(d1, d4), hn::Mul(d3, d2));
+  const MF inside = hn::Gt(hn::Min(hn::Min(va, vb), vc), zero);
+  return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
+}
+
+/// Triangles first .. first + kLanes - 1 of a leaf.
+HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int first) {
+  Triangles t;
+  V3* corners[3] = {&t.a, &t.b, &t.c};
+  const hn::RebindToUnsigned<F> u;
+  const VF step = set(frame.step);
+  const auto metres = [&](int k, int from) {
+    const hn::Rebind<std::uint16_t, F> words;
+    const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
+    return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), step);
+  };
+  alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28};
+  const auto numbers = [&](int c) {
+    auto packed = hn::Set(u, leaf.corner[c][first / 8]);
+    if constexpr (kLanes == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
+    return hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, kShifts + first)), hn::Set(u, 15U)));
+  };
+  if constexpr (kLanes == 16) {
+    const VF x = metres(0, 0), y = metres(1, 0), z = metres(2, 0);
+    for (int c = 0; c < 3; ++c) {
+      const auto at = hn::IndicesFromVec(kF, numbers(c));
+      *corners[c] = {hn::TableLookupLanes(x, at), hn::TableLookupLanes(y, at), hn::TableLookupLanes(z, at)};
+    }
+  } else {
+    alignas(64) float table[3][kWidth];
+    for (int k = 0; k < 3; ++k) {
+      for (int from = 0; from < kWidth; from += kLanes) hn::Store(metres(k, from), kF, table[k] + from);
+    }
+    for (int c = 0; c < 3; ++c) {
+      const VI at = numbers(c);
+      *corners[c] = {hn::GatherIndex(kF, table[0], at), hn::GatherIndex(kF, table[1], at),
+                     hn::GatherIndex(kF, table[2], at)};
+    }
+  }
+  t.ab = t.b - t.a;
+  t.ac = t.c - t.a;
+  t.bc = t.c - t.b;
+  t.normal = cross(t.ab, t.ac);
+  t.ab2 = dot(t.ab, t.ab);
+  t.ac2 = dot(t.ac, t.ac);
+  t.abac = dot(t.ab, t.ac);
+  const VF floor = set(kShortest * kShortest), one = set(1.0F);
+  t.inv_ab2 = hn::Div(one, hn::Max(t.ab2, floor));
+  t.inv_ac2 = hn::Div(one, hn::Max(t.ac2, floor));
+  t.inv_bc2 = hn::Div(one, hn::Max(dot(t.bc, t.bc), floor));
+  t.inv_normal2 = hn::Div(one, hn::Max(dot(t.normal, t.normal), floor));
+  t.farthest = hn::Max(hn::Max(largest(t.a), largest(t.b)), largest(t.c));
+  return t;
+}
+
+/// A supporting plane of a body at `centre`, unscaled: `bound` = distance bound times `length`.
+struct Support {
+  V3 away;
+  VF length, bound;
+};
+
+HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_height, int projections) {
+  Support s;
+  if (half_height == 0.0F) {
+    s.away = t.away(centre);
+  } else {
+    const VF h = set(half_height), minus_h = set(-half_height);
+    V3 p = centre;
+    for (int i = 0; i < projections; ++i) {
+      s.away = t.away(p);
+      const VF closest_z = hn::Sub(p.z, s.away.z);
+      p.z = hn::Add(centre.z, clamp(hn::Sub(closest_z, centre.z), minus_h, h));
+    }
+    s.away = t.away(p);
+  }
+  s.length = hn::Sqrt(dot(s.away, s.away));
+  s.bound = hn::Min(hn::Min(dot(s.away, centre - t.a), dot(s.away, centre - t.b)), dot(s.away, centre - t.c));
+  if (half_height != 0.0F) s.bound = hn::Sub(s.bound, hn::Mul(set(half_height), hn::Abs(s.away.z)));
+  return s;
+}
+
+/// The triangles of a leaf that are not certainly missed.
+struct Met {
+  alignas(64) float time[kWidth];  ///< free until then
+  std::uint32_t arrived;           ///< the body is within the arrival distance then: a hit
+  std::uint32_t open;              ///< to be decided in double precision, from then on
+};
+
+HWY_INLINE std::uint32_t bits_of(MF mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(kF, mask, bits);
+  return std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8;
+}
+
+/// Metres that a computed bound may be wrong by, for each triangle, with the body `way` metres along.
+HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float half_height) {
+  return hn::Add(hn::Mul(set(kLeafRoundings * kUnit), hn::Add(hn::Max(t.farthest, way), set(half_height))),
+                 set(4.0F * kFractionRounding * frame.step));
+}
+
+/// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
+/// A triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all to double precision.
+HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, float radius, float hit_limit,
+                           float t_entry, float t_max, Met& out) {
+  out.arrived = out.open = 0;
+  const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
+  const VF keep = set(radius * (1.0F + kRadiusRoundings * kUnit));
+  const VF end = set(t_max), zero = hn::Zero(kF);
+  for (int first = 0; first < leaf.triangle_count; first += kLanes) {
+    const Triangles t = load_triangles(leaf, frame, first);
+    VF time = set(t_entry);
+    MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
+    MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
+    for (int round = 0; round < kRounds; ++round) {
+      const V3 centre = scale(way, time);
+      const Support s = support(t, centre, motion.half_height, round == 0 ? kFirstProjections : kLaterProjections);
+      const VF error = leaf_error(t, hn::Mul(time, set(motion.longest)), frame, motion.half_height);
+      const VF slack = hn::Sub(s.bound, hn::Mul(hn::Add(keep, error), s.length));
+      const VF speed = hn::Sub(hn::Mul(set(kSpeedRoundings * kUnit * motion.longest), s.length), dot(s.away, way));
+      const MF apart = hn::Ge(slack, zero);
+      const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
+      active = hn::AndNot(missed, active);
+      const VF reached = hn::Min(hn::Add(keep, hn::Add(set(kArrival), hn::Add(error, error))), set(hit_limit));
+      // At time 0 a body that is not certainly apart may be touching: that is for double precision to say.
+      const MF near = hn::And(hn::Le(hn::Add(s.length, error), reached), hn::Or(apart, hn::Gt(time, zero)));
+      const MF hit = hn::And(active, near);
+      arrived = hn::Or(arrived, hit);
+      active = hn::AndNot(hit, active);
+      const MF stuck = hn::AndNot(hn::And(apart, hn::Gt(slack, zero)), active);
+      open = hn::Or(open, stuck);
+      active = hn::AndNot(stuck, active);
+      if (hn::AllFalse(kF, active)) break;
+      const VF step = hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))),
+                              set(1.0F - kTimeRoundings * kUnit));
+      time = hn::IfThenElse(active, hn::Add(time, step), time);
+    }
+    open = hn::Or(open, active);
+    hn::Store(time, kF, out.time + first);
+    out.arrived |= bits_of(arrived) << first;
+    out.open |= bits_of(open) << first;
+  }
+}
+
+/// Which triangles may lie within `reach` of the axis of a resting body, and how far they are at least.
+HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, float half_height, float reach, Children& out) {
+  out.mask = 0;
+  const V3 centre{hn::Zero(kF), hn::Zero(kF), hn::Zero(kF)};
+  for (int first = 0; first < leaf.triangle_count; first += kLanes) {
+    const Triangles t = load_triangles(leaf, frame, first);
+    const Support s = support(t, centre, half_height, kFirstProjections);
+    const VF error = leaf_error(t, hn::Zero(kF), frame, half_height);
+    const MF point = hn::Le(s.length, set(kShortest));
+    const VF least = hn::IfThenZeroElse(
+        point, hn::Sub(hn::Mul(hn::Div(s.bound, hn::IfThenElse(point, set(1.0F), s.length)),
+                               set(1.0F - kTimeRoundings * kUnit)),
+                       error));
+    hn::Store(hn::Max(least, hn::Zero(kF)), kF, out.key + first);
+    out.mask |= bits_of(hn::Le(least, set(reach))) << first;
+  }
+  out.mask &= (1U << leaf.triangle_count) - 1;
+}
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROAM_INDEX_LEAF_INL_H_

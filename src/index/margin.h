@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// The margins of the single-precision filter: every constant that its proof uses, in one place.
+/// docs/algorithm.md, "Many triangles", counts the roundings.
+
+namespace roam::index {
+
+/// Unit roundoff of IEEE float, round to nearest.
+inline constexpr float kUnit = 0x1p-24F;
+
+/// Roundings charged to each metre of a node's frame (its extent, the motion, the radius, the half height) when its
+/// child boxes are tested. 9 are counted.
+inline constexpr float kNodeRoundings = 16.0F;
+
+/// Roundings charged to each metre of a triangle's farthest coordinate or of the way made, when a leaf bounds its
+/// distance. 27 are counted.
+inline constexpr float kLeafRoundings = 32.0F;
+
+/// The same for the speed of approach, per metre of the whole motion. 7 are counted.
+inline constexpr float kSpeedRoundings = 16.0F;
+
+/// Relative roundings of the radius in a product with a length. 4 are counted.
+inline constexpr float kRadiusRoundings = 8.0F;
+
+/// Relative roundings of a quotient of two lengths, such as a time of entry. 4 are counted.
+inline constexpr float kTimeRoundings = 8.0F;
+
+/// Of a grid step: the fraction of a step between the start of a query and its nearest grid point is stored to this.
+inline constexpr float kFractionRounding = 0x1p-25F;
+
+/// Metres; squared it is still far above underflow. Shorter edges count as points.
+inline constexpr float kShortest = 1e-15F;
+
+/// Metres. A body this close to touching, its error bound apart, has arrived: a rule of economy, not of truth.
+inline constexpr float kArrival = 2e-5F;
+
+/// Metres. In exact arithmetic a hit in a tile without low bits is at most so far from the radius; what remains to
+/// the 2 mm that World promises pays for rounding the limit itself.
+inline constexpr float kHitLimit = 1.99e-3F;
+
+/// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
+inline constexpr double kLongestPiece = 64.0;
+
+/// Rounds of advance in single precision; what has not arrived by then is decided in double precision.
+inline constexpr int kRounds = 4;
+
+/// Alternating projections between triangle and axis for a capsule: in the first round and in the others.
+inline constexpr int kFirstProjections = 3;
+inline constexpr int kLaterProjections = 2;
+
+/// 1 / 0 stands for this many per metre: larger than any length over any motion that can matter, and finite, so that
+/// 0 / 0 does not arise.
+inline constexpr float kHugeInverse = 1e18F;
+
+}  // namespace roam::index

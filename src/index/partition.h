@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Cuts a set of triangles into tiles.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "index/soup.h"
+
+namespace roam::index {
+
+/// A tile holds no more triangles than this.
+inline constexpr std::uint32_t kTileTriangles = 16384;
+
+/// Triangles wider than this (m, largest side of the box) go to tiles of their own kind, so that the grids of the
+/// others stay fine: three of them across make kOrdinaryStep's 64 m.
+inline constexpr double kOrdinaryTriangle = 16.0;
+
+struct Partition {
+  struct Run {
+    std::uint32_t begin, end;  ///< of order
+  };
+  std::vector<std::uint32_t> order;  ///< triangle numbers
+  std::vector<Run> tiles;            ///< in order
+};
+
+/// Sorts the triangles by size class and then along the Morton curve of their box centres, and cuts the curve at cell
+/// borders until every run is small enough. `tick` is called with the fraction done; it may throw.
+[[nodiscard]] Partition partition(const Soup& soup, const std::function<void(double)>& tick);
+
+}  // namespace roam::index

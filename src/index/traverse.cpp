@@ -1,0 +1,293 @@
+#include "index/traverse.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "index/binary_tree.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/traverse.cpp"
+#include <hwy/foreach_target.h>
+// Must come after foreach_target.h.
+#include <hwy/cache_control.h>
+
+#include "index/leaf-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// Blocks still to be visited, nearest on top. An entry orders by its key (a float >= 0, whose bits order as it does),
+/// then leaves before nodes, then by number.
+class Stack {
+ public:
+  struct Entry {
+    float key;
+    std::uint32_t number;
+    bool leaf;
+  };
+
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  void clear() { count_ = 0; }
+
+  HWY_INLINE void push(float key, std::uint32_t number, bool leaf) {
+    const std::uint64_t e = std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 |
+                            (leaf ? 0U : std::uint32_t{1} << 31) | number;
+    int i = count_++;
+    for (; i > 0 && entries_[i - 1] < e; --i) entries_[i] = entries_[i - 1];
+    entries_[i] = e;
+  }
+
+  HWY_INLINE Entry pop() {
+    const std::uint64_t e = entries_[--count_];
+    const auto low = static_cast<std::uint32_t>(e);
+    return {std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32)), low & 0x7fffffffU, (low >> 31) == 0};
+  }
+
+ private:
+  int count_ = 0;
+  std::uint64_t entries_[kMaxDepth * (kWidth - 1) + 1];
+};
+
+HWY_INLINE void prefetch(const Block* block) {
+  hwy::Prefetch(block);
+  hwy::Prefetch(reinterpret_cast<const char*>(block) + 64);
+}
+
+/// Pushes the children that are left of a node. `nodes` and `leaves` are what their numbers count from.
+HWY_INLINE void push_children(const Node& node, const Children& children, const Block* nodes, const Block* leaves,
+                              Stack& stack) {
+  for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    const bool leaf = i >= node.inner_count;
+    const std::uint32_t number = leaf ? node.first_leaf + (i - node.inner_count) : node.first_node + i;
+    if (const Block* base = leaf ? leaves : nodes) prefetch(base + number);
+    stack.push(children.key[i], number, leaf);
+  }
+}
+
+class SweepTraversal {
+ public:
+  SweepTraversal(const Index& index, const Piece& piece)
+      : index_(index), piece_(piece), motion_(piece.motion, piece.body.half_height) {}
+
+  Impact run() {
+    const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
+    const float radius = Motion::round_up(piece_.body.radius);
+    Stack stack;
+    stack.push(0.0F, 0, false);
+    while (!stack.empty()) {
+      const auto e = stack.pop();
+      if (e.key >= t_max_) break;
+      if (e.leaf) {
+        tile(e.number);
+        continue;
+      }
+      const Node& node = index_.blocks[e.number].node;
+      Children children;
+      sweep_node(node, frame, motion_, radius, t_max_, children);
+      push_children(node, children, index_.blocks, nullptr, stack);
+    }
+    return best_;
+  }
+
+ private:
+  void tile(std::uint32_t number) {
+    const Tile& t = index_.tiles[number];
+    const Frame frame(t.origin, t.step, piece_.start);
+    const float radius = Motion::round_up(piece_.body.radius + double(t.error));
+    // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
+    const float hit_limit =
+        t.fine ? -1.0F : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
+                             (1.0F - kRadiusRoundings * kUnit);
+    const Block* nodes = index_.blocks + t.nodes;
+    const Block* leaves = index_.blocks + t.leaves;
+    stack_.clear();
+    stack_.push(0.0F, 0, false);
+    while (!stack_.empty()) {
+      const auto e = stack_.pop();
+      if (e.key >= t_max_) break;
+      if (e.leaf) {
+        leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
+        continue;
+      }
+      const Node& node = nodes[e.number].node;
+      Children children;
+      sweep_node(node, frame, motion_, radius, t_max_, children);
+      push_children(node, children, nodes, leaves, stack_);
+    }
+  }
+
+  void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
+            float radius, float hit_limit, float entry) {
+    Met met;
+    sweep_leaf(leaf, frame, motion_, radius, hit_limit, entry, t_max_, met);
+    for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      take(double(met.time[i]), {tile_number, t.leaves + number, i});
+    }
+    for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      if (double(met.time[i]) >= best_.time) continue;
+      decide(t, {tile_number, t.leaves + number, i}, double(met.time[i]));
+    }
+  }
+
+  void decide(const Tile& t, const Place& place, double from) {
+    Body body = piece_.body;
+    body.radius += double(t.fine_error);
+    const auto triangle = local_triangle(index_, place, piece_.start);
+    const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, kArrivalExact);
+    if (s.hit) take(s.time, place);
+  }
+
+  void take(double time, const Place& place) {
+    if (time >= best_.time && (best_.hit || time >= 1.0)) return;
+    best_ = {true, time, place};
+    t_max_ = Motion::round_up(time);
+  }
+
+  /// Metres. What double precision calls arrived: of no consequence beside the grid, small beside 1e-5 m.
+  static constexpr double kArrivalExact = 1e-6;
+
+  const Index& index_;
+  const Piece& piece_;
+  Motion motion_;
+  Impact best_;
+  float t_max_ = 1.0F;
+  Stack stack_;
+};
+
+Impact FirstImpact(const Index& index, const Piece& piece) { return SweepTraversal(index, piece).run(); }
+
+/// Everything near a resting body, nearest boxes first, within a reach that visits may shrink.
+class NearTraversal {
+ public:
+  NearTraversal(const Index& index, const Piece& piece, double reach, Visit visit, void* context)
+      : index_(index), piece_(piece), half_height_(Motion::round_up(piece.body.half_height)), reach_(reach),
+        visit_(visit), context_(context) {}
+
+  void run() {
+    const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
+    Stack stack;
+    stack.push(0.0F, 0, false);
+    while (!stack.empty()) {
+      const auto e = stack.pop();
+      if (e.key > axis_reach(0.0F)) break;
+      if (e.leaf) {
+        tile(e.number);
+        continue;
+      }
+      const Node& node = index_.blocks[e.number].node;
+      Children children;
+      near_node(node, frame, half_height_, axis_reach(0.0F), children);
+      push_children(node, children, index_.blocks, nullptr, stack);
+    }
+  }
+
+ private:
+  /// How far from the axis stored triangles matter still.
+  [[nodiscard]] float axis_reach(float error) const {
+    return std::max(0.0F, Motion::round_up(piece_.body.radius + reach_ + double(error)));
+  }
+
+  void tile(std::uint32_t number) {
+    const Tile& t = index_.tiles[number];
+    const Frame frame(t.origin, t.step, piece_.start);
+    const Block* nodes = index_.blocks + t.nodes;
+    const Block* leaves = index_.blocks + t.leaves;
+    stack_.clear();
+    stack_.push(0.0F, 0, false);
+    while (!stack_.empty()) {
+      const auto e = stack_.pop();
+      if (e.key > axis_reach(t.error)) break;
+      Children children;
+      if (!e.leaf) {
+        const Node& node = nodes[e.number].node;
+        near_node(node, frame, half_height_, axis_reach(t.error), children);
+        push_children(node, children, nodes, leaves, stack_);
+        continue;
+      }
+      near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(t.error), children);
+      while (children.mask != 0) {
+        auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
+        for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+          if (children.key[i] < children.key[nearest]) nearest = i;
+        }
+        if (children.key[nearest] > axis_reach(t.error)) break;
+        children.mask &= ~(1U << nearest);
+        reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
+      }
+    }
+  }
+
+  const Index& index_;
+  const Piece& piece_;
+  float half_height_;
+  double reach_;
+  Visit visit_;
+  void* context_;
+  Stack stack_;
+};
+
+/// Everything that a moving body may come near to, within a reach that visits may shrink.
+void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
+  const Motion motion(piece.motion, piece.body.half_height);
+  const Frame top(index.grid.origin, index.grid.step, piece.start);
+  Stack tiles, stack;
+  tiles.push(0.0F, 0, false);
+  while (!tiles.empty()) {
+    const auto e = tiles.pop();
+    Children children;
+    if (!e.leaf) {
+      const Node& node = index.blocks[e.number].node;
+      sweep_node(node, top, motion, Motion::round_up(std::max(0.0, piece.body.radius + reach)), 1.0F, children);
+      push_children(node, children, index.blocks, nullptr, tiles);
+      continue;
+    }
+    const Tile& t = index.tiles[e.number];
+    const Frame frame(t.origin, t.step, piece.start);
+    stack.push(0.0F, 0, false);
+    while (!stack.empty()) {
+      const auto b = stack.pop();
+      const float radius = Motion::round_up(std::max(0.0, piece.body.radius + reach + double(t.error)));
+      if (!b.leaf) {
+        const Node& node = index.blocks[t.nodes + b.number].node;
+        sweep_node(node, frame, motion, radius, 1.0F, children);
+        push_children(node, children, index.blocks + t.nodes, index.blocks + t.leaves, stack);
+        continue;
+      }
+      Met met;
+      sweep_leaf(index.blocks[t.leaves + b.number].leaf, frame, motion, radius, -1.0F, b.key, 1.0F, met);
+      for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
+        reach = visit(context, {e.number, t.leaves + b.number, static_cast<std::uint32_t>(std::countr_zero(left))});
+      }
+    }
+  }
+}
+
+void VisitNear(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
+  if (piece.motion == Vec3(0.0)) {
+    NearTraversal(index, piece, reach, visit, context).run();
+  } else {
+    VisitSwept(index, piece, reach, visit, context);
+  }
+}
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace roam::index {
+
+HWY_EXPORT(FirstImpact);
+HWY_EXPORT(VisitNear);
+
+Impact first_impact(const Index& index, const Piece& piece) { return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece); }
+
+void visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
+  HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, visit, context);
+}
+
+}  // namespace roam::index
+#endif  // HWY_ONCE

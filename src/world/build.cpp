@@ -1,0 +1,160 @@
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+
+#include "index/collapse.h"
+#include "index/partition.h"
+#include "index/tile_builder.h"
+#include "roam/error.h"
+#include "world/data.h"
+
+namespace roam {
+namespace {
+
+using index::BuiltTile;
+
+/// Hands the fraction done to the caller's callback, one thread at a time, and turns its "no" into an exception.
+class Progress {
+ public:
+  explicit Progress(const std::function<bool(double)>& report) : report_(report) {}
+
+  void tick(double fraction) {
+    if (!report_) return;
+    const std::lock_guard lock(mutex_);
+    if (cancelled_ || !report_(fraction)) {
+      cancelled_ = true;
+      throw Cancelled();
+    }
+  }
+
+ private:
+  const std::function<bool(double)>& report_;
+  std::mutex mutex_;
+  bool cancelled_ = false;
+};
+
+/// Of the whole build, by time: sorting the triangles along the curve; the tiles are the rest.
+constexpr double kPartitionShare = 0.2;
+
+/// The grid of the tree over the tiles: 2^29 steps across, so that differences of coordinates fit 31 bits even for
+/// queries that start outside, in reach.
+index::Grid top_grid(const Box& box) {
+  const Vec3 size = box.size() + Vec3(8.0 * World::reach_limit);
+  const double extent = std::max(size.x, std::max(size.y, size.z));
+  index::Grid grid;
+  grid.step = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
+  for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
+  return grid;
+}
+
+index::StepBox step_box(const index::Grid& grid, const Box& box) {
+  index::StepBox out;
+  for (int k = 0; k < 3; ++k) {
+    out.lower[k] = static_cast<std::int32_t>(std::floor((box.lower[k] - grid.origin[k]) / grid.step));
+    out.upper[k] = static_cast<std::int32_t>(std::ceil((box.upper[k] - grid.origin[k]) / grid.step));
+  }
+  return out;
+}
+
+/// The box of both the source triangles and the stored ones.
+Box grown(const BuiltTile& tile) { return {tile.bounds.lower - double(tile.tile.error), tile.bounds.upper + double(tile.tile.error)}; }
+
+std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partition& parts, bool lossless,
+                                   Progress& progress) {
+  std::vector<BuiltTile> tiles(parts.tiles.size());
+  std::atomic<std::uint64_t> done{0};
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    const auto run = parts.tiles[i];
+    std::vector<std::uint32_t> ids(parts.order.begin() + run.begin, parts.order.begin() + run.end);
+    std::sort(ids.begin(), ids.end());
+    tiles[i] = build_tile(soup, ids, lossless);
+    const std::uint64_t sum = done.fetch_add(ids.size()) + ids.size();
+    progress.tick(kPartitionShare + (1.0 - kPartitionShare) * double(sum) / double(soup.size()));
+  });
+  return tiles;
+}
+
+/// Moves all tiles into one set of arenas, in the order that the tree over them wants.
+void assemble(WorldData& data, std::vector<BuiltTile>& built) {
+  data.reach = {};
+  for (const BuiltTile& t : built) data.reach.include(grown(t));
+  data.grid = top_grid(data.reach);
+
+  std::vector<index::StepBox> boxes(built.size());
+  for (std::size_t i = 0; i < built.size(); ++i) boxes[i] = step_box(data.grid, grown(built[i]));
+  index::BinaryTreeOptions options;
+  options.items_per_test = 1;
+  options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
+  const index::BinaryTree tree = index::build_binary_tree(boxes, options);
+  const index::WideTree top = index::collapse(tree);
+
+  data.tiles.allocate(built.size());
+  std::size_t blocks = top.nodes.size(), fine = 0, ids = 0;
+  std::vector<BuiltTile*> source(built.size());
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    BuiltTile& t = built[tree.order[tree.nodes[top.leaves[i]].begin]];
+    source[i] = &t;
+    t.tile.nodes = static_cast<std::uint32_t>(blocks);
+    t.tile.leaves = static_cast<std::uint32_t>(blocks + t.nodes.size());
+    t.tile.fine_leaves = static_cast<std::uint32_t>(fine);
+    t.tile.ids = ids;
+    data.tiles.items[i] = t.tile;
+    blocks += t.nodes.size() + t.leaves.size();
+    fine += t.fine_leaves.size();
+    ids += t.ids.size();
+  }
+  data.blocks.allocate(blocks);
+  data.fine.allocate(fine);
+  data.ids.allocate(ids);
+  for (std::size_t i = 0; i < top.nodes.size(); ++i) data.blocks.items[i].node = top.nodes[i];
+  tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t i) {
+    const BuiltTile moved = std::move(*source[i]);  // its memory goes as soon as it is copied
+    const index::Tile& t = data.tiles.items[i];
+    std::memcpy(&data.blocks.items[t.nodes], moved.nodes.data(), moved.nodes.size() * sizeof(index::Node));
+    std::memcpy(&data.blocks.items[t.leaves], moved.leaves.data(), moved.leaves.size() * sizeof(index::Leaf));
+    if (t.fine) {
+      std::memcpy(&data.fine.items[t.fine_leaves], moved.fine_leaves.data(),
+                  moved.fine_leaves.size() * sizeof(index::FineLeaf));
+    }
+    std::memcpy(&data.ids.items[t.ids], moved.ids.data(), moved.ids.size());
+  });
+}
+
+}  // namespace
+
+World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
+  auto data = std::make_unique<WorldData>();
+  const index::Soup soup(meshes);
+  data->first = soup.first();
+  for (const Mesh& mesh : meshes) data->names.push_back(mesh.name);
+  data->bounds = soup.bounds();
+  data->stats.triangles = soup.size();
+  data->stats.objects = meshes.size();
+  if (soup.size() > 0) {
+    Progress progress(options.progress);
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+      auto built = [&] {
+        const auto parts = index::partition(soup, [&](double done) { progress.tick(kPartitionShare * done); });
+        return build_tiles(soup, parts, options.lossless, progress);
+      }();
+      assemble(*data, built);
+    });
+    float error = 0.0F;
+    for (std::size_t i = 0; i < data->tiles.size; ++i) error = std::max(error, data->tiles.items[i].fine_error);
+    data->stats.largest_error_m = error;
+  }
+  data->stats.tiles = data->tiles.size;
+  data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +
+                      data->first.size() * sizeof(std::uint64_t);
+  World world;
+  world.data_ = std::move(data);
+  return world;
+}
+
+}  // namespace roam

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// What a World holds: the arenas of all tiles, the tree over them, and what the triangles are called.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "index/traverse.h"
+#include "roam/world.h"
+
+namespace roam {
+
+/// An array whose elements are not touched before they are written: large arenas are filled by many threads.
+template <class T>
+struct Arena {
+  std::unique_ptr<T[]> items;
+  std::size_t size = 0;
+
+  void allocate(std::size_t count) {
+    items = std::make_unique_for_overwrite<T[]>(count);
+    size = count;
+  }
+  [[nodiscard]] std::size_t bytes() const { return size * sizeof(T); }
+};
+
+struct WorldData {
+  Arena<index::Block> blocks;  ///< the tree over the tiles, then each tile's nodes and leaves
+  Arena<index::Tile> tiles;
+  Arena<index::FineLeaf> fine;
+  Arena<std::uint8_t> ids;
+  index::Grid grid;  ///< of the tree over the tiles
+  Box bounds;        ///< of the source triangles
+  Box reach;         ///< bounds, grown by what stored vertices may lie off
+  WorldStats stats;
+  std::vector<std::uint64_t> first;  ///< the number of the first triangle of each mesh, and the count of all
+  std::vector<std::string> names;    ///< of the meshes
+
+  [[nodiscard]] index::Index view() const {
+    return {blocks.items.get(), tiles.items.get(), fine.items.get(), ids.items.get(), grid};
+  }
+};
+
+}  // namespace roam

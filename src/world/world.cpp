@@ -1,0 +1,29 @@
+#include "roam/world.h"
+
+#include <algorithm>
+
+#include "world/data.h"
+
+namespace roam {
+
+World::World() {
+  auto data = std::make_unique<WorldData>();
+  data->first = {0};
+  data_ = std::move(data);
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const Box& World::bounds() const { return data_->bounds; }
+
+const WorldStats& World::stats() const { return data_->stats; }
+
+ObjectId World::object(TriangleId triangle) const {
+  const auto& first = data_->first;
+  return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;
+}
+
+const std::string& World::object_name(TriangleId triangle) const { return data_->names[object(triangle)]; }
+
+}  // namespace roam
