@@ -1,0 +1,188 @@
+// The world against brute force: whatever it says is free is free, and whatever it hits is there.
+
+#include "roam/world.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "oracle.h"
+#include "roam/error.h"
+
+namespace {
+
+using roam::Body;
+using roam::Mesh;
+using roam::Triangle;
+using roam::Vec3;
+using roam::World;
+
+/// What World promises (m): a body is never nearer than its radius by more than this, and never stopped farther off.
+constexpr double kNearest = 1e-6;
+constexpr double kFarthest = 2e-3;
+constexpr double kFarthestLossless = 1e-5;
+
+struct Random {
+  std::mt19937_64 engine;
+  double unit() { return double(engine() >> 11) * 0x1p-53; }
+  double between(double a, double b) { return a + (b - a) * unit(); }
+  Vec3 in_box(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+  Vec3 direction() {
+    for (;;) {
+      const Vec3 v = in_box(1.0);
+      const double n = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+      if (n > 0.1 && n < 1.0) return v / n;
+    }
+  }
+};
+
+/// Triangles of all sizes from `small` to `large` (m), some degenerate, in a box about `centre`.
+Mesh clutter(Random& random, int count, double half, double small, double large, const Vec3& centre) {
+  Mesh mesh;
+  mesh.name = "clutter";
+  for (int i = 0; i < count; ++i) {
+    const double size = small * std::pow(large / small, random.unit());
+    const Vec3 at = centre + random.in_box(half);
+    Vec3 corner[3] = {at, at + size * random.in_box(0.5), at + size * random.in_box(0.5)};
+    switch (random.engine() % 12) {
+      case 0: corner[2] = corner[1]; break;                                   // a segment
+      case 1: corner[1] = corner[2] = corner[0]; break;                       // a point
+      case 2: corner[2] = corner[0] + 0.3 * (corner[1] - corner[0]); break;   // three corners in a row
+      case 3: corner[2] = corner[1] + 1e-5 * random.in_box(0.5); break;       // a sliver
+      default: break;
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), corner, corner + 3);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+struct Case {
+  const char* name;
+  Vec3 centre;
+  double half, small, large;
+  int count;
+  bool lossless;
+};
+
+/// The axis' least distance to all triangles over [0, t] of a motion.
+long double least_distance(const Mesh& mesh, const Body& body, const Vec3& from, const Vec3& motion, double t) {
+  long double least = std::numeric_limits<long double>::infinity();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    least = std::min(least, oracle::least_distance(body, from, motion, t, mesh.triangle(i)));
+  }
+  return least;
+}
+
+class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
+
+TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid) {
+  const Case& c = GetParam();
+  Random random{std::mt19937_64(7)};
+  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
+  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  int hits = 0, misses = 0, embedded = 0;
+  for (int q = 0; q < 1500; ++q) {
+    const Body body{random.between(0.0, 0.05) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
+    const Vec3 from = c.centre + random.in_box(1.2 * c.half);
+    const Vec3 motion = random.direction() * (c.half * std::pow(10.0, random.between(-4.0, 0.5)));
+    const auto s = world.sweep(body, from, motion);
+    if (s.hit && s.time == 0.0) {
+      ++embedded;
+      const long double d = least_distance(mesh, body, from, motion, 0.0);
+      ASSERT_LE(d, body.radius + farthest) << "query " << q;
+      ASSERT_LE(s.distance, double(d) - body.radius + kNearest);
+      continue;
+    }
+    ASSERT_GE(least_distance(mesh, body, from, motion, s.time), body.radius - kNearest) << "query " << q;
+    if (!s.hit) {
+      ++misses;
+      continue;
+    }
+    ++hits;
+    const Triangle touched = mesh.triangle(static_cast<std::size_t>(s.triangle));
+    ASSERT_LE(oracle::distance_on_the_way(body, from, motion, s.time, touched), body.radius + farthest)
+        << "query " << q << " time " << s.time;
+    ASSERT_GE(s.distance, 0.0);
+    ASSERT_NEAR(std::sqrt(s.normal.x * s.normal.x + s.normal.y * s.normal.y + s.normal.z * s.normal.z), 1.0, 1e-12);
+    ASSERT_LE(oracle::distance(Body{0.0, 0.0}, s.point, touched), farthest);
+  }
+  EXPECT_GT(hits, 50);
+  EXPECT_GT(misses, 50);
+  EXPECT_GT(embedded, 5);
+}
+
+TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
+  const Case& c = GetParam();
+  Random random{std::mt19937_64(8)};
+  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
+  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  for (int q = 0; q < 600; ++q) {
+    const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
+    const Vec3 from = c.centre + random.in_box(1.5 * c.half);
+    const Vec3 motion = q % 3 == 0 ? Vec3(0.0) : random.direction() * (0.3 * c.half * random.unit());
+    const double reach = std::min(World::reach_limit, random.between(0.01, 1.0) * c.half);
+    const auto near = world.clearance(body, from, motion, reach);
+    const double gap = double(least_distance(mesh, body, from, motion, 1.0) - (long double)(body.radius));
+    if (gap > -body.radius) ASSERT_LE(near.distance, std::max(gap, 0.0) + kNearest) << "query " << q;
+    if (!near.found) {
+      ASSERT_GE(gap, reach - farthest) << "query " << q;
+      ASSERT_EQ(near.distance, reach);
+    } else if (gap > farthest - body.radius) {  // the axis meets no stored triangle: depth is distance
+      ASSERT_GE(near.distance, gap - farthest) << "query " << q;
+    }
+  }
+}
+
+TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
+  const Case& c = GetParam();
+  Random random{std::mt19937_64(9)};
+  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
+  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  std::vector<roam::Contact> contacts(mesh.triangles.size() + 1);
+  for (int q = 0; q < 100; ++q) {
+    const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
+    const Vec3 from = c.centre + random.in_box(c.half);
+    const Vec3 motion = q % 3 == 0 ? Vec3(0.0) : random.direction() * (0.3 * c.half * random.unit());
+    const double reach = random.between(0.01, 0.2) * c.half;
+    const std::size_t count = world.contacts(body, from, motion, reach, contacts);
+    std::vector<bool> found(mesh.triangles.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto t = static_cast<std::size_t>(contacts[i].triangle);
+      ASSERT_FALSE(found[t]) << "a triangle twice";
+      found[t] = true;
+      if (i > 0) ASSERT_LE(contacts[i - 1].distance, contacts[i].distance);
+      ASSERT_LE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach + farthest);
+    }
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      if (found[t]) continue;
+      ASSERT_GE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach - kNearest)
+          << "query " << q << " triangle " << t;
+    }
+    const std::size_t few = std::min<std::size_t>(count, 3);
+    std::array<roam::Contact, 3> nearest;
+    ASSERT_EQ(world.contacts(body, from, motion, reach, nearest), few);
+    for (std::size_t i = 0; i < few; ++i) ASSERT_EQ(nearest[i].distance, contacts[i].distance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, WorldAgainstBruteForce,
+    testing::Values(Case{"AtTheOrigin", Vec3(0.0), 5.0, 0.05, 3.0, 600, false},
+                    Case{"InThePapersGallery", {-13739.0, 253.0, 182.0}, 5.0, 0.05, 3.0, 600, false},
+                    Case{"At1e5", {1e5, -1e5, 40.0}, 20.0, 0.01, 10.0, 600, false},
+                    Case{"At6400km", {4.1e6, 4.8e6, 6.4e6}, 5.0, 0.05, 3.0, 600, false},
+                    Case{"AllSizes", {300.0, 20.0, -7.0}, 3000.0, 1e-4, 1e4, 900, false},
+                    Case{"Huge", {300.0, 20.0, -7.0}, 40.0, 20.0, 1e4, 400, false},
+                    Case{"Tiny", {1.0, 2.0, 3.0}, 0.01, 1e-5, 5e-3, 500, false},
+                    Case{"Lossless", {10.0, 20.0, 30.0}, 5.0, 0.05, 3.0, 600, true},
+                    Case{"LosslessAt6400km", {4.1e6, 4.8e6, 6.4e6}, 5.0, 0.05, 3.0, 600, true},
+                    Case{"LosslessAllSizes", {300.0, 20.0, -7.0}, 3000.0, 1e-4, 1e4, 900, true}),
+    [](const auto& param) { return param.param.name; });
+
+}  // namespace
