@@ -4,9 +4,9 @@
 ///
 /// Nothing here is shared with the library: no supporting planes, no advance, no early way out. A body at rest is its
 /// axis, a point or a segment; a moving body is the segment or parallelogram that its axis sweeps. The distance of two
-/// flat convex polygons is 0 when an edge of one pierces the other, and otherwise the least of all vertex-polygon and
-/// edge-edge distances. All candidates are tried; each is the distance of two points of the polygons, so a wrong
-/// branch can only make the answer too large, never too small.
+/// flat convex polygons is the least of all vertex-polygon, edge-edge and edge-polygon distances (the last is 0). All
+/// candidates are tried; each is the distance of two points of the polygons, so a wrong branch can only make the answer
+/// too large, never too small.
 ///
 /// `Real` is long double (64-bit mantissa on x86, error about 1e-17 m at a reach of 100 m; 0.4 us for a sphere) or
 /// oracle::Quad (113 bits, error about 1e-31 m; ten times slower). Coordinates are relative to the triangle before
@@ -16,7 +16,8 @@
 ///     oracle::distance<oracle::Quad>(body, place, triangle)       the same in quad
 ///     oracle::least_distance<Real>(body, from, motion, t, tri)    least clearance over [0, t] of the motion
 ///
-/// All are distances of the axis: subtract body.radius for the gap. 0 when axis and triangle meet.
+/// All are distances of the axis: subtract body.radius for the gap. 0, but for rounding, when axis and
+/// triangle meet.
 
 #include <cfloat>
 #include <cmath>
@@ -128,34 +129,38 @@ void lessen_by_edges(const Polygon<Real>& a, const Polygon<Real>& b, Real& least
   }
 }
 
+/// Where the segment crosses the plane of the triangle, if that is inside: 0, but for rounding.
 template <class Real>
-bool pierces(const Point<Real>& p, const Point<Real>& q, const Point<Real>& a, const Point<Real>& b,
-             const Point<Real>& c) {
-  const Point<Real> pq = q - p, pa = a - p, pb = b - p, pc = c - p, n = cross(b - a, c - a);
-  const Real before = dot(pa, n), after = dot(a - q, n);
-  if (!((before <= 0 && after >= 0) || (before >= 0 && after <= 0)) || before == after) return false;
-  const Real u = dot(pq, cross(pc, pb)), v = dot(pq, cross(pa, pc)), w = dot(pq, cross(pb, pa));
-  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+void lessen_by_piercing(const Point<Real>& p, const Point<Real>& q, const Point<Real>& a, const Point<Real>& b,
+                        const Point<Real>& c, Real& least) {
+  const Point<Real> ab = b - a, ac = c - a, n = cross(ab, ac);
+  const Real nn = dot(n, n), before = dot(p - a, n), after = dot(q - a, n);
+  if (!(nn > 0) || before == after || (before > 0 && after > 0) || (before < 0 && after < 0)) return;
+  const Point<Real> x = p + (before / (before - after)) * (q - p), ax = x - a;
+  const Real v = dot(cross(ax, ac), n) / nn, w = dot(cross(ab, ax), n) / nn;
+  if (v < 0 || w < 0 || v + w > 1) return;
+  const Point<Real> apart = ax - (v * ab + w * ac);
+  take_less(least, dot(apart, apart));
 }
 
 template <class Real>
-bool any_edge_pierces(const Polygon<Real>& a, const Polygon<Real>& b) {
+void lessen_by_piercing(const Polygon<Real>& a, const Polygon<Real>& b, Real& least) {
   for (int i = 0; i < a.edges(); ++i) {
     for (int j = 2; j < b.corners; ++j) {
-      if (pierces(a.corner[i], a.next(i), b.corner[0], b.corner[j - 1], b.corner[j])) return true;
+      lessen_by_piercing(a.corner[i], a.next(i), b.corner[0], b.corner[j - 1], b.corner[j], least);
     }
   }
-  return false;
 }
 
 template <class Real>
 Real distance(const Polygon<Real>& a, const Polygon<Real>& b) {
-  if (any_edge_pierces(a, b) || any_edge_pierces(b, a)) return 0;
   const Point<Real> x = a.corner[0] - b.corner[0];
   Real least = dot(x, x);
   lessen_by_corners(a, b, least);
   lessen_by_corners(b, a, least);
   lessen_by_edges(a, b, least);
+  lessen_by_piercing(a, b, least);
+  lessen_by_piercing(b, a, least);
   return root(least);
 }
 
@@ -171,7 +176,7 @@ Polygon<Real> at_origin(const roam::Triangle& t) {
   return {3, {a - a, widen<Real>(t[1]) - a, widen<Real>(t[2]) - a, {}}};
 }
 
-/// Distance of the axis of `body` at `place` to the triangle, in metres; 0 when they meet.
+/// Distance of the axis of `body` at `place` to the triangle, in metres; 0, but for rounding, when they meet.
 template <class Real = long double>
 Real distance(const roam::Body& body, const roam::Vec3& place, const roam::Triangle& triangle) {
   const Point<Real> c = widen<Real>(place) - widen<Real>(triangle[0]), h{0, 0, Real(body.half_height)};
@@ -191,7 +196,8 @@ Real distance_on_the_way(const roam::Body& body, const roam::Vec3& from, const r
   return distance(axis, at_origin<Real>(triangle));
 }
 
-/// Least distance of the axis to the triangle over [0, t] of the motion, in metres; 0 when they meet on the way.
+/// Least distance of the axis to the triangle over [0, t] of the motion, in metres; 0, but for rounding, when they meet
+/// on the way.
 template <class Real = long double>
 Real least_distance(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, double t,
                     const roam::Triangle& triangle) {

@@ -6,9 +6,14 @@
 namespace roam::certified {
 namespace {
 
+/// Of squared distances, relative. Up to here a foot computed from the corners' shares counts as the foot of the
+/// perpendicular. Only speed depends on it: beyond it the edges are tried as well.
+constexpr double face_trust = 1.0 + 1e-9;
+
 Closest at_vertex(const Obstacle& o, int i, const Vec3& p) {
   const Vec3 away = p - o.corner[i];
-  return {away, glm::dot(away, away), o.corner[i], Feature::vertex, false};
+  const double squared = glm::dot(away, away);
+  return {away, squared, squared, o.corner[i], Feature::vertex};
 }
 
 Closest at_edge(const Obstacle& o, int i, const Vec3& p) {
@@ -17,7 +22,8 @@ Closest at_edge(const Obstacle& o, int i, const Vec3& p) {
   if (!(s > 0.0)) return at_vertex(o, i, p);
   if (!(s < 1.0)) return at_vertex(o, (i + 1) % 3, p);
   const Vec3 away = perpendicular_to_edge(o, i, x);
-  return {away, glm::dot(away, away), o.corner[i] + s * o.edge[i], Feature::edge, false};
+  const double squared = glm::dot(away, away);
+  return {away, squared, squared, o.corner[i] + s * o.edge[i], Feature::edge};
 }
 
 Closest at_any_edge(const Obstacle& o, const Vec3& p) {
@@ -27,6 +33,21 @@ Closest at_any_edge(const Obstacle& o, const Vec3& p) {
     if (c.squared < best.squared) best = c;
   }
   return best;
+}
+
+/// The face, for a point that seems to be over it. The corners' shares tell a point that is surely on the triangle:
+/// of a sliver they are mostly rounding, and then an edge may be closer.
+Closest at_face(const Obstacle& o, const Vec3& p, double a_share, double b_share, double c_share) {
+  const double height = glm::dot(o.face_normal, p - o.corner[0]);
+  const double b = b_share / (a_share + b_share + c_share), c = c_share / (a_share + b_share + c_share);
+  const Vec3 x = p - (o.corner[0] + b * o.edge[0] - c * o.edge[2]);
+  const double squared = glm::dot(x, x);
+  if (!(squared <= height * height * face_trust)) {
+    const Closest edge = at_any_edge(o, p);
+    if (!(squared < edge.squared)) return edge;
+  }
+  const Vec3 away = height < 0.0 ? -o.face_normal : o.face_normal;
+  return {away, 1.0, squared, p - height * o.face_normal, Feature::face};
 }
 
 bool is_degenerate(const Obstacle& o) { return o.face_normal == Vec3(0.0); }
@@ -41,7 +62,7 @@ void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Cl
                               : (e.z != 0.0 ? std::clamp(x.z / e.z, 0.0, 1.0) : 0.0);
   if (!(std::abs(s * e.z - x.z) <= o.half_height)) return;
   const bool inside = s > 0.0 && s < 1.0;
-  Closest c{};
+  Closest c;
   c.point = o.corner[i] + s * e;
   c.feature = inside ? Feature::edge : Feature::vertex;
   if (inside && flat > 0.0) {
@@ -52,7 +73,7 @@ void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Cl
     const Vec3& nearest = s < 1.0 ? o.corner[i] : o.corner[(i + 1) % 3];
     c.away = {centre.x - nearest.x, centre.y - nearest.y, 0.0};
   }
-  c.squared = glm::dot(c.away, c.away);
+  c.squared = c.away_squared = glm::dot(c.away, c.away);
   if (c.squared < best.squared) best = c;
 }
 
@@ -100,9 +121,7 @@ Closest closest_to_point(const Obstacle& o, const Vec3& p) noexcept {
   if (b_share <= 0.0 && ap_ac >= 0.0 && cp_ac <= 0.0) return at_edge(o, 2, p);
   const double a_share = bp_ab * cp_ac - cp_ab * bp_ac;
   if (a_share <= 0.0 && bp_ac >= bp_ab && cp_ab >= cp_ac) return at_edge(o, 1, p);
-  const double height = glm::dot(o.face_normal, ap);
-  const Vec3 away = height * o.face_normal;
-  return {away, height * height, p - away, Feature::face, false};
+  return at_face(o, p, a_share, b_share, c_share);
 }
 
 Closest closest_to_axis(const Obstacle& o, const Vec3& centre) noexcept {
@@ -112,7 +131,7 @@ Closest closest_to_axis(const Obstacle& o, const Vec3& centre) noexcept {
   const Closest bottom = closest_to_point(o, centre - up);
   if (bottom.squared < best.squared) best = bottom;
   for (int i = 0; i < 3; ++i) improve_with_axis_and_edge(o, i, centre, best);
-  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, point, Feature::face, true};
+  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, 0.0, point, Feature::face, true};
   return best;
 }
 

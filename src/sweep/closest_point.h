@@ -9,11 +9,12 @@ namespace roam::certified {
 
 /// A pair of closest points.
 struct Closest {
-  Vec3 away;       ///< from the triangle's point towards the axis; perpendicular to the edge or face; not unit
-  double squared;  ///< |away|^2, m^2
-  Vec3 point;      ///< on the triangle
+  Vec3 away;            ///< from the triangle towards the axis; perpendicular to the edge or face; any length
+  double away_squared;  ///< |away|^2
+  double squared;       ///< squared distance of two real points of triangle and axis, m^2: never less than the least
+  Vec3 point;           ///< on the triangle
   Feature feature;
-  bool meets;  ///< the axis pierces the face: `away` means nothing
+  bool meets = false;  ///< the axis pierces the face: `away` means nothing
 };
 
 /// Closest point of the triangle to a point.

@@ -89,14 +89,13 @@ Obstacle::Obstacle(const Vec3 (&corners)[3], double half_height_m) noexcept : ha
 SupportPlane support_plane(const Obstacle& o, const Vec3& centre, double slack) noexcept {
   const Closest closest = closest_to_axis(o, centre);
   SupportPlane plane{Vec3(0.0), 0.0, closest.point, closest.feature};
-  if (!closest.meets && closest.squared > shortest_squared) {
-    const double distance = std::sqrt(closest.squared);
-    const Vec3 n = closest.away / distance;
+  if (!closest.meets && closest.away_squared > shortest_squared) {
+    const Vec3 n = closest.away / std::sqrt(closest.away_squared);
     const double farthest = std::max({glm::dot(n, o.corner[0]), glm::dot(n, o.corner[1]), glm::dot(n, o.corner[2])});
     plane.normal = n;
     plane.offset = -farthest - span_along_axis(o, n);
     // Lower bound and distance agree: no other plane can be better.
-    if (plane.value(centre) >= distance - slack) return plane;
+    if (plane.value(centre) >= std::sqrt(closest.squared) - slack) return plane;
   }
   BestPlane best{o, centre};
   consider_every_pair_of_features(best);
