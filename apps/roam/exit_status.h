@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// What the program tells the shell.
+
+#include <stdexcept>
+
+namespace roam::app {
+
+enum ExitStatus : int {
+  done = 0,
+  failed = 1,     ///< the message says what, where and what to do
+  bad_usage = 2,  ///< the command line is wrong
+  answer_no = 3,  ///< the answer is no: blocked, left the scene, fell, held
+};
+
+/// A command line that parses but cannot be meant: ends with ExitStatus::bad_usage.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Standard output that nobody reads any more.
+class BrokenPipe : public std::runtime_error {
+ public:
+  BrokenPipe() : std::runtime_error("standard output was closed") {}
+};
+
+}  // namespace roam::app

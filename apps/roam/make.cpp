@@ -1,0 +1,166 @@
+// roam make: demo scenes of a wished size.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "progress.h"
+#include "report.h"
+#include "roam/error.h"
+#include "roam/generate.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MakeOptions {
+  fs::path output;
+  std::uint64_t triangles = 0;
+  std::uint64_t seed = 1;
+  std::vector<double> origin{0.0, 0.0, 0.0};
+  double size = generate::TerrainOptions{}.size;
+  bool json = false;
+
+  [[nodiscard]] Vec3 origin_point() const { return {origin[0], origin[1], origin[2]}; }
+};
+
+/// The three paths of Table 1 beside the gallery: gallery.ply gets gallery-straight.path and so on.
+std::vector<std::string> write_gallery_paths(const MakeOptions& options) {
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < generate::gallery_paths.size(); ++i) {
+    const generate::Path& path = generate::gallery_paths[i];
+    fs::path file = options.output;
+    file.replace_filename(options.output.stem().string() + "-" + path.name + ".path");
+    const Vec3 from = path.from + options.origin_point();
+    const Vec3 to = path.to + options.origin_point();
+    std::ofstream out(file);
+    out << fmt::format(
+        "# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n{} {} {}\n{} {} {}\n", i + 1,
+        from.x, from.y, from.z, to.x, to.y, to.z);
+    out.close();
+    if (!out) throw Error("cannot write " + file.string() + "; check the folder's permissions and the free space");
+    files.push_back(file.string());
+  }
+  return files;
+}
+
+ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool gallery) {
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress("making " + options.output.string(), "triangles");
+    generate::write_scene(scene, options.output,
+                          [&](std::uint64_t made) { return progress.goes_on(made, scene.triangles()); });
+  }
+  std::vector<std::string> paths;
+  if (gallery) paths = write_gallery_paths(options);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::uint64_t bytes = fs::file_size(options.output);
+  if (options.json) {
+    print(Json{{"file", options.output.string()},
+               {"triangles", scene.triangles()},
+               {"vertices", scene.vertices()},
+               {"objects", scene.objects()},
+               {"bytes", bytes},
+               {"seed", options.seed},
+               {"paths", paths},
+               {"seconds", seconds}});
+    return done;
+  }
+  std::string text =
+      fmt::format("{}: {} triangles in {} objects, {}B, made in {}\n", options.output.string(), scene.triangles(),
+                  scene.objects(), short_count(static_cast<double>(bytes)), short_time(seconds));
+  for (const std::string& path : paths) text += path + "\n";
+  print(text);
+  return done;
+}
+
+using Maker = std::function<generate::Scene(const MakeOptions&)>;
+
+/// Adds what all kinds of scene have in common.
+void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::uint64_t triangles, bool gallery,
+              const Maker& maker, Run& run) {
+  options->triangles = triangles;
+  verb.add_option("-o,--output", options->output, "File to write: .ply, .obj or .stl")->required()->type_name("FILE");
+  verb.add_option("--triangles", options->triangles,
+                  fmt::format("About how many, e.g. 500k or 20M (default: {})", short_count(double(triangles))))
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}}))
+      ->type_name("N");
+  verb.add_option("--seed", options->seed, "Same seed, same bits (default: 1)")->type_name("S");
+  verb.add_option("--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)")
+      ->expected(3)
+      ->delimiter(',')
+      ->type_name("X,Y,Z");
+  verb.add_flag("--json", options->json, "Print one JSON object");
+  verb.callback([options, maker, gallery, &run] {
+    run = [options, maker, gallery] {
+      const generate::Scene scene = [&] {
+        try {
+          return maker(*options);
+        } catch (const Error& error) {
+          throw UsageError(error.what());
+        }
+      }();
+      return make(*options, scene, gallery);
+    };
+  });
+}
+
+constexpr const char* gallery_help =
+    "The dam gallery of Xie and Niu (2020) at the coordinates of their Table 1, and beside it that table's paths:\n"
+    "-o gallery.ply also writes gallery-straight.path, gallery-corner.path and gallery-split.path.\n\n"
+    "Examples:\n"
+    "  roam make gallery -o gallery.ply\n"
+    "  roam make gallery -o big.ply --triangles 20M --seed 7\n";
+constexpr const char* terrain_help =
+    "A square of ground with ridges, valleys and scarps.\n\n"
+    "Examples:\n"
+    "  roam make terrain -o terrain.ply --triangles 2M\n"
+    "  roam make terrain -o far.ply --size 10000 --origin 4000000,500000,0\n";
+constexpr const char* city_help =
+    "Blocks of buildings with doors, rooms, passages, bays and bridges between streets with kerbs.\n\n"
+    "Examples:\n"
+    "  roam make city -o city.ply\n"
+    "  roam make city -o city.obj --triangles 100k\n";
+
+}  // namespace
+
+void add_make(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("make", "Makes a demo scene of a wished size: gallery, terrain or city");
+  verb->require_subcommand(1);
+  verb->footer("Examples:\n  roam make gallery -o gallery.ply\n  roam make city -o city.ply --triangles 5M\n");
+
+  CLI::App* gallery = verb->add_subcommand("gallery", "The paper's dam gallery, with its three paths");
+  gallery->footer(gallery_help);
+  add_kind(
+      *gallery, std::make_shared<MakeOptions>(), generate::GalleryOptions{}.triangles, true,
+      [](const MakeOptions& o) {
+        return generate::gallery({.triangles = o.triangles, .seed = o.seed, .origin = o.origin_point()});
+      },
+      run);
+
+  CLI::App* terrain = verb->add_subcommand("terrain", "A square of rough ground");
+  terrain->footer(terrain_help);
+  const auto terrain_options = std::make_shared<MakeOptions>();
+  add_kind(
+      *terrain, terrain_options, generate::TerrainOptions{}.triangles, false,
+      [](const MakeOptions& o) {
+        return generate::terrain(
+            {.triangles = o.triangles, .seed = o.seed, .origin = o.origin_point(), .size = o.size});
+      },
+      run);
+  terrain->add_option("--size", terrain_options->size, "Side of the square in metres (default: 700)")->type_name("M");
+
+  CLI::App* city = verb->add_subcommand("city", "Streets and buildings");
+  city->footer(city_help);
+  add_kind(
+      *city, std::make_shared<MakeOptions>(), generate::CityOptions{}.triangles, false,
+      [](const MakeOptions& o) {
+        return generate::city({.triangles = o.triangles, .seed = o.seed, .origin = o.origin_point()});
+      },
+      run);
+}
+
+}  // namespace roam::app

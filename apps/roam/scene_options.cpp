@@ -1,0 +1,87 @@
+#include "scene_options.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "interrupt.h"
+#include "progress.h"
+
+namespace roam::app {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Scene read(const SceneOptions& options) {
+  ImportOptions import;
+  if (!options.up.empty()) import.up = parse_up_axis(options.up);
+  import.unit = parse_length_unit(options.unit);
+  import.ignore = options.ignore;
+  Progress progress("reading " + options.names(), "B");
+  import.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total);
+};
+return import_scene(options.scenes, import);
+}  // namespace
+
+World index(const SceneOptions& options, const Scene& scene) {
+  Progress progress("indexing", "triangles");
+  BuildOptions build;
+  build.threads = options.threads;
+  build.lossless = options.lossless;
+  build.progress = [&](double fraction) {
+    const auto done = static_cast<double>(scene.report.triangles) * fraction;
+    return progress.goes_on(static_cast<std::uint64_t>(done), scene.report.triangles);
+  };
+  return World::build(scene.meshes, build);
+}
+
+}  // namespace roam::app
+
+void SceneOptions::add_to(CLI::App& verb) {
+  verb.add_option("SCENE", scenes, "Files, or folders of photogrammetry tiles; several make one scene")
+      ->required()
+      ->type_name("");
+  verb.add_option("--up", up, "Axis that points up in the file (default: z; y for glTF)")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->type_name("x|y|z");
+  verb.add_option("--unit", unit, "Length of 1 in the file (default: m)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "ft", "in"}))
+      ->type_name("m|cm|mm|ft|in");
+  verb.add_option("--ignore", ignore, "Leave out objects whose name matches, e.g. --ignore 'Door*'; may be repeated")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->take_all();
+  verb.add_flag("--lossless", lossless, "Answer hits within 1e-5 m instead of 2 mm; takes more memory");
+  verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+}
+
+std::string SceneOptions::names() const {
+  std::string text;
+  for (const auto& scene : scenes) text += (text.empty() ? "" : ", ") + scene.string();
+  return text;
+}
+
+LoadedScene load(const SceneOptions& options, Source source) {
+  const auto start = std::chrono::steady_clock::now();
+  Scene scene = read(options);
+  for (const std::string& note : scene.report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  LoadedScene loaded;
+  loaded.read_seconds = seconds_since(start);
+  stop_if_interrupted();
+
+  const auto indexing = std::chrono::steady_clock::now();
+  loaded.world = index(options, scene);
+  loaded.build_seconds = seconds_since(indexing);
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Vec3& vertex : mesh.vertices) loaded.bounds.include(vertex);
+  }
+  if (source == Source::keep) loaded.meshes = std::move(scene.meshes);
+  loaded.report = std::move(scene.report);
+  return loaded;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// The options by which every verb names its scene, and the way from them to a world.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "roam/import.h"
+#include "roam/world.h"
+
+namespace roam::app {
+
+struct SceneOptions {
+  std::vector<std::filesystem::path> scenes;
+  std::string up;
+  std::string unit = "m";
+  std::vector<std::string> ignore;
+  bool lossless = false;
+  int threads = 0;
+
+  /// Adds SCENE..., --up, --unit, --ignore, --lossless and --threads.
+  void add_to(CLI::App& verb);
+  /// The file names for people, separated by ", ".
+  [[nodiscard]] std::string names() const;
+};
+
+/// A scene that was read and indexed.
+struct LoadedScene {
+  World world;
+  std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
+  ImportReport report;
+  Box bounds;  ///< of the triangles as read
+  double read_seconds = 0.0;
+  double build_seconds = 0.0;
+};
+
+/// What becomes of the triangles as read once the world is built.
+enum class Source : std::uint8_t { keep, release };
+
+/// Reads and indexes, with progress and the import's notes on standard error. Throws what import_scene and
+/// World::build throw.
+[[nodiscard]] LoadedScene load(const SceneOptions& options, Source source);
+
+}  // namespace roam::app

@@ -1,0 +1,171 @@
+// roam sweep: answers queries from standard input.
+#include <fmt/format.h>
+#include <poll.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <optional>
+#include <thread>
+
+#include "interrupt.h"
+#include "roam/error.h"
+#include "scene_options.h"
+#include "sweep_rows.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+// Large enough that handing a chunk from thread to thread costs nothing, small enough that answers flow.
+constexpr std::size_t chunk_bytes = 64 * 1024;
+// Longer than any row of numbers; what has no end of line in so much is not text.
+constexpr std::size_t longest_row = 4096;
+// How soon an error is told while the other end of the pipe waits for answers.
+constexpr int poll_milliseconds = 50;
+
+/// Whole rows of the input.
+struct Rows {
+  std::string text;
+  std::uint64_t first_line = 1;
+};
+
+/// The answers to Rows, up to the first row that has none.
+struct Answers {
+  std::string text;
+  std::optional<std::string> error;
+};
+
+/// Cuts standard input into chunks of whole rows, as they arrive: a script that writes one row and waits gets its
+/// answer.
+class RowReader {
+ public:
+  /// Empty at the end of the input, and when `stop` became true.
+  Rows next(const std::atomic<bool>& stop) {
+    Rows rows;
+    rows.first_line = line_;
+    while (!ended_ && !stop) {
+      pollfd input{STDIN_FILENO, POLLIN, 0};
+      const int ready = ::poll(&input, 1, poll_milliseconds);
+      stop_if_interrupted();
+      if (ready <= 0) continue;
+      const std::size_t old = rest_.size();
+      rest_.resize(old + chunk_bytes);
+      const ssize_t got = ::read(STDIN_FILENO, rest_.data() + old, chunk_bytes);
+      rest_.resize(old + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+      if (got < 0 && errno != EINTR) throw Error(std::string("cannot read the queries: ") + std::strerror(errno));
+      if (got == 0) {
+        ended_ = true;
+        rows.text = std::move(rest_);
+        rest_.clear();
+        return rows;
+      }
+      const std::size_t end = rest_.rfind('\n');
+      if (end != std::string::npos) {
+        rows.text = rest_.substr(0, end + 1);
+        rest_.erase(0, end + 1);
+        line_ += static_cast<std::uint64_t>(std::count(rows.text.begin(), rows.text.end(), '\n'));
+        return rows;
+      }
+      if (rest_.size() > longest_row) throw Error(fmt::format("line {}: too long for a query", line_));
+    }
+    return rows;
+  }
+
+ private:
+  std::string rest_;
+  std::uint64_t line_ = 1;
+  bool ended_ = false;
+};
+
+Answers answer(const World& world, const Rows& rows) {
+  Answers answers;
+  std::string_view text = rows.text;
+  for (std::uint64_t line = rows.first_line; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (is_blank(row)) continue;
+    try {
+      if (line == 1 && is_query_header(row)) continue;
+      const SweepQuery query = parse_query(row);
+      append_answer(answers.text, world.sweep(query.body, query.from, query.motion));
+    } catch (const Error& error) {
+      answers.error = fmt::format("line {}: {}", line, error.what());
+      return answers;
+    }
+  }
+  return answers;
+}
+
+void write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = ::write(STDOUT_FILENO, text.data(), text.size());
+    if (put < 0) {
+      if (errno == EPIPE) throw BrokenPipe();
+      if (errno != EINTR) throw Error(std::string("cannot write the answers: ") + std::strerror(errno));
+      stop_if_interrupted();
+      continue;
+    }
+    text.remove_prefix(static_cast<std::size_t>(put));
+  }
+}
+
+ExitStatus sweep(const SceneOptions& options) {
+  const LoadedScene scene = load(options, Source::release);
+  const int threads =
+      options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+
+  write(answer_header);
+  RowReader reader;
+  std::atomic<bool> failed_row{false};
+  const auto read = [&](tbb::flow_control& flow) {
+    Rows rows = reader.next(failed_row);
+    if (rows.text.empty()) flow.stop();
+    return rows;
+  };
+  const auto work = [&](const Rows& rows) {
+    Answers answers = answer(scene.world, rows);
+    if (answers.error) failed_row = true;
+    return answers;
+  };
+  const auto put = [&](const Answers& answers) {
+    write(answers.text);
+    if (answers.error) throw Error(*answers.error);
+  };
+  tbb::parallel_pipeline(static_cast<std::size_t>(4 * threads),
+                         tbb::make_filter<void, Rows>(tbb::filter_mode::serial_in_order, read) &
+                             tbb::make_filter<Rows, Answers>(tbb::filter_mode::parallel, work) &
+                             tbb::make_filter<Answers, void>(tbb::filter_mode::serial_in_order, put));
+  return done;
+}
+
+constexpr const char* help =
+    "Reads queries from standard input, one a line, and writes one answer a line in the same order:\n"
+    "  in   x,y,z,dx,dy,dz,radius[,half_height]   a header of these names may come first\n"
+    "  out  hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance\n"
+    "The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of\n"
+    "a vertical capsule's axis; 0, or left out, is a sphere. distance is a certified lower bound of the gap between\n"
+    "the body and the scene: at t for a hit, over the whole motion for a miss. A row that cannot be read ends the\n"
+    "program with status 1 and a message that names its line.\n\n"
+    "Examples:\n"
+    "  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae\n"
+    "  roam sweep --lossless gallery.ply < queries.csv > answers.csv\n";
+
+}  // namespace
+
+void add_sweep(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("sweep", "Answers sweeps of a body through a scene, from CSV to CSV");
+  verb->footer(help);
+  const auto options = std::make_shared<SceneOptions>();
+  options->add_to(*verb);
+  verb->callback([options, &run] { run = [options] { return sweep(*options); }; });
+}
+
+}  // namespace roam::app

@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// Checking a walk against every triangle of the scene, in higher precision and without the index.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roam/mesh.h"
+#include "roam/world.h"
+
+namespace roam::app {
+
+/// One straight move of the body, or its rest when `from` equals `to`.
+struct Piece {
+  std::uint64_t step = 0;   ///< of the walk
+  Vec3 from{0.0}, to{0.0};  ///< of the body's centre
+  Body body;
+  double clearance = 0.0;  ///< what the walk certified: the body's axis stays at least so far from everything, m
+};
+
+/// Where the body was nearer to a triangle than it may be.
+struct Violation {
+  std::uint64_t step = 0;
+  TriangleId triangle = 0;
+  double distance = 0.0;  ///< of the body's axis, m
+  double radius = 0.0;
+};
+
+/// By how much less than the radius a distance may be before it is a violation, in metres: what World promises.
+inline constexpr double radius_slack = 1e-6;
+/// By how much more than the true clearance a certified one may seem to be, in metres. A certificate has no slack; this
+/// is far more than long doubles round anywhere within 6.4e6 m, and far less than anybody could mind.
+inline constexpr double certificate_slack = 1e-9;
+
+struct Verification {
+  std::uint64_t pieces = 0;
+  std::uint64_t distances = 0;   ///< that were computed; all other triangles' boxes were farther than need be
+  std::uint64_t violations = 0;  ///< steps on which the axis came nearer to a triangle than the radius
+  std::uint64_t overstated = 0;  ///< steps whose certified clearance is more than the true one
+  /// The least distance of the axis less the radius, metres; none when no triangle came near.
+  std::optional<double> least_gap;
+  std::optional<Violation> worst;
+};
+
+/// Checks every piece against every triangle of `meshes`. A triangle is passed over only when its box is farther from
+/// the box of the piece than both the radius and the certified clearance; boxes are compared in doubles that are
+/// rounded outward. Whatever is left is measured by swept_distance. Independent of World.
+///
+/// Uses all cores; `progress` is called with the pieces done, from one thread at a time, and cancels by returning false
+/// (roam::Cancelled).
+[[nodiscard]] Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
+                                  const std::function<bool(std::uint64_t)>& progress = {});
+
+}  // namespace roam::app

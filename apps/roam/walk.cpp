@@ -1,0 +1,268 @@
+// roam walk: sends a body through a scene and tells how it went.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "interrupt.h"
+#include "progress.h"
+#include "roam/error.h"
+#include "roam/path_file.h"
+#include "roam/route.h"
+#include "scene_options.h"
+#include "verbs.h"
+#include "walk_record.h"
+#include "walk_report.h"
+#include "wander.h"
+
+namespace roam::app {
+namespace {
+
+struct WalkOptions {
+  SceneOptions scene;
+  std::filesystem::path path;
+  std::optional<double> wander;  ///< seconds
+  std::string mode = "walk";
+  WalkerSettings settings;
+  std::optional<double> height;
+  std::optional<double> eye;
+  std::optional<double> step;
+  RouteOptions route;
+  std::filesystem::path trace;
+  bool verify = false;
+  bool json = false;
+
+  [[nodiscard]] Mode walker_mode() const {
+    return mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
+  }
+};
+
+/// The options as they are meant: the height that follows from the radius, the eye that follows from the height.
+/// Throws UsageError for what cannot be.
+WalkerSettings walker_settings(const WalkOptions& options) {
+  constexpr double sphere = 2.0;  // height of a sphere in radii
+  WalkerSettings settings = options.settings;
+  settings.height = options.height.value_or(sphere * settings.radius);
+  settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
+  settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+  settings.speed = options.route.speed;
+  try {
+    check(settings);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  return settings;
+}
+
+/// Takes down every step while a walk goes on.
+class Recorder {
+ public:
+  Recorder(const WalkOptions& options, double expected_steps)
+      : options_(options),
+        progress_(name(options.walker_mode()) + std::string("ing"), "steps"),
+        expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
+    if (!options.trace.empty()) trace_.emplace(options.trace);
+  }
+
+  void start(const StepReport& report) { take(report); }
+
+  /// Runs one step and takes it down.
+  template <class Step>
+  const StepReport& step(const Step& run) {
+    const auto begin = std::chrono::steady_clock::now();
+    const StepReport& report = run();
+    const auto took = std::chrono::steady_clock::now() - begin;
+    nanoseconds_.push_back(static_cast<std::uint32_t>(
+        std::min<std::int64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(took).count(),
+                               std::numeric_limits<std::uint32_t>::max())));
+    ++steps_;
+    take(report);
+    time_ += report.elapsed;
+    progress_.at(steps_, std::max(steps_, expected_steps_));
+    return report;
+  }
+
+  void finish() {
+    if (trace_) trace_->close();
+  }
+  [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  void take(const StepReport& report) {
+    if (trace_) trace_->add(steps_, time_, options_.settings.radius, report);
+    if (options_.verify) append_pieces(pieces_, steps_, options_.settings.radius, report);
+  }
+
+  const WalkOptions& options_;
+  Progress progress_;
+  std::uint64_t expected_steps_;
+  std::optional<TraceFile> trace_;
+  std::vector<std::uint32_t> nanoseconds_;
+  std::vector<Piece> pieces_;
+  std::uint64_t steps_ = 0;
+  double time_ = 0.0;
+};
+
+double path_length(std::span<const Vec3> points) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += glm::distance(points[i - 1], points[i]);
+  return sum;
+}
+
+/// Along the waypoints without collision: shows where a path leads.
+RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
+  RouteResult result;
+  result.waypoints = 1;
+  for (const Vec3& waypoint : waypoints.subspan(1)) {
+    double seconds = glm::distance(walker.position(), waypoint) / options.speed;
+    while (seconds > 0.0) {
+      const double dt = std::min(seconds, options.dt);
+      const Vec3 velocity = (waypoint - walker.position()) / seconds;
+      const StepReport& report =
+          recorder.step([&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); });
+      result.length += glm::distance(report.from, report.to);
+      result.simulated += dt;
+      ++result.steps;
+      seconds = dt < seconds ? seconds - dt : 0.0;
+    }
+    ++result.waypoints;
+  }
+  result.end = walker.position();
+  return result;
+}
+
+RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
+  Route route(walker, waypoints, options);
+  recorder.start(walker.report());
+  while (!route.done()) recorder.step([&]() -> const StepReport& { return route.advance(); });
+  return route.result();
+}
+
+std::vector<Vec3> waypoints(const std::filesystem::path& file) {
+  std::vector<Vec3> points;
+  for (const Waypoint& waypoint : load_path(file)) points.push_back(waypoint.position);
+  return points;
+}
+
+Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces) {
+  Progress progress("verifying", "pieces");
+  return verify(scene.meshes, pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
+}
+
+ExitStatus walk(WalkOptions options) {
+  options.settings = walker_settings(options);
+  const Mode mode = options.walker_mode();
+  if (options.verify && mode == Mode::ghost) {
+    throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
+  }
+  if (options.wander && mode == Mode::ghost) {
+    throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
+  }
+  std::vector<Vec3> path;
+  if (!options.path.empty()) path = waypoints(options.path);
+  std::optional<tbb::global_control> limit;
+  if (options.scene.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
+  }
+  const LoadedScene scene = load(options.scene, options.verify ? Source::keep : Source::release);
+
+  const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
+  Recorder recorder(options, seconds / options.route.dt);
+  const Vec3 start = options.wander ? wander_start(scene.world, options.settings, mode) : path.front();
+  Walker walker(scene.world, options.settings, mode, start);
+  WalkReport report;
+  if (options.wander) {
+    Wander wander(walker, options.route, *options.wander);
+    recorder.start(walker.report());
+    while (!wander.done()) {
+      wander.look();
+      recorder.step([&]() -> const StepReport& { return wander.advance(); });
+    }
+    report.result = wander.result();
+  } else if (mode == Mode::ghost) {
+    recorder.start(walker.report());
+    report.result = haunt(walker, path, options.route, recorder);
+  } else {
+    report.result = follow(walker, path, options.route, recorder);
+  }
+  recorder.finish();
+
+  report.scene = options.scene.names();
+  report.triangles = scene.world.stats().triangles;
+  report.mode = mode;
+  report.settings = options.settings;
+  report.waypoints = path.size();
+  report.eye = walker.eye();
+  if (report.result.blocked_at) report.object = scene.world.object_name(report.result.blocked_at->triangle);
+  report.times = recorder.times();
+  if (options.verify) {
+    const auto begin = std::chrono::steady_clock::now();
+    report.verified = verified(scene, recorder.pieces());
+    report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  if (options.json) {
+    print(json_report(report));
+  } else {
+    print(text_report(report));
+  }
+  return report.result.outcome == Outcome::reached ? done : answer_no;
+}
+
+constexpr const char* help =
+    "Sends a body along a path and tells how it ended: reached, blocked where and by what, fell, left_scene or held;\n"
+    "how near it came to anything, certified; and how long its steps took. Exit status 0 when reached, 3 when not.\n\n"
+    "A path file holds waypoints `x y z`, one a line, or the lines `t x y z qx qy qz qw` that osgViewer records; "
+    "times\n"
+    "and rotations are not used, --speed and --dt say how it is walked. Positions are of the body's centre. A "
+    "waypoint\n"
+    "counts as reached within the body's radius, and, walking, within the step height above and below.\n\n"
+    "Examples:\n"
+    "  roam walk mine.dae --path tour.path\n"
+    "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
+    "  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv\n"
+    "  roam walk Terrain/ --wander 60 --height 1.8 --verify\n";
+
+}  // namespace
+
+void add_walk(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("walk", "Sends a body through a scene and tells how it went");
+  verb->footer(help);
+  const auto options = std::make_shared<WalkOptions>();
+  WalkOptions& o = *options;
+  o.scene.add_to(*verb);
+  auto* ways = verb->add_option_group("Way", "One of");
+  ways->add_option("--path", o.path, "Waypoints to go along")->type_name("FILE");
+  ways->add_option("--wander", o.wander,
+                   "Without a path: start where there is most room and go where the body has been least")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  ways->require_option(1);
+  verb->add_option("--mode", o.mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
+      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
+      ->type_name("MODE");
+  verb->add_option("--radius", o.settings.radius, "Of the body, in metres (default: 0.3)")->type_name("R");
+  verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")->type_name("H");
+  verb->add_option("--eye", o.eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H)")
+      ->type_name("E");
+  verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
+      ->type_name("M");
+  verb->add_option("--slope", o.settings.slope_degrees, "What walking climbs, in degrees (default: 45)")
+      ->type_name("DEG");
+  verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("V");
+  verb->add_option("--dt", o.route.dt, "Of one step, in seconds (default: 1/60)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  verb->add_option("--trace", o.trace, "Write every step to a CSV file")->type_name("FILE");
+  verb->add_flag("--verify", o.verify,
+                 "Check every move against all triangles, in higher precision, without the index");
+  verb->add_flag("--json", o.json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return walk(*options); }; });
+}
+
+}  // namespace roam::app

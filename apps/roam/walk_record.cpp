@@ -1,0 +1,78 @@
+#include "walk_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+// Rows are handed to the file in blocks: a row a write would cost more than the step it tells of.
+constexpr std::size_t block_bytes = 1 << 16;
+
+std::string joined_events(const StepReport& report) {
+  std::string text;
+  for (const Event& event : report.events) text += (text.empty() ? "" : "+") + std::string(name(event.kind));
+  return text;
+}
+
+}  // namespace
+
+TraceFile::TraceFile(std::filesystem::path file) : path_(std::move(file)), out_(path_) {
+  if (!out_) throw Error("cannot write the trace " + path_.string() + "; check its folder and permissions");
+  rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
+}
+
+void TraceFile::add(std::uint64_t step, double step_start, double radius, const StepReport& report) {
+  const auto row = [&](double time, const Vec3& p, double height, double clearance, std::size_t contacts,
+                       const std::string& events, bool teleport) {
+    fmt::format_to(std::back_inserter(rows_), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}\n",
+                   step, time, p.x, p.y, p.z, radius, height, clearance, contacts, events, teleport ? 1 : 0);
+  };
+  const std::string events = joined_events(report);
+  for (const Corner& corner : report.corners) {
+    const bool last = &corner == &report.corners.back();
+    row(step_start + corner.time, corner.position, corner.height, corner.clearance, last ? report.contacts.total() : 0,
+        last ? events : std::string(), corner.teleport);
+  }
+  if (report.corners.empty()) {
+    row(step_start + report.elapsed, report.to, report.height, report.clearance, report.contacts.total(), events,
+        false);
+  }
+  if (rows_.size() >= block_bytes) {
+    out_ << rows_;
+    rows_.clear();
+  }
+}
+
+void TraceFile::close() {
+  out_ << rows_;
+  rows_.clear();
+  out_.close();
+  if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
+}
+
+void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report) {
+  Vec3 from = report.from;
+  for (const Corner& corner : report.corners) {
+    if (corner.teleport) from = corner.position;
+    pieces.push_back({step, from, corner.position, Body::capsule(radius, corner.height), corner.clearance});
+    from = corner.position;
+  }
+  pieces.push_back({step, report.to, report.to, Body::capsule(radius, report.height), report.clearance});
+}
+
+StepTimes summarize(std::vector<std::uint32_t> nanoseconds) {
+  if (nanoseconds.empty()) return {};
+  std::sort(nanoseconds.begin(), nanoseconds.end());
+  const std::size_t last = nanoseconds.size() - 1;
+  const auto at = [&](double fraction) {
+    return static_cast<double>(nanoseconds[static_cast<std::size_t>(fraction * static_cast<double>(last))]);
+  };
+  return {at(0.5), at(0.99), at(1.0)};
+}
+
+}  // namespace roam::app

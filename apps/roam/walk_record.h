@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// What is kept of a walk while it goes on: its trace, the time of each step, and its pieces for --verify.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "roam/walker.h"
+#include "verification.h"
+
+namespace roam::app {
+
+/// Writes `--trace`: a row for the start and one or more for each step. A step whose way has corners has a row for each
+/// of them; contacts and events stand in its last row, several events joined by `+`. `clearance` is certified all along
+/// the straight piece that ends in its row; 0 where nothing is certified.
+class TraceFile {
+ public:
+  explicit TraceFile(std::filesystem::path file);
+
+  /// `step_start` is the time in seconds when the step began.
+  void add(std::uint64_t step, double step_start, double radius, const StepReport& report);
+  /// Throws roam::Error when not all could be written.
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+  std::string rows_;
+};
+
+/// The pieces of one step, for verify(): each straight piece of its way, or its place when it did not move.
+void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report);
+
+/// The times of steps in nanoseconds.
+struct StepTimes {
+  double median = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+/// Zeros when there was no step.
+[[nodiscard]] StepTimes summarize(std::vector<std::uint32_t> nanoseconds);
+
+}  // namespace roam::app

@@ -1,0 +1,151 @@
+#include "walk_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "progress.h"
+
+namespace roam::app {
+namespace {
+
+std::string at(const Vec3& p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
+
+std::string quoted(const std::string& object) {
+  return object.empty() ? "an object without a name" : "\"" + object + "\"";
+}
+
+/// Where the first event of a kind was.
+std::optional<Vec3> first(const RouteResult& result, EventKind kind) {
+  const auto found = std::find_if(result.events.begin(), result.events.end(),
+                                  [kind](const RouteEvent& e) { return e.event.kind == kind; });
+  if (found == result.events.end()) return std::nullopt;
+  return found->event.point;
+}
+
+std::string explain_blocked(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  if (!result.blocked_at) return fmt::format("came no nearer to the next waypoint at {}", at(result.end));
+  const Blockage& blockage = *result.blocked_at;
+  std::string text = fmt::format("blocked at {} by {} (triangle {}), touched at {}", at(result.end),
+                                 quoted(report.object), blockage.triangle, at(blockage.point));
+  if (blockage.opening) {
+    text += fmt::format("; the opening there is {:.3f} m, the body needs {:.3f} m across and {:.3f} m in height",
+                        *blockage.opening, 2.0 * report.settings.radius, report.settings.height);
+  } else if (report.mode == Mode::walk && blockage.normal.z < 0.5) {
+    text += "; there is no opening: lead the path around it";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string explain(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  switch (result.outcome) {
+    case Outcome::reached:
+      if (report.waypoints == 0)
+        return fmt::format("wandered until the time was over, and ended at {}", at(result.end));
+      return fmt::format("reached the last of {} waypoints at {}", report.waypoints, at(result.end));
+    case Outcome::blocked:
+      return explain_blocked(report);
+    case Outcome::left_scene:
+      return fmt::format("left the scene at {}: nothing lies ahead of it any more; is the path in the scene's frame?",
+                         at(result.end));
+    case Outcome::fell: {
+      const Vec3 from = first(result, EventKind::fell).value_or(result.end);
+      return fmt::format(
+          "fell at {}: the ground ends there, or has a gap that a radius of {} m does not bridge; a larger radius may",
+          at(from), report.settings.radius);
+    }
+    case Outcome::held:
+      if (result.steps == 0) {
+        return fmt::format(
+            "does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close by; "
+            "move the first waypoint or take a smaller radius",
+            at(result.end));
+      }
+      return fmt::format("held at {}: there is no ground below to stand on; move the waypoint onto the ground, or fly",
+                         at(result.end));
+  }
+  return {};
+}
+
+Json json_report(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  Json blocked = nullptr;
+  if (result.blocked_at) {
+    blocked = {{"point", to_json(result.blocked_at->point)},
+               {"normal", to_json(result.blocked_at->normal)},
+               {"triangle", result.blocked_at->triangle},
+               {"object", report.object},
+               {"opening_m", nullptr}};
+    if (result.blocked_at->opening) blocked["opening_m"] = *result.blocked_at->opening;
+  }
+  Json events = Json::array();
+  for (const RouteEvent& e : result.events) {
+    events.push_back({{"step", e.step}, {"kind", name(e.event.kind)}, {"point", to_json(e.event.point)}});
+  }
+  Json json = {{"scene", report.scene},
+               {"triangles", report.triangles},
+               {"mode", name(report.mode)},
+               {"radius", report.settings.radius},
+               {"height", report.settings.height},
+               {"outcome", name(result.outcome)},
+               {"why", explain(report)},
+               {"length_m", result.length},
+               {"steps", result.steps},
+               {"simulated_s", result.simulated},
+               {"step_ns", {{"median", report.times.median}, {"p99", report.times.p99}, {"max", report.times.max}}},
+               {"least_clearance_m", result.least_clearance},
+               {"violations", nullptr},
+               {"throttled", result.throttled},
+               {"blocked_at", blocked},
+               {"waypoints_reached", result.waypoints},
+               {"end", {{"position", to_json(result.end)}, {"eye", to_json(report.eye)}}},
+               {"verified", nullptr},
+               {"events", events}};
+  if (report.verified) {
+    const Verification& v = *report.verified;
+    json["violations"] = v.violations;
+    json["verified"] = {{"pieces", v.pieces},
+                        {"distances", v.distances},
+                        {"least_gap_m", nullptr},
+                        {"overstated_clearances", v.overstated},
+                        {"seconds", report.verify_seconds}};
+    if (v.least_gap) json["verified"]["least_gap_m"] = *v.least_gap;
+  }
+  return json;
+}
+
+std::string text_report(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  std::string text = fmt::format("{}: {}\n", name(result.outcome), explain(report));
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<17}{}\n", what, value);
+  };
+  line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
+  line("body",
+       fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));
+  line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
+  if (report.mode != Mode::ghost) {
+    line("least clearance", fmt::format("{:.6f} m from its axis, {:.6f} m from its surface (certified)",
+                                        result.least_clearance, result.least_clearance - report.settings.radius));
+  }
+  line("time of a step", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us at most", report.times.median * 1e-3,
+                                     report.times.p99 * 1e-3, report.times.max * 1e-3));
+  if (result.throttled > 0) line("throttled", fmt::format("{} steps ended early", result.throttled));
+  if (report.verified) {
+    const Verification& v = *report.verified;
+    line("verified", fmt::format("{} violations in {} straight pieces against all triangles, {}", v.violations,
+                                 v.pieces, short_time(report.verify_seconds)));
+    if (v.overstated > 0) line("", fmt::format("{} steps claim more clearance than there is", v.overstated));
+    if (v.worst) {
+      line("", fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {} m", v.worst->step, v.worst->distance,
+                           v.worst->triangle, v.worst->radius));
+    }
+  }
+  return text;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// What `roam walk` prints.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "report.h"
+#include "roam/route.h"
+#include "verification.h"
+#include "walk_record.h"
+
+namespace roam::app {
+
+struct WalkReport {
+  std::string scene;  ///< the file names
+  std::uint64_t triangles = 0;
+  Mode mode = Mode::walk;
+  WalkerSettings settings;
+  RouteResult result;
+  std::size_t waypoints = 0;  ///< of the path; 0 when wandering
+  Vec3 eye{0.0};              ///< the camera at the end
+  std::string object;         ///< the name of what blocked, if it was blocked by a contact
+  StepTimes times;
+  std::optional<Verification> verified;
+  double verify_seconds = 0.0;
+};
+
+/// One sentence or two that say how the walk ended, and what can be done where it did not reach its end.
+[[nodiscard]] std::string explain(const WalkReport& report);
+
+[[nodiscard]] Json json_report(const WalkReport& report);
+[[nodiscard]] std::string text_report(const WalkReport& report);
+
+}  // namespace roam::app

@@ -1,0 +1,247 @@
+#include "wander.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+constexpr int columns_a_side = 48;      // of the grid that looks for a start
+constexpr int most_floors = 64;         // that are looked at in a column
+constexpr double lift = 0.05;           // m, a start is looked for so high above a floor, then let down
+constexpr double floor_gap = 0.01;      // m, the next floor of a column is looked for so far below the last
+constexpr double ceiling_reach = 30.0;  // m, above which a ceiling is the sky
+constexpr double room_reach = 10.0;     // m, farther is free enough
+constexpr double fly_height = 2.0;      // m above the floor, where there is no ceiling to stay under
+
+constexpr int headings = 16;
+constexpr double stride = 0.5;     // m of one probe of the look ahead
+constexpr int most_strides = 24;   // 12 m: the next few corners of a corridor
+constexpr double cell_side = 1.0;  // m, a place that was visited
+// A leg that brings less than this share of free motion in this time is stuck.
+constexpr double stuck_share = 0.2;
+constexpr double stuck_seconds = 0.5;
+constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
+
+Vec3 level(int i, int count) {
+  const double angle = 2.0 * std::numbers::pi * i / count;
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+/// The body without its lowest part, which may step over what is lower than `step`; and how much higher its centre is.
+struct RaisedBody {
+  Body body;
+  double rise;
+};
+
+RaisedBody raised(const Body& body, double step) {
+  const double cut = std::min(step, 2.0 * body.half_height);
+  return {{body.radius, body.half_height - 0.5 * cut}, step - 0.5 * cut};
+}
+
+/// How far the body can go level from `place`, at most `reach`.
+double free_way(const World& world, const Body& body, double step, const Vec3& place, const Vec3& direction,
+                double reach) {
+  const RaisedBody high = raised(body, step);
+  return reach * world.sweep(high.body, place + Vec3(0, 0, high.rise), reach * direction).time;
+}
+
+struct Start {
+  Vec3 place{0.0};
+  double room = -1.0;
+};
+
+/// A place on the floor at `floor`, or in the air above it, and how much room there is.
+Start start_at(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
+  const Body body = Body::capsule(settings.radius, settings.height);
+  Start start;
+  const WorldSweep above = world.ray(floor + Vec3(0, 0, lift), {0, 0, ceiling_reach});
+  const double ceiling = above.hit ? lift + above.time * ceiling_reach : ceiling_reach;
+  if (mode == Mode::fly) {
+    start.place = floor + Vec3(0, 0, above.hit ? 0.5 * ceiling : fly_height + 0.5 * settings.height);
+  } else {
+    start.place = floor + Vec3(0, 0, 0.5 * settings.height + lift);
+  }
+  if (world.clearance(body, start.place, lift).distance <= 0.0) return start;
+  if (mode == Mode::walk) {
+    const Vec3 down{0, 0, -2.0 * lift - settings.radius};
+    const WorldSweep ground = world.sweep(body, start.place, down);
+    if (!ground.hit || ground.normal.z < std::cos(settings.slope_degrees * std::numbers::pi / 180.0)) return start;
+  }
+  start.room = 0.0;
+  constexpr int directions = 8;
+  for (int i = 0; i < directions; ++i) {
+    start.room +=
+        free_way(world, body, mode == Mode::walk ? settings.step : 0.0, start.place, level(i, directions), room_reach);
+  }
+  if (above.hit) start.room *= 2.0;
+  return start;
+}
+
+}  // namespace
+
+Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode) {
+  const Box& box = world.bounds();
+  const Vec3 size = box.size();
+  Start best;
+  for (int i = 0; i < columns_a_side; ++i) {
+    for (int j = 0; j < columns_a_side; ++j) {
+      Vec3 top{box.lower.x + size.x * (i + 0.5) / columns_a_side, box.lower.y + size.y * (j + 0.5) / columns_a_side,
+               box.upper.z + 1.0};
+      for (int floors = 0; floors < most_floors; ++floors) {
+        const double depth = top.z - box.lower.z + 1.0;
+        const WorldSweep down = depth > 0.0 ? world.ray(top, {0, 0, -depth}) : WorldSweep{};
+        if (!down.hit) break;
+        top.z -= down.time * depth;
+        const Start start = start_at(world, settings, mode, top);
+        if (start.room > best.room) best = start;
+        top.z -= floor_gap;
+      }
+    }
+  }
+  if (best.room < 0.0) {
+    throw Error(
+        fmt::format("found no free place for a body of radius {} m and height {} m; is the up axis right (--up)? "
+                    "Else take a smaller body, or lead it with --path",
+                    settings.radius, settings.height));
+  }
+  return best.place;
+}
+
+Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
+    : walker_(&walker), options_(options), seconds_(seconds) {
+  result_.least_clearance = walker.report().clearance;
+  result_.end = walker.position();
+  note(walker.report());
+}
+
+std::uint64_t Wander::cell(const Vec3& place) const {
+  constexpr std::uint64_t bits = 21;
+  constexpr std::uint64_t mask = (1ull << bits) - 1;
+  const Vec3 local = place - walker_->world().bounds().lower;
+  std::uint64_t key = 0;
+  for (int k = 0; k < 3; ++k) {
+    key =
+        key << bits | (static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(local[k] / cell_side))) & mask);
+  }
+  return key;
+}
+
+Wander::Look Wander::probe(const Vec3& direction) const {
+  const World& world = walker_->world();
+  const WalkerSettings& settings = walker_->settings();
+  const Body body = walker_->body();
+  const bool on_foot = walker_->mode() == Mode::walk;
+  // What a stride may climb, on a slope or up a kerb.
+  const double climb = stride * std::tan(settings.slope_degrees * std::numbers::pi / 180.0) + settings.step;
+  Look look;
+  Vec3 place = walker_->position();
+  for (int i = 0; i < most_strides; ++i) {
+    const double up = on_foot ? std::min(climb, settings.height) : 0.0;
+    const Vec3 high = place + Vec3(0, 0, up * world.sweep(body, place, {0, 0, up}).time);
+    const WorldSweep along = world.sweep(body, high, stride * direction);
+    if (along.hit && along.time * stride < 0.5 * stride) break;
+    Vec3 next = high + along.time * stride * direction;
+    if (on_foot) {
+      const double down = high.z - place.z + climb;
+      const WorldSweep ground = world.sweep(body, next, {0, 0, -down});
+      if (!ground.hit) break;
+      next.z -= ground.time * down;
+    }
+    look.way +=
+        glm::distance(Vec3(next.x, next.y, on_foot ? 0.0 : next.z), Vec3(place.x, place.y, on_foot ? 0.0 : place.z));
+    const auto visits = visits_.find(cell(next));
+    look.novelty += visits == visits_.end() ? 1.0 : 1.0 / (1.0 + visits->second);
+    place = next;
+    if (along.hit) break;
+  }
+  return look;
+}
+
+void Wander::look() {
+  const bool stuck = leg_seconds_ >= stuck_seconds && leg_length_ < stuck_share * options_.speed * leg_seconds_;
+  if (way_left_ > 0.0 && !stuck) return;
+  const bool fly = walker_->mode() == Mode::fly;
+  double best = -1.0;
+  Vec3 next = heading_;
+  for (const double pitch : {0.0, 0.5, -0.5}) {
+    if (pitch != 0.0 && !fly) break;
+    for (int i = 0; i < headings; ++i) {
+      const Vec3 direction = glm::normalize(level(i, headings) + Vec3(0, 0, pitch));
+      // Where the body got stuck it does not try the same again.
+      if (stuck && glm::dot(direction, heading_) > 0.9) continue;
+      const Look seen = probe(direction);
+      // Going on as before is worth a little: fewer turns, longer ways.
+      const double score = seen.novelty * (1.0 + 0.1 * glm::dot(direction, heading_));
+      if (score <= best) continue;
+      best = score;
+      way_left_ = std::max(seen.way, stride);
+      next = direction;
+    }
+  }
+  heading_ = next;
+  leg_seconds_ = 0.0;
+  leg_length_ = 0.0;
+}
+
+const StepReport& Wander::advance() {
+  const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);
+  ++result_.steps;
+  result_.simulated += report.elapsed;
+  Vec3 last = report.from;
+  double moved = 0.0;
+  for (const Corner& corner : report.corners) {
+    if (!corner.teleport) moved += glm::distance(last, corner.position);
+    last = corner.position;
+  }
+  result_.length += moved;
+  leg_length_ += moved;
+  leg_seconds_ += report.elapsed;
+  way_left_ -= moved;
+  note(report);
+  if (result_.simulated >= seconds_) done_ = true;
+  return report;
+}
+
+void Wander::note(const StepReport& report) {
+  result_.end = report.to;
+  result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
+  if (report.has(EventKind::throttled)) ++result_.throttled;
+  std::uint32_t kinds = 0;
+  for (const Event& event : report.events) {
+    const std::uint32_t bit = 1u << static_cast<unsigned>(event.kind);
+    kinds |= bit;
+    if ((last_kinds_ & bit) == 0) result_.events.push_back({result_.steps, event});
+  }
+  last_kinds_ = kinds;
+  const std::uint64_t here = cell(report.to);
+  if (here != last_cell_ || visits_.empty()) ++visits_[here];
+  last_cell_ = here;
+
+  held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;
+  if (held_seconds_ > held_limit) {
+    result_.outcome = Outcome::held;
+    done_ = true;
+  }
+  const Box& scene = walker_->world().bounds();
+  const Vec3 reach(walker_->settings().radius, walker_->settings().radius, 0.5 * report.height);
+  const Vec3 low = report.to - reach;
+  const Vec3 high = report.to + reach;
+  for (int k = 0; k < 3; ++k) {
+    // Above everything one may be flying or about to land.
+    const bool above = k == 2 && walker_->mode() == Mode::walk;
+    if (high[k] < scene.lower[k] || (low[k] > scene.upper[k] && !above)) {
+      result_.outcome = Outcome::left_scene;
+      done_ = true;
+    }
+  }
+}
+
+}  // namespace roam::app

@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// Roaming a scene of which no path is known: `roam walk --wander`.
+///
+/// A look ahead probes strides in all directions with the body itself and heads where it has been least; on the way
+/// it is the Walker that moves, as along any path. Nothing is random: the same scene and settings give the same walk.
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "roam/route.h"
+#include "roam/walker.h"
+
+namespace roam::app {
+
+/// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
+/// go farthest in eight directions, where floors with a ceiling count double, so that one starts in a tunnel instead of
+/// on top of it. Throws roam::Error when the body fits nowhere.
+[[nodiscard]] Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode);
+
+/// One walk without an aim. The walker must outlive it and be in walk or fly mode.
+class Wander {
+ public:
+  /// Goes for `seconds` with the speed and time step of `options`.
+  Wander(Walker& walker, const RouteOptions& options, double seconds);
+
+  [[nodiscard]] bool done() const { return done_; }
+  /// Chooses a new heading when the last one is used up. Moves nothing.
+  void look();
+  /// One step. Must not be called when done().
+  const StepReport& advance();
+  /// `reached` when the time is over; `held` when the body cannot move at all; `left_scene` as for a route.
+  [[nodiscard]] const RouteResult& result() const { return result_; }
+
+ private:
+  struct Look {
+    double way = 0.0;      ///< metres that are free
+    double novelty = 0.0;  ///< of the cells along it
+  };
+  [[nodiscard]] Look probe(const Vec3& direction) const;
+  [[nodiscard]] std::uint64_t cell(const Vec3& place) const;
+  void note(const StepReport& report);
+
+  Walker* walker_;
+  RouteOptions options_;
+  double seconds_;
+  RouteResult result_;
+  std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
+  std::uint64_t last_cell_ = 0;
+  Vec3 heading_{0.0};         ///< unit; zero before the first look
+  double way_left_ = 0.0;     ///< metres to go along heading_
+  double leg_seconds_ = 0.0;  ///< since the last look
+  double leg_length_ = 0.0;   ///< metres moved since
+  double held_seconds_ = 0.0;
+  std::uint32_t last_kinds_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace roam::app
