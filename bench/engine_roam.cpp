@@ -1,0 +1,26 @@
+#include <memory>
+
+#include "engine.h"
+#include "memory.h"
+#include "roam/world.h"
+
+namespace roam::bench {
+
+Engine make_roam(const Scene& scene) {
+  Engine engine{.name = "roam", .used = "World::sweep"};
+  const auto world = std::make_shared<World>();
+  engine.build_one = seconds([&] { *world = World::build(scene.meshes, {.threads = 1, .progress = {}}); });
+  *world = World();
+  const std::size_t before = allocated_bytes();
+  engine.build_two = seconds([&] { *world = World::build(scene.meshes, {.threads = 2, .progress = {}}); });
+  // What malloc counts, if it can be asked, so that nothing is forgotten that the world does not know of.
+  const std::size_t after = allocated_bytes();
+  engine.bytes = after > before ? after - before : world->stats().bytes;
+  engine.answer_with([world](const Query& query) {
+    const WorldSweep sweep = world->sweep(query.body, query.from, query.motion);
+    return Answer{sweep.hit, sweep.time};
+  });
+  return engine;
+}
+
+}  // namespace roam::bench

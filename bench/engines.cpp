@@ -1,0 +1,231 @@
+// roam beside other engines, on the same queries in one run. Wrong answers come before times.
+
+#include <benchmark/benchmark.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string_view>
+
+#include "engine.h"
+#include "judge.h"
+#include "query_sets.h"
+#include "roam/error.h"
+#include "scene.h"
+#include "timing.h"
+
+namespace {
+
+using namespace roam::bench;
+
+struct Options {
+  SceneChoice scene;
+  std::vector<double> origin{0.0, 0.0, 0.0};
+  std::vector<std::string> sets = query_set_names();
+  std::vector<std::string> engines;
+  std::size_t queries = 100000;
+  int rounds = 5;
+  double patience = 2.0;  // s
+};
+
+// One engine on one set.
+struct Run {
+  const Engine* engine = nullptr;
+  const QuerySet* set = nullptr;
+  std::size_t queries = 0;  // fewer than the set has when the engine is too slow for all
+  Verdict verdict;
+  std::vector<bool> hits;  // by the reference
+  Times times;
+};
+
+std::vector<Engine> build_engines(const Options& options, const Scene& scene) {
+  std::vector<std::string> wanted = options.engines;
+  if (wanted.empty()) {
+    for (const auto& [name, make] : engines()) wanted.push_back(name);
+  }
+  std::vector<Engine> built;
+  for (const std::string& name : wanted) {
+    const auto found = std::find_if(engines().begin(), engines().end(), [&](const auto& e) { return e.first == name; });
+    if (found == engines().end()) throw roam::Error("this build has no engine '" + name + "'");
+    built.push_back(found->second(scene));
+  }
+  return built;
+}
+
+// As many queries as the engine answers in the time that a round may take, by its speed on the first few.
+std::size_t affordable(const Engine& engine, const QuerySet& set, double patience) {
+  constexpr std::size_t first = 20;
+  const std::size_t tried = std::min(first, set.queries.size());
+  const double taken = seconds([&] {
+    for (std::size_t i = 0; i < tried; ++i) engine.sweep(set.queries[i]);
+  });
+  const double each = taken / static_cast<double>(tried);
+  const auto most = static_cast<std::size_t>(std::min(patience / each, 1e9));
+  return std::clamp(most, tried, set.queries.size());
+}
+
+Run judged(const Engine& engine, const QuerySet& set, const std::vector<Answer>& truth, const Reference& reference,
+           double patience) {
+  Run run{.engine = &engine,
+          .set = &set,
+          .queries = affordable(engine, set, patience),
+          .verdict = {},
+          .hits = {},
+          .times = {}};
+  std::vector<Answer> answers;
+  for (std::size_t i = 0; i < run.queries; ++i) {
+    answers.push_back(engine.sweep(set.queries[i]));
+    run.hits.push_back(truth[i].hit);
+  }
+  run.verdict = judge(answers, std::span(truth).first(run.queries), std::span(set.queries).first(run.queries),
+                      reference, engine.says_when);
+  return run;
+}
+
+void print_costs(std::FILE* out, const std::vector<Engine>& engines, const Scene& scene) {
+  std::fprintf(out, "%-30s %10s %10s %10s   %s\n", "engine", "B/triangle", "build 1, s", "build 2, s", "used");
+  for (const Engine& engine : engines) {
+    std::fprintf(out, "%-30s %10.1f %10.3f ", engine.name.c_str(),
+                 static_cast<double>(engine.bytes) / static_cast<double>(scene.triangles()), engine.build_one);
+    if (engine.build_two > 0) {
+      std::fprintf(out, "%10.3f", engine.build_two);
+    } else {
+      std::fprintf(out, "%10s", "-");
+    }
+    std::fprintf(out, "   %s\n", engine.used.c_str());
+  }
+  for (const std::string& name : absent_engines())
+    std::fprintf(out, "%-30s not installed when this was built\n", name.c_str());
+}
+
+void print_wrong(std::FILE* out, const std::vector<Run>& runs) {
+  std::fprintf(
+      out, "\nwrong answers: missed or late by more than %g mm of depth, early or false by more than %g mm of gap\n",
+      1e3 * depth_allowed, 1e3 * gap_allowed);
+  std::fprintf(out, "%-9s %-30s %8s %8s %8s %8s %8s %8s %12s\n", "set", "engine", "queries", "hits", "missed", "late",
+               "early", "false", "deepest, mm");
+  for (const Run& run : runs) {
+    const Verdict& v = run.verdict;
+    std::fprintf(out, "%-9s %-30s %8zu %8zu %8zu ", run.set->name.c_str(), run.engine->name.c_str(), v.queries, v.hits,
+                 v.missed);
+    if (run.engine->says_when) {
+      std::fprintf(out, "%8zu %8zu", v.late, v.early);
+    } else {
+      std::fprintf(out, "%8s %8s", "n/a", "n/a");
+    }
+    std::fprintf(out, " %8zu %12.3g\n", v.false_hits, 1e3 * v.deepest);
+  }
+  std::fprintf(out, "\n");
+  std::fflush(out);
+}
+
+void time_set(std::span<Run> runs, int rounds) {
+  std::vector<Ask> asked;
+  std::vector<std::size_t> queries;
+  for (const Run& run : runs) {
+    asked.push_back(run.engine->ask);
+    queries.push_back(run.queries);
+  }
+  std::vector<Times> times = time_in_turns(asked, queries, runs.front().set->queries, rounds);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].times = std::move(times[i]);
+}
+
+// Google Benchmark sees each query's time as one iteration, and prints the figures beside their mean, in seconds.
+void report(const Run& run) {
+  const Summary summary = summarize(run.times, run.hits);
+  benchmark::RegisterBenchmark((run.set->name + "/" + run.engine->name).c_str(),
+                               [&run, summary](benchmark::State& state) {
+                                 std::size_t i = 0;
+                                 for ([[maybe_unused]] const auto iteration : state) {
+                                   state.SetIterationTime(1e-9 * run.times[i++ % run.times.size()]);
+                                 }
+                                 constexpr double nano = 1e-9;
+                                 state.counters["p50"] = nano * summary.p50;
+                                 state.counters["p99"] = nano * summary.p99;
+                                 state.counters["hit_p50"] = nano * summary.hit_p50;
+                                 state.counters["max"] = nano * summary.most;
+                                 state.counters["wrong"] = static_cast<double>(run.verdict.wrong());
+                                 state.counters["missed"] = static_cast<double>(run.verdict.missed);
+                                 state.counters["late"] = static_cast<double>(run.verdict.late);
+                               })
+      ->UseManualTime()
+      ->Iterations(static_cast<benchmark::IterationCount>(run.times.size()))
+      ->Unit(benchmark::kNanosecond);
+}
+
+void run(const Options& options, std::FILE* out) {
+  const Scene scene = make_scene(options.scene);
+  std::fprintf(out, "%s; %d interleaved rounds, medians\n\n", scene.name.c_str(), options.rounds);
+  benchmark::AddCustomContext("scene", scene.name);
+  const Reference reference(scene.meshes);
+  const std::vector<Engine> built = build_engines(options, scene);
+  print_costs(out, built, scene);
+  for (const Engine& engine : built) {
+    benchmark::AddCustomContext(
+        engine.name + ", bytes a triangle",
+        std::to_string(static_cast<double>(engine.bytes) / static_cast<double>(scene.triangles())));
+    benchmark::AddCustomContext(engine.name + ", build on one thread, s", std::to_string(engine.build_one));
+    if (engine.build_two > 0)
+      benchmark::AddCustomContext(engine.name + ", build on two threads, s", std::to_string(engine.build_two));
+  }
+
+  std::vector<QuerySet> sets;
+  for (const std::string& name : options.sets) sets.push_back(make_queries(name, options.queries, reference));
+  std::vector<Run> runs;
+  for (const QuerySet& set : sets) {
+    std::vector<Answer> truth;
+    for (const Query& query : set.queries) truth.push_back(reference.sweep(query));
+    for (const Engine& engine : built) runs.push_back(judged(engine, set, truth, reference, options.patience));
+  }
+  print_wrong(out, runs);
+
+  for (std::size_t i = 0; i < runs.size(); i += built.size())
+    time_set(std::span(runs).subspan(i, built.size()), options.rounds);
+  for (const Run& r : runs) report(r);
+  benchmark::RunSpecifiedBenchmarks();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string tabular = "--benchmark_counters_tabular=true";
+  arguments.insert(arguments.begin() + 1, tabular.data());
+  // A format for programs has standard output to itself.
+  const bool for_people = std::none_of(arguments.begin(), arguments.end(), [](std::string_view a) {
+    return a.starts_with("--benchmark_format=") && !a.ends_with("=console");
+  });
+  int left = static_cast<int>(arguments.size());
+  benchmark::Initialize(&left, arguments.data());
+
+  Options options;
+  CLI::App app{
+      "Sweeps through one scene: roam beside other engines. Also takes Google Benchmark's --benchmark_* options"};
+  app.add_option("--scene", options.scene.scene, "gallery, terrain, or a file")->capture_default_str();
+  app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
+  app.add_option("--origin", options.origin, "where the scene's centre is moved, metres: x,y,z")
+      ->delimiter(',')
+      ->expected(3)
+      ->capture_default_str();
+  app.add_option("--sets", options.sets, "which query sets: random,coherent,long,capsule")->delimiter(',');
+  app.add_option("--engines", options.engines, "which engines: roam,bullet,embree,polytope,polytope-kdtree")
+      ->delimiter(',');
+  app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--rounds", options.rounds, "each query's time is the median over these")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--patience", options.patience,
+                 "seconds: an engine that needs longer for a set gets the first part of it")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, left, arguments.data());
+  options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
+  try {
+    run(options, for_people ? stdout : stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

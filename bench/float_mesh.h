@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// The scene as engines that compute in floats take it.
+
+#include <cstdint>
+#include <vector>
+
+#include "scene.h"
+
+namespace roam::bench {
+
+/// All triangles of a scene in one list.
+struct FloatMesh {
+  std::vector<float> vertices;         ///< x, y, z of each, in metres, rounded to nearest
+  std::vector<std::uint32_t> indices;  ///< three of each triangle
+
+  explicit FloatMesh(const Scene& scene);
+};
+
+}  // namespace roam::bench
