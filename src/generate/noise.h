@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// Counter-based noise: every value is a hash of the seed and of integers, so it needs no state, no order and no
+/// library. Only + - * / of doubles: the same bits on every machine.
+
+#include <cstdint>
+
+namespace roam::generate {
+
+/// Mixes 64 bits (the finalizer of splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// generators", 2014).
+[[nodiscard]] inline std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+[[nodiscard]] inline std::uint64_t hash(std::uint64_t seed, std::int64_t a, std::int64_t b = 0) {
+  return mix(mix(seed ^ static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b));
+}
+
+/// A hash as a number in [0, 1): its upper 53 bits.
+[[nodiscard]] inline double unit(std::uint64_t h) { return static_cast<double>(h >> 11) * 0x1p-53; }
+
+/// A number in [low, high) that depends on the seed and two integers.
+[[nodiscard]] inline double uniform(double low, double high, std::uint64_t seed, std::int64_t a, std::int64_t b = 0) {
+  return low + (high - low) * unit(hash(seed, a, b));
+}
+
+/// Largest integer that is not above x, for |x| < 2^62.
+[[nodiscard]] inline std::int64_t floor_int(double x) {
+  const auto i = static_cast<std::int64_t>(x);
+  return i - (static_cast<double>(i) > x);
+}
+
+/// 0 below 0, 1 above 1, and a curve without kinks between (3 x^2 - 2 x^3).
+[[nodiscard]] inline double smooth(double x) {
+  if (x <= 0.0) return 0.0;
+  if (x >= 1.0) return 1.0;
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// Value noise in [-1, 1] with features of size 1.
+[[nodiscard]] inline double value_noise(std::uint64_t seed, double x, double y) {
+  const std::int64_t i = floor_int(x), j = floor_int(y);
+  const double u = smooth(x - static_cast<double>(i)), v = smooth(y - static_cast<double>(j));
+  const double a = unit(hash(seed, i, j)), b = unit(hash(seed, i + 1, j));
+  const double c = unit(hash(seed, i, j + 1)), d = unit(hash(seed, i + 1, j + 1));
+  const double low = a + (b - a) * u, high = c + (d - c) * u;
+  return 2.0 * (low + (high - low) * v) - 1.0;
+}
+
+/// Gradient noise in about [-1, 1] with features of size 1 (Perlin, "Improving noise", 2002, in two dimensions with
+/// eight gradients).
+[[nodiscard]] inline double gradient_noise(std::uint64_t seed, double x, double y) {
+  const auto slope = [](std::uint64_t h, double dx, double dy) {
+    const double a = (h & 1u) ? dx : dy, b = (h & 1u) ? dy : dx;
+    const double weight = (h & 8u) ? 0.5 : 1.0;
+    return ((h & 2u) ? -a : a) + ((h & 4u) ? -b : b) * weight;
+  };
+  const auto fade = [](double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); };
+  const std::int64_t i = floor_int(x), j = floor_int(y);
+  const double dx = x - static_cast<double>(i), dy = y - static_cast<double>(j);
+  const double u = fade(dx), v = fade(dy);
+  const double a = slope(hash(seed, i, j), dx, dy), b = slope(hash(seed, i + 1, j), dx - 1.0, dy);
+  const double c = slope(hash(seed, i, j + 1), dx, dy - 1.0), d = slope(hash(seed, i + 1, j + 1), dx - 1.0, dy - 1.0);
+  const double low = a + (b - a) * u, high = c + (d - c) * u;
+  return low + (high - low) * v;
+}
+
+}  // namespace roam::generate

@@ -1,0 +1,205 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <string>
+
+#include "roam/error.h"
+#include "roam/generate.h"
+
+namespace roam::generate {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary PLY and STL are written as they lie in memory");
+
+/// A file that appears under its name only when it is complete, and not at all when it is not.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& path) : path_(path), temporary_(path.string() + ".part-XXXXXX") {
+    descriptor_ = ::mkstemp(temporary_.data());
+    if (descriptor_ < 0) {
+      temporary_.clear();
+      fail("created");
+    }
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+
+  void write_at(std::uint64_t offset, const char* data, std::size_t size) {
+    while (size > 0) {
+      const ssize_t n = ::pwrite(descriptor_, data, size, static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail("written");
+      data += n;
+      size -= static_cast<std::size_t>(n);
+      offset += static_cast<std::uint64_t>(n);
+    }
+  }
+
+  void finish() {
+    // mkstemp made the file for its owner alone; give it the rights that any new file gets.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0) fail("written");
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) fail("written");
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("put in its place");
+    temporary_.clear();
+  }
+
+ private:
+  [[noreturn]] void fail(const char* verb) const {
+    throw Error(fmt::format("{} cannot be {}: {}. Free some space or choose another place.", path_.string(), verb,
+                            std::strerror(errno)));
+  }
+
+  std::filesystem::path path_;
+  std::string temporary_;
+  int descriptor_ = -1;
+};
+
+/// One place of a file where data is appended, through a buffer.
+class Cursor {
+ public:
+  Cursor(NewFile& file, std::uint64_t offset) : file_(file), offset_(offset) { buffer_.reserve(capacity + slack); }
+
+  template <class T>
+  void put(const T& value) {
+    const char* bytes = reinterpret_cast<const char*>(&value);
+    buffer_.insert(buffer_.end(), bytes, bytes + sizeof value);
+    drain();
+  }
+  template <class... Arguments>
+  void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(buffer_), format, std::forward<Arguments>(arguments)...);
+    drain();
+  }
+  void flush() {
+    file_.write_at(offset_, buffer_.data(), buffer_.size());
+    offset_ += buffer_.size();
+    buffer_.clear();
+  }
+
+ private:
+  static constexpr std::size_t capacity = 1 << 20, slack = 1 << 12;
+  void drain() {
+    if (buffer_.size() >= capacity) flush();
+  }
+  NewFile& file_;
+  std::uint64_t offset_;
+  std::vector<char> buffer_;
+};
+
+void write_ply(const Scene& scene, NewFile& file, const Progress& progress) {
+  const std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment made by roam; metres, up is +z\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      scene.vertices(), scene.triangles());
+  file.write_at(0, header.data(), header.size());
+  // All numbers are known, so vertices and faces are written at once, each in its own place of the file.
+  Cursor vertices(file, header.size());
+  Cursor faces(file, header.size() + scene.vertices() * 3 * sizeof(double));
+  std::uint32_t first = 0;
+  scene.stream(
+      [&](const Mesh& mesh) {
+        for (const Vec3& v : mesh.vertices) vertices.put(std::array<double, 3>{v.x, v.y, v.z});
+        for (const auto& t : mesh.triangles) {
+          faces.put(std::uint8_t{3});
+          faces.put(std::array<std::uint32_t, 3>{first + t[0], first + t[1], first + t[2]});
+        }
+        first += static_cast<std::uint32_t>(mesh.vertices.size());
+      },
+      progress);
+  vertices.flush();
+  faces.flush();
+}
+
+void write_obj(const Scene& scene, NewFile& file, const Progress& progress) {
+  Cursor text(file, 0);
+  text.print("# made by roam; metres, up is +z; {} vertices, {} triangles\n", scene.vertices(), scene.triangles());
+  std::uint64_t first = 1;
+  scene.stream(
+      [&](const Mesh& mesh) {
+        text.print("o {}\n", mesh.name);
+        for (const Vec3& v : mesh.vertices) text.print("v {} {} {}\n", v.x, v.y, v.z);
+        for (const auto& t : mesh.triangles) text.print("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
+        first += mesh.vertices.size();
+      },
+      progress);
+  text.flush();
+}
+
+/// Rounding a coordinate to float moves it by half a unit in the last place at most: 2^-24 of the next power of two.
+constexpr double stl_coordinate_limit = 32768.0;  // there half a unit is 0.98 mm below and 1.95 mm above
+
+void write_stl(const Scene& scene, NewFile& file, const Progress& progress) {
+  std::array<char, 80> header{};
+  const std::string title = "binary STL made by roam; metres, up is +z";
+  std::copy(title.begin(), title.end(), header.begin());
+  Cursor data(file, 0);
+  data.put(header);
+  data.put(static_cast<std::uint32_t>(scene.triangles()));
+  scene.stream(
+      [&](const Mesh& mesh) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+          const Triangle t = mesh.triangle(i);
+          const Vec3 a = t[1] - t[0], b = t[2] - t[0];
+          const Vec3 n{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+          const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+          std::array<float, 12> facet;
+          for (int k = 0; k < 3; ++k) {
+            facet[static_cast<std::size_t>(k)] = static_cast<float>(n[k] / length);
+            for (int v = 0; v < 3; ++v) {
+              facet[static_cast<std::size_t>(3 + 3 * v + k)] = static_cast<float>(t[static_cast<std::size_t>(v)][k]);
+            }
+          }
+          data.put(facet);
+          data.put(std::uint16_t{0});
+        }
+      },
+      progress);
+  data.flush();
+}
+
+}  // namespace
+
+void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".ply" && extension != ".obj" && extension != ".stl") {
+    throw Error(fmt::format("{} cannot be written: its extension must be .ply, .obj or .stl.", path.string()));
+  }
+  if (extension == ".stl") {
+    const Box& box = scene.bounds();
+    double farthest = 0.0;
+    for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(box.lower[k]), std::fabs(box.upper[k])});
+    if (farthest > stl_coordinate_limit) {
+      throw Error(
+          fmt::format("{} cannot be written: STL holds floats, which are coarser than 1 mm at {:.0f} m from the "
+                      "origin. Choose .ply or .obj, or an origin nearer to 0.",
+                      path.string(), farthest));
+    }
+  }
+  NewFile file(path);
+  if (extension == ".ply") write_ply(scene, file, progress);
+  if (extension == ".obj") write_obj(scene, file, progress);
+  if (extension == ".stl") write_stl(scene, file, progress);
+  file.finish();
+}
+
+}  // namespace roam::generate
