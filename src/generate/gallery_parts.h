@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What the dam gallery is made of. docs/gallery.md describes it with a plan.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "generate/block.h"
+#include "generate/tube.h"
+#include "roam/generate.h"
+
+namespace roam::generate {
+
+/// How fine the gallery is and how much stands in it. Few triangles leave no room for every grotto and joint.
+struct GalleryDetail {
+  double cell;             ///< m, of walls and rooms
+  double grotto_spacing;   ///< m
+  double joint_spacing;    ///< m
+  double drain_spacing;    ///< m
+  std::int64_t more_rows;  ///< rows of the upper gallery besides those that something stands on
+  double dam_triangles;
+  double ground_triangles;
+};
+
+/// A tube and the parts along it, in the order of their stations.
+struct GalleryTube {
+  std::shared_ptr<const Tube> tube;
+  std::vector<std::function<Part()>> parts;
+};
+
+[[nodiscard]] GalleryTube upper_gallery(const GalleryOptions& options, const GalleryDetail& detail);
+[[nodiscard]] GalleryTube lower_gallery(const GalleryOptions& options, const GalleryDetail& detail);
+
+/// What stands in a grotto: instruments on a plinth, or a sump in its floor.
+enum class Furnishing { instruments, sump };
+
+/// A room behind a door in the left wall of a straight stretch of `tube`: `NAME/door`, `NAME/room` and, with
+/// instruments, `NAME/instrument`.
+void add_grotto(std::vector<std::function<Part()>>& parts, const std::shared_ptr<const Tube>& tube, const Opening& door,
+                const std::string& name, Furnishing furnishing, double cell, std::uint64_t seed);
+
+/// The axis of path 1 and path 2, some metres longer at both ends.
+[[nodiscard]] Axis upper_axis(double blend);
+
+[[nodiscard]] Part dam(const GalleryOptions& options, const GalleryDetail& detail);
+[[nodiscard]] Part ground(const GalleryOptions& options, const GalleryDetail& detail);
+/// Holds everything, before the origin is added.
+[[nodiscard]] Box gallery_bounds();
+
+}  // namespace roam::generate
