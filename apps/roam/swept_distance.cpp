@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 
 namespace roam::app {
@@ -41,48 +42,45 @@ long double segment_segment(const Point& a0, const Point& a1, const Point& b0, c
   return least;
 }
 
-/// The foot of `p` on the plane of a triangle when it lies inside the triangle. Nothing for a triangle without area:
-/// its edges are all of it.
-std::optional<Point> foot_on_face(const Point& p, const Corners& t) {
-  const Point e1 = t[1] - t[0];
-  const Point e2 = t[2] - t[0];
-  const Point n = glm::cross(e1, e2);
+/// A triangle, or the parallelogram that it is half of: all corner + s * e1 + r * e2 with s, r >= 0 and s + r <= 1, or
+/// s, r <= 1.
+struct Face {
+  Point corner, e1, e2;
+  bool parallelogram;
+};
+
+/// The foot of `p` on the plane of a face when it lies inside the face. Nothing for a face without area: its edges are
+/// all of it.
+std::optional<Point> foot_on(const Face& face, const Point& p) {
+  const Point n = glm::cross(face.e1, face.e2);
   const long double area = squared(n);
   if (!(area > 0)) return std::nullopt;
-  const Point w = p - t[0];
-  const long double s = glm::dot(glm::cross(w, e2), n) / area;
-  const long double r = glm::dot(glm::cross(e1, w), n) / area;
-  if (s < 0 || r < 0 || s + r > 1) return std::nullopt;
-  return t[0] + s * e1 + r * e2;
+  const Point w = p - face.corner;
+  const long double s = glm::dot(glm::cross(w, face.e2), n) / area;
+  const long double r = glm::dot(glm::cross(face.e1, w), n) / area;
+  const bool inside = s >= 0 && r >= 0 && (face.parallelogram ? s <= 1 && r <= 1 : s + r <= 1);
+  if (!inside) return std::nullopt;
+  return face.corner + s * face.e1 + r * face.e2;
 }
 
-/// A segment passes through the inside of a triangle.
-bool pierces(const Point& a, const Point& b, const Corners& t) {
-  const Point n = glm::cross(t[1] - t[0], t[2] - t[0]);
-  const long double da = glm::dot(n, a - t[0]);
-  const long double db = glm::dot(n, b - t[0]);
-  if (da == db || (da > 0 && db > 0) || (da < 0 && db < 0)) return false;
-  return foot_on_face(a + (da / (da - db)) * (b - a), t).has_value();
+/// Squared distance of a segment's ends and a face; 0 when the segment passes through the face.
+long double ends_face(const Point& a, const Point& b, const Face& face) {
+  const Point n = glm::cross(face.e1, face.e2);
+  const long double da = glm::dot(n, a - face.corner);
+  const long double db = glm::dot(n, b - face.corner);
+  const bool one_side = (da > 0 && db > 0) || (da < 0 && db < 0);
+  if (da != db && !one_side && foot_on(face, a + (da / (da - db)) * (b - a))) return 0;
+  long double least = std::numeric_limits<long double>::infinity();
+  for (const Point& end : {a, b}) {
+    if (const auto foot = foot_on(face, end)) least = std::min(least, squared(end - *foot));
+  }
+  return least;
 }
 
 /// Squared distance of a segment and a triangle.
 long double segment_triangle(const Point& a, const Point& b, const Corners& t) {
-  if (pierces(a, b, t)) return 0;
-  long double least = std::min(
-      {segment_segment(a, b, t[0], t[1]), segment_segment(a, b, t[1], t[2]), segment_segment(a, b, t[2], t[0])});
-  for (const Point& end : {a, b}) {
-    if (const auto foot = foot_on_face(end, t)) least = std::min(least, squared(end - *foot));
-  }
-  return least;
-}
-
-/// Squared distance of two triangles.
-long double triangle_triangle(const Corners& a, const Corners& b) {
-  long double least = segment_triangle(a[0], a[1], b);
-  for (int i = 0; i < 3; ++i) {
-    least = std::min({least, segment_triangle(a[i], a[(i + 1) % 3], b), segment_triangle(b[i], b[(i + 1) % 3], a)});
-  }
-  return least;
+  return std::min({ends_face(a, b, {t[0], t[1] - t[0], t[2] - t[0], false}), segment_segment(a, b, t[0], t[1]),
+                   segment_segment(a, b, t[1], t[2]), segment_segment(a, b, t[2], t[0])});
 }
 
 }  // namespace
@@ -100,9 +98,12 @@ long double swept_distance(const Vec3& from, const Vec3& to, double half_height,
     const long double high = std::max(0.0L, end.z);
     return std::sqrt(segment_triangle(Point(0, 0, low) - axis, Point(0, 0, high) + axis, corners));
   }
-  const Corners lower{start - axis, end - axis, end + axis};
-  const Corners upper{start - axis, end + axis, start + axis};
-  return std::sqrt(std::min(triangle_triangle(lower, corners), triangle_triangle(upper, corners)));
+  const std::array<Point, 4> around{start - axis, end - axis, end + axis, start + axis};
+  const Face swept{around[0], around[1] - around[0], around[3] - around[0], true};
+  long double least = std::numeric_limits<long double>::infinity();
+  for (int i = 0; i < 4; ++i) least = std::min(least, segment_triangle(around[i], around[(i + 1) % 4], corners));
+  for (int i = 0; i < 3; ++i) least = std::min(least, ends_face(corners[i], corners[(i + 1) % 3], swept));
+  return std::sqrt(least);
 }
 
 }  // namespace roam::app

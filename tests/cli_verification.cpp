@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "roam/error.h"
+#include "swept_distance.h"
+#include "verification.h"
+
+namespace {
+
+using roam::Triangle;
+using roam::Vec3;
+using roam::app::Piece;
+using roam::app::swept_distance;
+
+const Triangle floor_triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+
+double distance(const Vec3& from, const Vec3& to, double half_height, const Triangle& triangle = floor_triangle) {
+  return static_cast<double>(swept_distance(from, to, half_height, triangle));
+}
+
+TEST(SweptDistance, OfARestingPointIsThatToFaceEdgeAndVertex) {
+  EXPECT_DOUBLE_EQ(distance({1, 1, 2}, {1, 1, 2}, 0), 2.0);
+  EXPECT_DOUBLE_EQ(distance({1, -3, 4}, {1, -3, 4}, 0), 5.0);
+  EXPECT_DOUBLE_EQ(distance({-3, -4, 0}, {-3, -4, 0}, 0), 5.0);
+}
+
+TEST(SweptDistance, OfAMoveIsTheLeastOnTheWay) {
+  EXPECT_DOUBLE_EQ(distance({-10, 1, 2}, {10, 1, 2}, 0), 2.0);    // over the face, both ends far away
+  EXPECT_DOUBLE_EQ(distance({-10, -3, 4}, {10, -3, 4}, 0), 5.0);  // along an edge
+  EXPECT_DOUBLE_EQ(distance({5, -5, 1}, {5, 5, 1}, 0), std::sqrt(2.0));
+}
+
+TEST(SweptDistance, IsZeroForAMoveThroughTheTriangle) {
+  EXPECT_EQ(distance({1, 1, 5}, {1, 1, -5}, 0), 0.0);
+  EXPECT_EQ(distance({1, 1, 0}, {2, 1, 0}, 0), 0.0);          // inside its plane
+  EXPECT_NEAR(distance({-1, 1, 0}, {9, 1, 0}, 0), 0, 1e-17);  // across it, in its plane
+  EXPECT_EQ(distance({-10, 1, 1}, {10, 1, 1}, 1.5), 0.0);     // the swept axis cuts it, its ends do not
+}
+
+TEST(SweptDistance, OfACapsuleCountsFromItsAxis) {
+  EXPECT_DOUBLE_EQ(distance({1, 1, 3}, {1, 1, 3}, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(distance({-10, 1, 3}, {10, 1, 3}, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(distance({5, -5, 0.2}, {5, 9, 0.2}, 0.5), 1.0);  // beside the vertex (4, 0, 0)
+  EXPECT_DOUBLE_EQ(distance({1, 1, 9}, {1, 1, 4}, 0.5), 3.5);       // straight down
+}
+
+TEST(SweptDistance, HoldsForTrianglesThatArePointsAndSegments) {
+  const Triangle point{Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3)};
+  const Triangle segment{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0)};
+  EXPECT_DOUBLE_EQ(distance({1, 2, 0}, {1, 2, 2}, 0, point), 1.0);
+  EXPECT_DOUBLE_EQ(distance({3, -1, 1}, {3, 1, 1}, 0, segment), 1.0);
+  EXPECT_DOUBLE_EQ(distance({3, -1, 3}, {3, 1, 3}, 1, segment), 2.0);
+}
+
+TEST(SweptDistance, KeepsItsDigitsWhereSegmentsAreLongAndAlmostParallel) {
+  // They cross, seen from above, 1 m apart, and their ends are 0.5 mm aside.
+  const Triangle sliver{Vec3(-5e4, -5e-4, 0), Vec3(5e4, 5e-4, 0), Vec3(0, 0, -1)};
+  EXPECT_NEAR(distance({-5e4, 5e-4, 1}, {5e4, -5e-4, 1}, 0, sliver), 1.0, 1e-13);
+}
+
+TEST(SweptDistance, AgreesWithManyPlacesOfTheAxisAtAnyOrigin) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  const auto point = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  for (const Vec3& origin : {Vec3(0.0), Vec3(-13739, 253, 182), Vec3(6.4e6, -6.4e6, 6.4e6)}) {
+    for (int i = 0; i < 1000; ++i) {
+      const Triangle t{origin + point(), origin + point(), origin + point()};
+      const Vec3 from = origin + 3.0 * point();
+      const Vec3 to = origin + 3.0 * point();
+      const double half_height = i % 3 == 0 ? 0.0 : std::abs(coordinate(random));
+      const double least = distance(from, to, half_height, t);
+      double sampled = 1e300;
+      constexpr int samples = 16;
+      for (int a = 0; a <= samples; ++a) {
+        const Vec3 centre = from + (a / double(samples)) * (to - from);
+        for (int b = -samples; b <= samples; ++b) {
+          const Vec3 p = centre + Vec3(0, 0, half_height * b / double(samples));
+          sampled = std::min(sampled, distance(p, p, 0, t));
+        }
+      }
+      // No place of the axis is farther from a sample than half the samples' spacing along and across.
+      const double spacing = 0.5 * (glm::length(to - from) + half_height) / samples;
+      EXPECT_LE(least, sampled + 1e-8);
+      EXPECT_GE(least, sampled - spacing - 1e-8);
+    }
+  }
+}
+
+/// A floor of `side` x `side` cells of 1 m at height 0.
+roam::Mesh floor_mesh(std::uint32_t side) {
+  roam::Mesh mesh{"floor", {}, {}};
+  for (std::uint32_t y = 0; y <= side; ++y) {
+    for (std::uint32_t x = 0; x <= side; ++x) mesh.vertices.emplace_back(x, y, 0);
+  }
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const std::uint32_t a = y * (side + 1) + x;
+      mesh.triangles.push_back({a, a + 1, a + side + 1});
+      mesh.triangles.push_back({a + 1, a + side + 2, a + side + 1});
+    }
+  }
+  return mesh;
+}
+
+/// Steps of 0.1 m along the floor at height `z`.
+std::vector<Piece> walk_over(double z, double radius, double clearance, std::uint64_t steps) {
+  std::vector<Piece> pieces;
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    const double x = 1.0 + 0.001 * static_cast<double>(i);
+    pieces.push_back({i + 1, {x, 5.3, z}, {x + 0.001, 5.3, z}, {radius, 0.0}, clearance});
+  }
+  return pieces;
+}
+
+TEST(Verification, FindsNothingWrongWithAWalkThatKeepsItsDistance) {
+  const std::vector<roam::Mesh> scene{floor_mesh(20)};
+  const auto result = roam::app::verify(scene, walk_over(0.31, 0.3, 0.31, 5000));
+  EXPECT_EQ(result.pieces, 5000u);
+  EXPECT_EQ(result.violations, 0u);
+  EXPECT_EQ(result.overstated, 0u);
+  EXPECT_FALSE(result.worst);
+  ASSERT_TRUE(result.least_gap);
+  EXPECT_NEAR(*result.least_gap, 0.01, 1e-12);
+}
+
+TEST(Verification, CountsEachStepThatCameTooNearOnce) {
+  const std::vector<roam::Mesh> scene{floor_mesh(20)};
+  std::vector<Piece> pieces = walk_over(0.31, 0.3, 0.0, 5000);
+  pieces[1023].to.z = 0.25;  // the last of one run of pieces, the first of the next, and one amid
+  pieces[1024].to.z = 0.20;
+  pieces[1024].step = pieces[1023].step;
+  pieces[3000].to.z = 0.29;
+  const auto result = roam::app::verify(scene, pieces);
+  EXPECT_EQ(result.violations, 2u);
+  ASSERT_TRUE(result.worst);
+  EXPECT_EQ(result.worst->step, pieces[1024].step);
+  EXPECT_DOUBLE_EQ(result.worst->distance, 0.20);
+  const Triangle worst = scene[0].triangle(result.worst->triangle);
+  EXPECT_DOUBLE_EQ(distance(pieces[1024].from, pieces[1024].to, 0, worst), 0.20);
+}
+
+TEST(Verification, AllowsWhatTheWorldPromisesAndNoMore) {
+  const std::vector<roam::Mesh> scene{floor_mesh(20)};
+  EXPECT_EQ(roam::app::verify(scene, walk_over(0.3 - 0.9e-6, 0.3, 0.0, 10)).violations, 0u);
+  EXPECT_EQ(roam::app::verify(scene, walk_over(0.3 - 1.1e-6, 0.3, 0.0, 10)).violations, 10u);
+}
+
+TEST(Verification, FindsAMoveThroughAWallWhoseEndsAreFree) {
+  const std::vector<roam::Mesh> scene{{"wall", {{0, -9, -9}, {0, 9, -9}, {0, 0, 9}}, {{0, 1, 2}}}};
+  const std::vector<Piece> pieces{{1, {-5, 0, 0}, {5, 0, 0}, {0.3, 0.6}, 0.0}};
+  const auto result = roam::app::verify(scene, pieces);
+  EXPECT_EQ(result.violations, 1u);
+  ASSERT_TRUE(result.worst);
+  EXPECT_EQ(result.worst->distance, 0.0);
+}
+
+TEST(Verification, FindsCertificatesThatSayTooMuch) {
+  const std::vector<roam::Mesh> scene{floor_mesh(20)};
+  EXPECT_EQ(roam::app::verify(scene, walk_over(0.5, 0.3, 0.5, 100)).overstated, 0u);
+  EXPECT_EQ(roam::app::verify(scene, walk_over(0.5, 0.3, 0.5 + 1e-8, 100)).overstated, 100u);
+}
+
+TEST(Verification, AnswersAsMeasuringEveryPairDoes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-6.0, 6.0);
+  std::uniform_real_distribution<double> small(-0.5, 0.5);
+  const auto point = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  const auto near = [&](const Vec3& p) { return p + Vec3(small(random), small(random), small(random)); };
+  std::vector<roam::Mesh> scene(3);
+  for (roam::Mesh& mesh : scene) {
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      const Vec3 p = point();
+      mesh.vertices.insert(mesh.vertices.end(), {p, near(p), near(p)});
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+  }
+  std::vector<Piece> pieces;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Vec3 p = point();
+    pieces.push_back({i, p, near(p), {0.2, i % 2 == 0 ? 0.0 : 0.4}, 0.25});
+  }
+  std::uint64_t violations = 0;
+  std::uint64_t overstated = 0;
+  for (const Piece& piece : pieces) {
+    long double least = 1e9L;
+    for (const roam::Mesh& mesh : scene) {
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        least = std::min(least, swept_distance(piece.from, piece.to, piece.body.half_height, mesh.triangle(t)));
+      }
+    }
+    violations += least < 0.2L - 1e-6L ? 1 : 0;
+    overstated += least < 0.25L - 1e-9L ? 1 : 0;
+  }
+  const auto result = roam::app::verify(scene, pieces);
+  EXPECT_GT(violations, 20u);
+  EXPECT_GT(overstated, violations);
+  EXPECT_EQ(result.violations, violations);
+  EXPECT_EQ(result.overstated, overstated);
+}
+
+TEST(Verification, CanBeCancelled) {
+  const std::vector<roam::Mesh> scene{floor_mesh(5)};
+  EXPECT_THROW((void)roam::app::verify(scene, walk_over(0.31, 0.3, 0.0, 5000), [](std::uint64_t) { return false; }),
+               roam::Cancelled);
+}
+
+}  // namespace
