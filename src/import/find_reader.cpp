@@ -1,0 +1,71 @@
+#include "import/find_reader.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
+#include "roam/error.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* reader_name = "roam-reader";
+
+/// The folder of the running program; empty when the system does not tell.
+fs::path program_folder() {
+#ifdef __APPLE__
+  char path[4096];
+  std::uint32_t size = sizeof(path);
+  return _NSGetExecutablePath(path, &size) == 0 ? fs::path(path).parent_path() : fs::path();
+#else
+  std::error_code none;
+  return fs::read_symlink("/proc/self/exe", none).parent_path();
+#endif
+}
+
+bool can_run(const fs::path& program) {
+  std::error_code none;
+  return fs::is_regular_file(program, none) && access(program.c_str(), X_OK) == 0;
+}
+
+[[noreturn]] void refuse(const std::string& named_by, const fs::path& program) {
+  throw Error("the scene reader " + program.string() + ", named by " + named_by +
+              ", is not a program that can be run. Name the program " + reader_name + " of this installation.");
+}
+
+}  // namespace
+
+fs::path find_reader(const fs::path& wanted) {
+  if (!wanted.empty()) {
+    if (!can_run(wanted)) refuse("ImportOptions::reader", wanted);
+    return wanted;
+  }
+  if (const char* named = std::getenv("ROAM_READER"); named != nullptr && *named != '\0') {
+    if (!can_run(named)) refuse("the environment variable ROAM_READER", named);
+    return named;
+  }
+  std::vector<fs::path> places;
+  if (const fs::path folder = program_folder(); !folder.empty()) {
+    places.push_back(folder / reader_name);
+    places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
+  }
+  places.emplace_back(ROAM_READER_INSTALLED);
+  std::string tried;
+  for (const fs::path& place : places) {
+    if (can_run(place)) return place;
+    tried += (tried.empty() ? "" : ", ") + place.string();
+  }
+  throw Error(std::string("the program ") + reader_name + ", which opens scene files, was not found (looked at " +
+              tried + "). Install roam, or name the program by the environment variable ROAM_READER.");
+}
+
+}  // namespace roam::reader

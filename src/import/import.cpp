@@ -1,0 +1,141 @@
+#include "roam/import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "import/find_reader.h"
+#include "import/reading.h"
+#include "import/report_notes.h"
+
+namespace roam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t least_memory_limit = 64ull << 20;
+
+struct NamedUnit {
+  std::string_view name;
+  double metres;
+};
+constexpr std::array<NamedUnit, 5> units{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}}};
+
+/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing.
+std::uint64_t bytes_in(const fs::path& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) {
+    const auto size = fs::file_size(path, none);
+    return none ? 0 : size;
+  }
+  std::uint64_t bytes = 0;
+  fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, none);
+  while (!none && entry != fs::recursive_directory_iterator()) {
+    std::error_code unseen;
+    if (entry->is_regular_file(unseen)) {
+      const auto size = entry->file_size(unseen);
+      bytes += unseen ? 0 : size;
+    }
+    entry.increment(none);
+  }
+  return bytes;
+}
+
+void check(std::span<const fs::path> paths, const ImportOptions& options) {
+  if (paths.empty()) throw Error("no scene was named; name one or more files or folders to import.");
+  if (options.memory_limit < least_memory_limit) {
+    throw Error(
+        fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
+  }
+  if (!(options.silence_limit > 0.0) || !std::isfinite(options.silence_limit)) {
+    throw Error(fmt::format("an import time limit of {} s makes no sense; give a number of seconds above 0.",
+                            options.silence_limit));
+  }
+  for (const fs::path& path : paths) {
+    std::error_code why;
+    const fs::file_status status = fs::status(path, why);
+    if (!fs::exists(status)) {
+      const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
+      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
+    }
+    if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
+      throw Error(
+          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
+    }
+  }
+}
+
+std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
+  std::uint64_t bytes = 0;
+  for (const Mesh& mesh : meshes) {
+    bytes += mesh.vertices.size() * sizeof(Vec3) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+UpAxis parse_up_axis(std::string_view text) {
+  if (text == "x") return UpAxis::x;
+  if (text == "y") return UpAxis::y;
+  if (text == "z") return UpAxis::z;
+  throw Error(fmt::format("'{}' is no axis; give x, y or z.", text));
+}
+
+LengthUnit parse_length_unit(std::string_view text) {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (units[i].name == text) return static_cast<LengthUnit>(i);
+  }
+  throw Error(fmt::format("'{}' is no unit of length; give m, cm, mm, ft or in.", text));
+}
+
+double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)].metres; }
+
+Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
+  check(paths, options);
+  const fs::path program = reader::find_reader(options.reader);
+
+  ImportProgress progress;
+  std::vector<std::uint64_t> sizes;
+  for (const fs::path& path : paths) {
+    sizes.push_back(bytes_in(path));
+    progress.bytes_total += sizes.back();
+  }
+
+  Scene scene;
+  std::vector<bool> matched(options.ignore.size(), false);
+  std::uint64_t bytes_before = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::uint64_t triangles_before = scene.report.triangles;
+    const std::uint64_t mesh_bytes_before = bytes_of(scene.meshes);
+    const auto say = [&](std::uint64_t bytes, std::uint64_t triangles) {
+      progress.path = paths[i];
+      progress.bytes_read = bytes_before + std::min(bytes, sizes[i]);
+      progress.triangles = triangles_before + triangles;
+      if (options.progress && !options.progress(progress)) throw Cancelled();
+    };
+    say(0, 0);
+    const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, mesh_bytes_before);
+    reader::read_one({program, paths[i], sizes[i], &options, mesh_bytes, say}, scene, matched);
+    if (scene.report.triangles == triangles_before) {
+      const bool ignored = scene.report.ignored_triangles > 0;
+      throw Error(fmt::format("{}: this gives no triangle{}.", paths[i].string(),
+                              ignored ? "; the patterns of objects to ignore match everything in it"
+                                      : ", so there is nothing to walk on; check that it is the right file"));
+    }
+    say(sizes[i], scene.report.triangles - triangles_before);
+    bytes_before += sizes[i];
+  }
+  reader::add_count_notes(scene.report, options, matched);
+  return scene;
+}
+
+Scene import_scene(const fs::path& path, const ImportOptions& options) {
+  return import_scene(std::span(&path, 1), options);
+}
+
+}  // namespace roam

@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// A file of any size as a moving window of bytes, and as lines.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roam::reader {
+
+/// Reads a file from its beginning to its end through one buffer.
+class FileBytes {
+ public:
+  /// `progress` is called with the bytes read so far whenever the buffer is filled. Throws roam::Error when the file
+  /// cannot be opened.
+  FileBytes(const std::filesystem::path& path, std::function<void(std::uint64_t)> progress);
+  ~FileBytes();
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+
+  /// The bytes from offset() on: at least `wanted` of them, fewer only at the end of the file. Valid until the next
+  /// call of window. Asking for more than window_limit throws roam::Error.
+  std::string_view window(std::size_t wanted) {
+    return end_ - begin_ >= wanted ? std::string_view(buffer_.data() + begin_, end_ - begin_) : refill(wanted);
+  }
+  /// Moves on by `count` bytes of the window.
+  void skip(std::size_t count) { begin_ += count; }
+
+  /// Where the window begins in the file.
+  [[nodiscard]] std::uint64_t offset() const { return read_ - (end_ - begin_); }
+  /// The size of the file when it was opened.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+  /// No line, token or record of a file that means well is longer.
+  static constexpr std::size_t window_limit = 256u << 20;
+
+ private:
+  std::string_view refill(std::size_t wanted);
+
+  std::string path_;
+  std::function<void(std::uint64_t)> progress_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0, read_ = 0;
+  bool at_end_ = false;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0;
+};
+
+/// The lines of a text file: they end with LF, CR LF, or (in a file whose first line ends so) a lone CR.
+class Lines {
+ public:
+  explicit Lines(FileBytes& bytes);
+
+  /// The next line without its end, valid until the next call; false at the end of the file.
+  bool next(std::string_view& line);
+  /// The number of the line that next gave last, from 1.
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+
+ private:
+  FileBytes& bytes_;
+  char end_of_line_ = '\n';
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace roam::reader

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Sends frames of stream.h, gathered into large writes.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "import/stream.h"
+
+namespace roam::reader {
+
+class FrameWriter {
+ public:
+  /// Writes to an open descriptor, which it does not close.
+  explicit FrameWriter(int descriptor) : descriptor_(descriptor) {}
+
+  void send(FrameKind kind, std::span<const std::byte> payload);
+  void send(FrameKind kind, const PayloadWriter& payload) { send(kind, payload.bytes()); }
+  /// Writes out what is gathered. Ends the process when nobody listens any more.
+  void flush();
+
+ private:
+  int descriptor_;
+  std::uint32_t number_ = 0;
+  std::vector<std::byte> gathered_;
+};
+
+}  // namespace roam::reader

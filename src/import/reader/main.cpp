@@ -1,0 +1,143 @@
+// roam-reader: the child process that opens scene files for roam. It trusts no file, and roam trusts nothing of it.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include "import/reader/frame_writer.h"
+#include "import/reader/mesh_sink.h"
+#include "import/reader/read_path.h"
+#include "import/stream.h"
+#include "roam/error.h"
+
+// Address sanitizer reserves terabytes of address space; a limit on it would end the reader before it begins.
+#if defined(__SANITIZE_ADDRESS__)
+#define ROAM_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ROAM_ADDRESS_SANITIZER 1
+#endif
+#endif
+
+namespace roam::reader {
+namespace {
+
+/// Address space that the program's own code, its libraries and their plugins take before a file is opened.
+[[maybe_unused]] constexpr rlim_t own_address_space = rlim_t{1} << 30;
+
+void limit(int resource, rlim_t value) {
+  const struct rlimit both { value, value };
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+
+/// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
+void confine(std::uint64_t memory_limit) {
+#ifndef ROAM_ADDRESS_SANITIZER
+  limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
+#endif
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, 0);
+#ifdef __linux__
+  const pid_t parent = getppid();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);
+  // Descriptors that the program holds open and did not mark are no business of a reader.
+  close_range(stream_fd + 1, ~0u, 0);
+#endif
+}
+
+struct Request {
+  ReadingSettings settings;
+  std::string path;
+};
+
+/// The arguments are written by the library; a wrong one is a mix of versions, or a person.
+bool parse_arguments(const std::vector<std::string>& arguments, Request& request) {
+  ReadingSettings& settings = request.settings;
+  std::size_t i = 0;
+  const auto left = [&] { return arguments.size() - i; };
+  while (left() > 0) {
+    const std::string& name = arguments[i++];
+    if (name == "--" && left() == 1) {
+      request.path = arguments[i];
+      return true;
+    }
+    if (name == "--unit" && left() > 0) {
+      settings.metres_per_unit = std::stod(arguments[i++]);
+    } else if (name == "--memory" && left() > 0) {
+      settings.memory_limit = std::stoull(arguments[i++]);
+    } else if (name == "--up" && left() > 0) {
+      settings.up = parse_up_axis(arguments[i++]);
+    } else if (name == "--ignore" && left() > 0) {
+      settings.ignore.push_back(arguments[i++]);
+    } else if (name == "--frame" && left() > 3) {
+      Georeference frame;
+      for (int k = 0; k < 3; ++k) frame.origin[k] = std::stod(arguments[i++]);
+      frame.srs = arguments[i++];
+      settings.frame = frame;
+    } else {
+      return false;
+    }
+  }
+  return false;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  Request request;
+  bool understood = false;
+  try {
+    understood = parse_arguments(arguments, request);
+  } catch (const std::exception&) {
+    understood = false;
+  }
+  if (!understood || fcntl(stream_fd, F_GETFD) < 0) {
+    std::fputs("roam-reader opens scene files for roam, which starts it; there is nothing to run by hand.\n", stderr);
+    return 2;
+  }
+  confine(request.settings.memory_limit);
+
+  FrameWriter frames(stream_fd);
+  frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
+  MeshSink sink(frames, request.settings);
+  const auto fail = [&](const std::string& sentence) {
+    frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
+    frames.flush();
+    return EXIT_FAILURE;
+  };
+  try {
+    read_path(request.path, sink, request.settings);
+    sink.end();
+    return EXIT_SUCCESS;
+  } catch (const Error& error) {
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    // The program words this one: it knows the limit. See cause_of_death.
+    std::fputs("out of memory\n", stderr);
+    return EXIT_FAILURE;
+  } catch (const std::exception& error) {
+    return fail(fmt::format("{}: its reader gave up: {}. The file is probably damaged.", request.path, error.what()));
+  }
+}
+
+}  // namespace
+}  // namespace roam::reader
+
+int main(int argc, char** argv) {
+  const int status = roam::reader::run(std::vector<std::string>(argv + 1, argv + argc));
+  // Everything is said: plugins of foreign libraries need not be unloaded, and some crash when they are.
+  std::fflush(stderr);
+  _exit(status);
+}

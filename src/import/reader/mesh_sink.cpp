@@ -1,0 +1,219 @@
+#include "import/reader/mesh_sink.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "roam/world.h"
+
+namespace roam::reader {
+namespace {
+
+/// Frames of 1.5 MB: small beside a scene, large beside the cost of a frame.
+constexpr std::size_t vertices_per_frame = 1u << 16;
+constexpr std::size_t triangles_per_frame = 1u << 17;
+static_assert(vertices_per_frame * sizeof(Vec3) <= payload_limit);
+static_assert(triangles_per_frame * 3 * sizeof(std::uint32_t) <= payload_limit);
+
+/// Entries of the memory for shared vertices: 2.6 MB, and as far back as neighbours in a file usually are.
+constexpr unsigned remembered_bits = 16;
+
+constexpr auto progress_interval = std::chrono::milliseconds(100);
+/// Sentences that report_note_once keeps apart.
+constexpr std::size_t said_limit = 100;
+
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) && bits_of(a.z) == bits_of(b.z);
+}
+
+std::size_t slot_of(const Vec3& v) {
+  // Fibonacci hashing (Knuth, TAOCP 3, 6.4) of each coordinate in turn.
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
+  std::uint64_t h = bits_of(v.x) * golden;
+  h = (std::rotl(h, 29) ^ bits_of(v.y)) * golden;
+  h = (std::rotl(h, 29) ^ bits_of(v.z)) * golden;
+  return h >> (64 - remembered_bits);
+}
+
+bool good(const Vec3& v) {
+  // Written so that a NaN is not good.
+  return std::abs(v.x) <= World::coordinate_limit && std::abs(v.y) <= World::coordinate_limit &&
+         std::abs(v.z) <= World::coordinate_limit;
+}
+
+}  // namespace
+
+MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings)
+    : frames_(frames), settings_(settings), up_(settings.up.value_or(UpAxis::z)), matched_(settings.ignore.size(), 0) {}
+
+void MeshSink::set_format_up(UpAxis up) { up_ = settings_.up.value_or(up); }
+
+Vec3 MeshSink::placed(const Vec3& vertex) const {
+  const Vec3 v = (vertex + offset_) * settings_.metres_per_unit;
+  // 0 - x instead of -x: no negative zeros.
+  if (up_ == UpAxis::y) return {v.x, 0.0 - v.z, v.y};
+  if (up_ == UpAxis::x) return {0.0 - v.z, v.y, v.x};
+  return v;
+}
+
+bool MeshSink::matches_ignore(std::span<const std::string> names) {
+  bool any = false;
+  for (std::size_t i = 0; i < settings_.ignore.size(); ++i) {
+    for (const std::string& name : names) {
+      if (!name.empty() && fnmatch(settings_.ignore[i].c_str(), name.c_str(), 0) == 0) {
+        matched_[i] = 1;
+        any = true;
+        break;
+      }
+    }
+  }
+  return any;
+}
+
+bool MeshSink::begin_object(std::span<const std::string> names, std::string_view fallback) {
+  std::string_view name = fallback;
+  for (const std::string& candidate : names) name = candidate.empty() ? name : std::string_view(candidate);
+  if (begun_ && name == name_ && std::equal(names.begin(), names.end(), names_.begin(), names_.end())) return false;
+  finish_object();
+  name_ = name;
+  names_.assign(names.begin(), names.end());
+  ignored_ = matches_ignore(names);
+  begun_ = true;
+  ++object_number_;
+  return true;
+}
+
+std::uint32_t MeshSink::add_vertex(const Vec3& vertex) {
+  if (vertex_count_ == std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(fmt::format("object '{}' has more than 2^32 vertices; split it.", name_));
+  }
+  const std::uint32_t index = vertex_count_++;
+  if (ignored_) return index;
+  const Vec3 v = placed(vertex);
+  if (!good(v)) {
+    bad_.push_back(index);
+    return index;
+  }
+  vertices_.push_back(v);
+  if (vertices_.size() == vertices_per_frame) send_vertices();
+  return index;
+}
+
+std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex) {
+  if (remembered_.empty()) remembered_.resize(std::size_t{1} << remembered_bits);
+  Remembered& slot = remembered_[slot_of(vertex)];
+  if (slot.object == object_number_ && same_bits(slot.vertex, vertex)) return slot.index;
+  const std::uint32_t index = add_vertex(vertex);
+  slot = {vertex, index, object_number_};
+  return index;
+}
+
+void MeshSink::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (ignored_) {
+    ++ignored_triangles_;
+    return;
+  }
+  std::array<std::uint32_t, 3> corners{a, b, c};
+  for (std::uint32_t& corner : corners) {
+    if (corner >= vertex_count_) {
+      ++bad_triangles_;
+      return;
+    }
+    if (bad_.empty()) continue;
+    const auto at = std::lower_bound(bad_.begin(), bad_.end(), corner);
+    if (at != bad_.end() && *at == corner) {
+      ++bad_triangles_;
+      return;
+    }
+    corner -= static_cast<std::uint32_t>(at - bad_.begin());
+  }
+  triangles_.push_back(corners);
+  if (triangles_.size() == triangles_per_frame) {
+    send_vertices();
+    send_triangles();
+  }
+}
+
+void MeshSink::send_vertices() {
+  if (vertices_.empty()) return;
+  if (!announced_) {
+    frames_.send(FrameKind::object, PayloadWriter().add_text(name_));
+    announced_ = true;
+  }
+  totals_.vertices += vertices_.size();
+  frames_.send(FrameKind::vertices, std::as_bytes(std::span(vertices_)));
+  vertices_.clear();
+}
+
+void MeshSink::send_triangles() {
+  totals_.triangles += triangles_.size();
+  frames_.send(FrameKind::triangles, std::as_bytes(std::span(triangles_)));
+  triangles_.clear();
+}
+
+void MeshSink::send_left_out(LeftOutReason reason, std::uint64_t vertices, std::uint64_t triangles) {
+  frames_.send(FrameKind::left_out, PayloadWriter().add(reason).add_text(name_).add(vertices).add(triangles));
+}
+
+void MeshSink::finish_object() {
+  // Vertices that no triangle used are worth nothing unless they were sent already.
+  if (!triangles_.empty()) {
+    send_vertices();
+    send_triangles();
+  }
+  if (!bad_.empty() || bad_triangles_ > 0) send_left_out(LeftOutReason::bad_vertices, bad_.size(), bad_triangles_);
+  if (ignored_triangles_ > 0) send_left_out(LeftOutReason::ignored, 0, ignored_triangles_);
+  totals_.bad_vertices += bad_.size();
+  totals_.bad_triangles += bad_triangles_;
+  totals_.ignored_triangles += ignored_triangles_;
+  bad_triangles_ = ignored_triangles_ = 0;
+  bad_.clear();
+  vertices_.clear();
+  vertex_count_ = 0;
+  announced_ = ignored_ = begun_ = false;
+}
+
+void MeshSink::report_missing_page(std::string_view file) {
+  ++totals_.missing_pages;
+  if (totals_.missing_pages <= ImportReport::name_limit) {
+    frames_.send(FrameKind::missing_page, PayloadWriter().add_text(file));
+  }
+}
+
+void MeshSink::report_note(std::string_view sentence) {
+  frames_.send(FrameKind::note, PayloadWriter().add_text(sentence));
+}
+
+void MeshSink::report_note_once(std::string_view sentence) {
+  if (said_.size() < said_limit && said_.emplace(sentence).second) report_note(sentence);
+}
+
+void MeshSink::report_georeference(const Georeference& georeference) {
+  frames_.send(FrameKind::georeference, PayloadWriter().add(georeference.origin).add_text(georeference.srs));
+}
+
+void MeshSink::report_progress(std::uint64_t bytes_read) {
+  bytes_read_ = bytes_read;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - progress_sent_ < progress_interval) return;
+  progress_sent_ = now;
+  frames_.send(FrameKind::progress, PayloadWriter().add(bytes_read_));
+  frames_.flush();
+}
+
+void MeshSink::end() {
+  finish_object();
+  PayloadWriter payload;
+  payload.add(totals_).add(static_cast<std::uint32_t>(matched_.size()));
+  for (const std::uint8_t matched : matched_) payload.add(matched);
+  frames_.send(FrameKind::end, payload);
+  frames_.flush();
+}
+
+}  // namespace roam::reader

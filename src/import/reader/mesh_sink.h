@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// Where every format's reader puts its objects: turned upright, scaled, checked, filtered by name and sent.
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/reader/frame_writer.h"
+#include "roam/import.h"
+
+namespace roam::reader {
+
+/// What the program asked for; see ImportOptions.
+struct ReadingSettings {
+  std::optional<UpAxis> up;
+  double metres_per_unit = 1.0;
+  std::vector<std::string> ignore;
+  std::optional<Georeference> frame;  ///< into which folders of tiles are placed
+  std::uint64_t memory_limit = 0;
+};
+
+class MeshSink {
+ public:
+  MeshSink(FrameWriter& frames, const ReadingSettings& settings);
+
+  /// The up axis of a format whose own definition says one; the user's choice goes before it.
+  void set_format_up(UpAxis up);
+  /// Added to every vertex of the file before it is turned and scaled, in units of the file.
+  void set_offset(const Vec3& offset) { offset_ = offset; }
+
+  /// Begins an object. `names` are the object's own name and its ancestors', outermost first; empty ones do not count.
+  /// It is called after the innermost that is not empty, else `fallback`; patterns of objects to ignore match any of
+  /// `names` (not `fallback`, which the file does not say). Where the names are those of the current object, that one
+  /// goes on and the answer is false.
+  bool begin_object(std::span<const std::string> names, std::string_view fallback);
+
+  /// Adds a vertex of the current object, in the frame and unit of the file; returns its index in this object.
+  std::uint32_t add_vertex(const Vec3& vertex);
+  /// The same, but returns an earlier index when these very bits were seen shortly before.
+  std::uint32_t add_shared_vertex(const Vec3& vertex);
+  /// Adds a triangle of vertices of the current object. One that has a bad vertex, or an index that add_vertex did not
+  /// return, is left out and counted.
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  /// Counts triangles whose corners do not exist in the file.
+  void leave_out_triangles(std::uint64_t count) { bad_triangles_ += count; }
+  /// How many vertices the current object has.
+  [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
+  /// Whether the current object is left out by name, so that its vertices need not be added.
+  [[nodiscard]] bool ignored() const { return ignored_; }
+
+  void count_file() { ++totals_.files; }
+  void report_missing_page(std::string_view file);
+  void report_note(std::string_view sentence);
+  /// The same sentence, said once however often it is found.
+  void report_note_once(std::string_view sentence);
+  void report_georeference(const Georeference& georeference);
+  /// Tells how many bytes of the files are read in all; sends it now and then.
+  void report_progress(std::uint64_t bytes_read);
+  /// Adds to the bytes that are read, for readers of many files.
+  void report_more_progress(std::uint64_t bytes) { report_progress(bytes_read_ + bytes); }
+
+  /// The last words: closes the current object and sends the totals.
+  void end();
+
+ private:
+  [[nodiscard]] Vec3 placed(const Vec3& vertex) const;
+  bool matches_ignore(std::span<const std::string> names);
+  void finish_object();
+  void send_vertices();
+  void send_triangles();
+  void send_left_out(LeftOutReason reason, std::uint64_t vertices, std::uint64_t triangles);
+
+  FrameWriter& frames_;
+  const ReadingSettings& settings_;
+  UpAxis up_;
+  Vec3 offset_{0.0};
+  Totals totals_;
+  std::vector<std::uint8_t> matched_;
+  std::set<std::string, std::less<>> said_;
+  std::uint64_t bytes_read_ = 0;
+  std::chrono::steady_clock::time_point progress_sent_{};
+
+  // The current object.
+  std::vector<std::string> names_;
+  std::string name_;
+  bool begun_ = false;
+  bool announced_ = false;  ///< its frame is sent; not before it has something to say
+  bool ignored_ = false;
+  std::uint32_t vertex_count_ = 0;
+  std::uint64_t bad_triangles_ = 0, ignored_triangles_ = 0;
+  std::vector<std::uint32_t> bad_;  ///< indices of bad vertices, ascending; they are not sent
+  std::vector<Vec3> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+
+  /// One remembered vertex for each hash of its bits.
+  struct Remembered {
+    Vec3 vertex{0.0};
+    std::uint32_t index = 0;
+    std::uint32_t object = 0;
+  };
+  std::vector<Remembered> remembered_;
+  std::uint32_t object_number_ = 0;
+};
+
+}  // namespace roam::reader

@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "import/reader/file_bytes.h"
+#include "import/reader/formats.h"
+#include "import/reader/numbers.h"
+#include "import/reader/ply_header.h"
+#include "roam/error.h"
+
+// Greg Turk, "The PLY Polygon File Format", 1994.
+
+namespace roam::reader {
+namespace {
+
+/// Takes the values of a binary file one after the other.
+class BinaryValues {
+ public:
+  BinaryValues(FileBytes& bytes, bool swap) : bytes_(bytes), swap_(swap) {}
+
+  double number(PlyType type) {
+    switch (type) {
+      case PlyType::float32:
+        return std::bit_cast<float>(raw<std::uint32_t>());
+      case PlyType::float64:
+        return std::bit_cast<double>(raw<std::uint64_t>());
+      default:
+        return static_cast<double>(integer(type));
+    }
+  }
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::int8:
+        return static_cast<std::int8_t>(raw<std::uint8_t>());
+      case PlyType::uint8:
+        return raw<std::uint8_t>();
+      case PlyType::int16:
+        return static_cast<std::int16_t>(raw<std::uint16_t>());
+      case PlyType::uint16:
+        return raw<std::uint16_t>();
+      case PlyType::int32:
+        return static_cast<std::int32_t>(raw<std::uint32_t>());
+      default:
+        return raw<std::uint32_t>();
+    }
+  }
+  void skip(PlyType type) {
+    need(bytes_of(type));
+    bytes_.skip(bytes_of(type));
+  }
+  [[nodiscard]] std::string where() const { return fmt::format("{}: byte {}", bytes_.path(), bytes_.offset()); }
+  /// Bytes that the shortest spelling of a value takes.
+  static std::size_t least_bytes(const PlyElement& element) { return element.least_bytes(); }
+
+ private:
+  std::string_view need(std::size_t count) {
+    const std::string_view window = bytes_.window(count);
+    if (window.size() < count) throw Error(where() + ": the file ends in the middle of its data; it is cut short.");
+    return window;
+  }
+  template <class T>
+  T raw() {
+    std::array<char, sizeof(T)> value;
+    std::memcpy(value.data(), need(sizeof(T)).data(), sizeof(T));
+    bytes_.skip(sizeof(T));
+    if (swap_) std::reverse(value.begin(), value.end());
+    return std::bit_cast<T>(value);
+  }
+
+  FileBytes& bytes_;
+  bool swap_;
+};
+
+/// Takes the values of a text file one after the other, wherever its lines end.
+class AsciiValues {
+ public:
+  AsciiValues(FileBytes& bytes, Lines& lines) : bytes_(bytes), lines_(lines) {}
+
+  double number(PlyType) {
+    const std::string_view word = next_word();
+    double value = 0.0;
+    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no number.", where(), word.substr(0, 40)));
+    return value;
+  }
+  std::int64_t integer(PlyType) {
+    const std::string_view word = next_word();
+    std::int64_t value = 0;
+    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no integer.", where(), word.substr(0, 40)));
+    return value;
+  }
+  void skip(PlyType) { next_word(); }
+  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", bytes_.path(), lines_.number()); }
+  /// A digit and a blank for each.
+  static std::size_t least_bytes(const PlyElement& element) { return 2 * element.properties.size(); }
+
+ private:
+  std::string_view next_word() {
+    std::string_view word = take_word(line_);
+    while (word.empty()) {
+      if (!lines_.next(line_)) throw Error(where() + ": the file ends in the middle of its data; it is cut short.");
+      word = take_word(line_);
+    }
+    return word;
+  }
+
+  FileBytes& bytes_;
+  Lines& lines_;
+  std::string_view line_;
+};
+
+template <class Values>
+class PlyBody {
+ public:
+  PlyBody(FileBytes& bytes, const PlyHeader& header, Values values, MeshSink& sink)
+      : bytes_(bytes), header_(header), values_(values), sink_(sink) {}
+
+  void read() {
+    for (const PlyElement& element : header_.elements) {
+      check_size(element);
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (const int list = index_list(element); list >= 0) {
+        read_faces(element, list);
+      } else {
+        skip(element);
+      }
+    }
+    if (small_faces_ > 0) {
+      sink_.report_note(
+          fmt::format("{}: {} faces with fewer than three corners were skipped.", bytes_.path(), small_faces_));
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}.", values_.where(), what)); }
+
+  /// A header that promises more than the file can hold is told before the reading, not after.
+  void check_size(const PlyElement& element) const {
+    const std::uint64_t left = bytes_.size() - std::min(bytes_.size(), bytes_.offset()) + 1;
+    const std::size_t least = Values::least_bytes(element);
+    if (least > 0 && element.count > left / least) {
+      fail(fmt::format("the header says {} times '{}', but the file is too short for it; it is cut short",
+                       element.count, element.name));
+    }
+  }
+
+  /// The property that lists a face's or strip's vertices, or -1.
+  static int index_list(const PlyElement& element) {
+    if (element.name != "face" && element.name != "tristrips") return -1;
+    int found = -1;
+    for (const char* name : {"vertex_indices", "vertex_index"}) {
+      const int i = element.find(name);
+      if (found < 0 && i >= 0 && element.properties[static_cast<std::size_t>(i)].list) found = i;
+    }
+    return found;
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::array<int, 3> at{element.find("x"), element.find("y"), element.find("z")};
+    if (at[0] < 0 || at[1] < 0 || at[2] < 0) fail("the element 'vertex' has no x, y and z");
+    const auto axis_of = [&](std::size_t property) {
+      const auto found = std::find(at.begin(), at.end(), static_cast<int>(property));
+      return static_cast<int>(found - at.begin());
+    };
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::array<double, 4> v{};
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const PlyProperty& property = element.properties[p];
+        const int axis = axis_of(p);
+        if (axis == 3 || property.list) {
+          skip(property);
+        } else {
+          v[static_cast<std::size_t>(axis)] = values_.number(property.type);
+        }
+      }
+      sink_.add_vertex({v[0], v[1], v[2]});
+    }
+  }
+
+  void read_faces(const PlyElement& element, int list) {
+    const auto list_at = static_cast<std::size_t>(list);
+    if (!is_integer(element.properties[list_at].type)) fail("the vertices of a face are no integers");
+    const bool strips = element.name == "tristrips";
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const PlyProperty& property = element.properties[p];
+        if (p != list_at) {
+          skip(property);
+        } else if (strips) {
+          read_strip(property);
+        } else {
+          read_polygon(property);
+        }
+      }
+    }
+  }
+
+  std::int64_t length_of_list(const PlyProperty& property) {
+    const std::int64_t length = values_.integer(property.count_type);
+    if (length < 0) fail(fmt::format("a list of {} items", length));
+    return length;
+  }
+
+  std::uint32_t checked(std::int64_t index) const {
+    if (index < 0 || index >= static_cast<std::int64_t>(sink_.vertex_count())) {
+      fail(fmt::format("a face refers to vertex {}, but {} vertices come before it (counted from 0)", index,
+                       sink_.vertex_count()));
+    }
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void read_polygon(const PlyProperty& property) {
+    const std::int64_t length = length_of_list(property);
+    if (length < 3) ++small_faces_;
+    std::uint32_t first = 0, before = 0;
+    for (std::int64_t k = 0; k < length; ++k) {
+      const std::uint32_t corner = checked(values_.integer(property.type));
+      if (k == 0) first = corner;
+      if (k >= 2) sink_.add_triangle(first, before, corner);
+      before = corner;
+    }
+  }
+
+  /// Strips follow each other in one list, with -1 between them.
+  void read_strip(const PlyProperty& property) {
+    const std::int64_t length = length_of_list(property);
+    std::array<std::uint32_t, 2> before{};
+    std::int64_t in_strip = 0;
+    for (std::int64_t k = 0; k < length; ++k) {
+      const std::int64_t index = values_.integer(property.type);
+      if (index == -1) {
+        in_strip = 0;
+        continue;
+      }
+      const std::uint32_t corner = checked(index);
+      if (in_strip >= 2) {
+        const bool odd = in_strip % 2 == 1;
+        sink_.add_triangle(before[odd ? 1 : 0], before[odd ? 0 : 1], corner);
+      }
+      before = {before[1], corner};
+      ++in_strip;
+    }
+  }
+
+  void skip(const PlyProperty& property) {
+    const std::int64_t length = property.list ? length_of_list(property) : 1;
+    for (std::int64_t k = 0; k < length; ++k) values_.skip(property.type);
+  }
+
+  void skip(const PlyElement& element) {
+    if (element.properties.empty()) return;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties) skip(property);
+    }
+  }
+
+  FileBytes& bytes_;
+  const PlyHeader& header_;
+  Values values_;
+  MeshSink& sink_;
+  std::uint64_t small_faces_ = 0;
+};
+
+}  // namespace
+
+void read_ply(const std::filesystem::path& path, MeshSink& sink) {
+  FileBytes bytes(path, [&sink](std::uint64_t read) { sink.report_progress(read); });
+  Lines lines(bytes);
+  const PlyHeader header = read_ply_header(bytes, lines);
+  sink.begin_object({}, path.stem().string());
+  if (header.format == PlyFormat::ascii) {
+    PlyBody(bytes, header, AsciiValues(bytes, lines), sink).read();
+  } else {
+    const bool big = header.format == PlyFormat::big_endian;
+    PlyBody(bytes, header, BinaryValues(bytes, big == (std::endian::native == std::endian::little)), sink).read();
+  }
+  sink.count_file();
+}
+
+}  // namespace roam::reader

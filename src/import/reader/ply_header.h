@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The header of a PLY file: which elements follow, and of what their properties are made.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "import/reader/file_bytes.h"
+
+namespace roam::reader {
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes of a value in a binary file.
+[[nodiscard]] std::size_t bytes_of(PlyType type);
+[[nodiscard]] inline bool is_integer(PlyType type) { return type < PlyType::float32; }
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;  ///< of the value, or of a list's items
+  bool list = false;
+  PlyType count_type = PlyType::uint8;  ///< of a list's length
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  /// Bytes of one element when it has no list, else the least that one can have.
+  [[nodiscard]] std::size_t least_bytes() const;
+  [[nodiscard]] bool has_list() const;
+  /// The position of the property of that name, or -1.
+  [[nodiscard]] int find(std::string_view property) const;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;
+};
+
+/// Takes the header, up to and with the end of its last line. Throws roam::Error with the line that is wrong.
+[[nodiscard]] PlyHeader read_ply_header(FileBytes& bytes, Lines& lines);
+
+}  // namespace roam::reader

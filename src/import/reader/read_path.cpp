@@ -1,0 +1,110 @@
+#include "import/reader/read_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+#include "import/reader/file_bytes.h"
+#include "import/reader/formats.h"
+#include "roam/error.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Family { obj, stl, ply, osg, assimp };
+
+struct Format {
+  std::string_view extension;
+  Family family;
+};
+/// Where both libraries know a format, the one that keeps names and hierarchy better.
+constexpr std::array<Format, 22> formats{
+    {{"obj", Family::obj},     {"stl", Family::stl},     {"ply", Family::ply},    {"ive", Family::osg},
+     {"osg", Family::osg},     {"osgb", Family::osg},    {"osgt", Family::osg},   {"osgx", Family::osg},
+     {"3ds", Family::osg},     {"flt", Family::osg},     {"dae", Family::osg},    {"ac", Family::osg},
+     {"dxf", Family::osg},     {"lwo", Family::osg},     {"x", Family::osg},      {"glb", Family::assimp},
+     {"gltf", Family::assimp}, {"fbx", Family::assimp},  {"ifc", Family::assimp}, {"off", Family::assimp},
+     {"3mf", Family::assimp},  {"blend", Family::assimp}}};
+
+/// Formats that people will try, and what to do instead.
+struct Unsupported {
+  std::string_view extension;
+  std::string_view advice;
+};
+constexpr std::array<Unsupported, 12> unsupported{
+    {{"b3dm", "3D Tiles are not read yet; give the scene as OSGB tiles or as one glTF file"},
+     {"i3dm", "3D Tiles are not read yet; give the scene as OSGB tiles or as one glTF file"},
+     {"pnts", "point clouds have no surface; make a mesh of it first"},
+     {"json", "3D Tiles and CityJSON are not read yet; convert it to glTF, OBJ or PLY"},
+     {"tif", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
+     {"tiff", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
+     {"las", "point clouds have no surface; make a mesh of it first"},
+     {"laz", "point clouds have no surface; make a mesh of it first"},
+     {"e57", "point clouds have no surface; make a mesh of it first"},
+     {"gml", "CityGML is not read yet; convert it to glTF, OBJ or PLY"},
+     {"rvt", "Revit's own format is closed; export IFC or FBX from it"},
+     {"dwg", "AutoCAD's own format is closed; export DXF or FBX from it"}}};
+
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+std::string known_extensions() {
+  std::string list;
+  for (const Format& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.extension);
+  return list;
+}
+
+/// Files that no format's reader needs to see.
+void refuse_stand_ins(const fs::path& path) {
+  FileBytes bytes(path, [](std::uint64_t) {});
+  constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
+  const std::string_view start = bytes.window(lfs_pointer.size());
+  if (start.empty()) throw Error(fmt::format("{}: this file is empty; copy or export it again.", path.string()));
+  if (start.starts_with(lfs_pointer)) {
+    throw Error(fmt::format(
+        "{}: this is a Git LFS pointer, not the file itself; run 'git lfs pull' in the clone that it comes from.",
+        path.string()));
+  }
+}
+
+}  // namespace
+
+void read_path(const std::string& name, MeshSink& sink, const ReadingSettings& settings) {
+  const fs::path path(name);
+  if (fs::is_directory(path)) return read_tiles(path, sink, settings);
+  refuse_stand_ins(path);
+  const std::string extension = extension_of(path);
+  for (const Format& format : formats) {
+    if (format.extension != extension) continue;
+    switch (format.family) {
+      case Family::obj:
+        return read_obj(path, sink);
+      case Family::stl:
+        return read_stl(path, sink);
+      case Family::ply:
+        return read_ply(path, sink);
+      case Family::osg:
+        return read_osg(path, sink);
+      case Family::assimp:
+        return read_assimp(path, extension, sink);
+    }
+  }
+  for (const Unsupported& format : unsupported) {
+    if (format.extension == extension) throw Error(fmt::format("{}: {}.", name, format.advice));
+  }
+  throw Error(fmt::format("{}: roam knows no reader for '.{}' files. It reads {}, and folders of OSGB tiles.", name,
+                          extension, known_extensions()));
+}
+
+}  // namespace roam::reader

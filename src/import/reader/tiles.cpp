@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/reader/formats.h"
+#include "import/reader/numbers.h"
+#include "import/reader/osg_files.h"
+#include "import/reader/scene_graph.h"
+#include "roam/error.h"
+
+// The layout that ContextCapture, and after it most photogrammetry programs, export:
+// metadata.xml and Data/Tile_*/Tile_*.osgb, each the root of a tree of pages in its own folder.
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const tinyxml2::XMLElement& parent, const char* name) {
+  const tinyxml2::XMLElement* element = parent.FirstChildElement(name);
+  const char* text = element == nullptr ? nullptr : element->GetText();
+  return text == nullptr ? "" : std::string(trimmed(text));
+}
+
+std::optional<Vec3> three_numbers(std::string_view text) {
+  Vec3 v{0.0};
+  for (int k = 0; k < 3; ++k) {
+    const auto comma = text.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) return std::nullopt;
+    if (!parse(trimmed(text.substr(0, comma)), v[k]) || !std::isfinite(v[k])) return std::nullopt;
+    text = k == 2 ? std::string_view() : text.substr(comma + 1);
+  }
+  return v;
+}
+
+std::optional<Georeference> georeference_in(const fs::path& file, MeshSink& sink) {
+  std::error_code none;
+  if (!fs::exists(file, none)) return std::nullopt;
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(file.string().c_str()) == tinyxml2::XML_SUCCESS) {
+    if (const tinyxml2::XMLElement* root = document.FirstChildElement("ModelMetadata")) {
+      const std::string origin_text = text_of(*root, "SRSOrigin");
+      if (const auto origin = three_numbers(origin_text)) return Georeference{text_of(*root, "SRS"), *origin};
+    }
+  }
+  sink.report_note(
+      fmt::format("{}: this file holds no SRSOrigin of three numbers; where the scene lies in the world is "
+                  "not known.",
+                  file.string()));
+  return std::nullopt;
+}
+
+/// The root files of all tiles in `folder`, sorted by name; missing ones are told.
+std::vector<fs::path> tile_roots(const fs::path& folder, MeshSink& sink) {
+  std::vector<fs::path> roots;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory(none) || !name.starts_with("Tile_")) continue;
+    roots.push_back(entry.path() / (name + ".osgb"));
+  }
+  std::sort(roots.begin(), roots.end());
+  const auto absent =
+      std::stable_partition(roots.begin(), roots.end(), [&](const fs::path& root) { return fs::exists(root, none); });
+  for (auto root = absent; root != roots.end(); ++root) sink.report_missing_page(root->string());
+  roots.erase(absent, roots.end());
+  if (const fs::path own = folder / (folder.filename().string() + ".osgb"); roots.empty() && fs::exists(own, none)) {
+    roots.push_back(own);
+  }
+  return roots;
+}
+
+/// Moves the sink to where this folder lies in the frame of the scene.
+void place(const Georeference& georeference, const std::string& folder, const ReadingSettings& settings,
+           MeshSink& sink) {
+  const std::string origin =
+      fmt::format("({}, {}, {})", georeference.origin.x, georeference.origin.y, georeference.origin.z);
+  if (!settings.frame) {
+    sink.report_georeference(georeference);
+    sink.report_note(fmt::format("{}: coordinates are those of its tiles; in '{}' the scene's zero lies at {}.", folder,
+                                 georeference.srs, origin));
+    return;
+  }
+  if (settings.frame->srs != georeference.srs) {
+    throw Error(
+        fmt::format("{}: its tiles are in the reference system '{}', those before in '{}'; bring them into one "
+                    "system first.",
+                    folder, georeference.srs, settings.frame->srs));
+  }
+  const Vec3 offset = georeference.origin - settings.frame->origin;
+  sink.set_offset(offset);
+  sink.report_note(
+      fmt::format("{}: its tiles are moved by ({}, {}, {}), the difference of its SRSOrigin {} and that of "
+                  "the first folder.",
+                  folder, offset.x, offset.y, offset.z, origin));
+}
+
+}  // namespace
+
+void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& settings) {
+  fs::path folder = fs::absolute(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  std::error_code none;
+  const bool has_data = fs::is_directory(folder / "Data", none);
+  const fs::path metadata = (folder.filename() == "Data" ? folder.parent_path() : folder) / "metadata.xml";
+  const std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, sink);
+  if (roots.empty()) {
+    throw Error(
+        fmt::format("{}: this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the "
+                    "scene's file.",
+                    path.string()));
+  }
+  if (const auto georeference = georeference_in(metadata, sink)) {
+    place(*georeference, path.string(), settings, sink);
+  } else if (settings.frame) {
+    sink.report_note(
+        fmt::format("{}: its place relative to the folders before is not known; its coordinates are taken "
+                    "as they are.",
+                    path.string()));
+  }
+  prepare_osg(sink);
+  for (const fs::path& root : roots) {
+    const osg::ref_ptr<osg::Node> node = read_osg_file(root, false);
+    if (node != nullptr) SceneGraphWalk(sink).walk(*node, root);
+  }
+}
+
+}  // namespace roam::reader

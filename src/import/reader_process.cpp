@@ -1,0 +1,193 @@
+#include "import/reader_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+#include "import/stream.h"
+#include "roam/error.h"
+
+// POSIX asks programs to declare it themselves.
+extern char** environ;
+
+namespace roam::reader {
+namespace {
+
+/// As much of the child's last words as a message can use.
+constexpr std::size_t complaint_limit = 8192;
+/// Asked of the system for the stream, so that the child seldom waits for us; a smaller pipe works too.
+[[maybe_unused]] constexpr int pipe_bytes = 1 << 20;
+
+struct Pipe {
+  int read_end = -1;
+  int write_end = -1;
+
+  Pipe() {
+    int ends[2];
+#ifdef __linux__
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+#else
+    if (pipe(ends) != 0) {
+#endif
+      throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(errno));
+    }
+    read_end = ends[0];
+    write_end = ends[1];
+#ifndef __linux__
+    fcntl(read_end, F_SETFD, FD_CLOEXEC);
+    fcntl(write_end, F_SETFD, FD_CLOEXEC);
+#endif
+  }
+  ~Pipe() {
+    if (read_end >= 0) close(read_end);
+    if (write_end >= 0) close(write_end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int release_read_end() {
+    fcntl(read_end, F_SETFL, fcntl(read_end, F_GETFL) | O_NONBLOCK);
+    const int end = read_end;
+    read_end = -1;
+    return end;
+  }
+};
+
+/// posix_spawn's two settings, freed on every way out.
+struct SpawnSettings {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+
+  SpawnSettings() {
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&attributes);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+};
+
+/// A descriptor above those that the child's own standard descriptors and stream replace.
+int moved_out_of_the_way(int descriptor) {
+  const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, stream_fd + 1);
+  if (moved < 0) throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(errno));
+  return moved;
+}
+
+}  // namespace
+
+ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+  Pipe stream, complaints;
+  // dup2 onto itself would leave close-on-exec set, and an end numbered 1 or 2 would be overwritten by the other's.
+  for (Pipe* pipe : {&stream, &complaints}) {
+    const int moved = moved_out_of_the_way(pipe->write_end);
+    close(pipe->write_end);
+    pipe->write_end = moved;
+  }
+#ifdef F_SETPIPE_SZ
+  fcntl(stream.read_end, F_SETPIPE_SZ, pipe_bytes);
+#endif
+
+  SpawnSettings settings;
+  posix_spawn_file_actions_addopen(&settings.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&settings.files, complaints.write_end, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&settings.files, complaints.write_end, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&settings.files, stream.write_end, stream_fd);
+
+  // The host program may ignore or block signals; the child must die of them.
+  sigset_t all, none;
+  sigfillset(&all);
+  sigemptyset(&none);
+  posix_spawnattr_setsigdefault(&settings.attributes, &all);
+  posix_spawnattr_setsigmask(&settings.attributes, &none);
+  posix_spawnattr_setflags(&settings.attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+
+  const std::string name = program.string();
+  std::vector<char*> argv{const_cast<char*>(name.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+
+  pid_t pid = -1;
+  const int failure = posix_spawn(&pid, name.c_str(), &settings.files, &settings.attributes, argv.data(), environ);
+  if (failure != 0) {
+    throw Error("cannot run the scene reader " + name + ": " + std::strerror(failure) +
+                ". Install roam anew, or name the program by the environment variable ROAM_READER.");
+  }
+  pid_ = pid;
+  stream_ = stream.release_read_end();
+  complaint_pipe_ = complaints.release_read_end();
+}
+
+ReaderProcess::~ReaderProcess() {
+  finish(0);
+  close(stream_);
+  close(complaint_pipe_);
+}
+
+ReaderProcess::Arrival ReaderProcess::receive(std::span<std::byte> buffer, int milliseconds, std::size_t& received) {
+  received = 0;
+  std::array<pollfd, 2> wait{{{stream_, POLLIN, 0}, {complaint_pipe_, POLLIN, 0}}};
+  if (poll(wait.data(), wait.size(), milliseconds) < 0 && errno != EINTR) {
+    throw Error(std::string("cannot wait for the scene reader: ") + std::strerror(errno));
+  }
+  drain_complaints();
+  const ssize_t n = read(stream_, buffer.data(), buffer.size());
+  if (n > 0) {
+    received = static_cast<std::size_t>(n);
+    return Arrival::bytes;
+  }
+  if (n == 0) return Arrival::end;
+  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return Arrival::nothing;
+  throw Error(std::string("cannot read from the scene reader: ") + std::strerror(errno));
+}
+
+void ReaderProcess::drain_complaints() {
+  std::array<char, 4096> chunk;
+  // Bounded, so that a child that never stops complaining does not keep us from its stream.
+  for (int i = 0; i < 16; ++i) {
+    const ssize_t n = read(complaint_pipe_, chunk.data(), chunk.size());
+    if (n <= 0) return;
+    complaints_.append(chunk.data(), static_cast<std::size_t>(n));
+    if (complaints_.size() > complaint_limit) complaints_.erase(0, complaints_.size() - complaint_limit);
+  }
+}
+
+Ending ReaderProcess::finish(int milliseconds) {
+  if (pid_ < 0) return {};
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::milliseconds(milliseconds);
+  int status = 0;
+  pid_t collected = 0;
+  while ((collected = waitpid(pid_, &status, WNOHANG)) == 0 && Clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const bool killed_here = collected == 0;
+  if (killed_here) {
+    kill(pid_, SIGKILL);
+    do {
+      collected = waitpid(pid_, &status, 0);
+    } while (collected < 0 && errno == EINTR);
+  }
+  pid_ = -1;
+  drain_complaints();
+  if (collected < 0 || killed_here) return {};
+  Ending ending;
+  ending.known = true;
+  if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
+  if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
+  return ending;
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// A child process whose frames and complaints are read through pipes.
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace roam::reader {
+
+/// How a child ended.
+struct Ending {
+  bool known = false;  ///< false when it was killed by finish, or collected by a host program that ignores SIGCHLD
+  int exit_code = 0;   ///< when signal is 0
+  int signal = 0;      ///< that ended it, or 0
+};
+
+/// Owns one child. Destruction kills it, collects it and closes the pipes: no zombie, no open descriptor is left.
+class ReaderProcess {
+ public:
+  /// Starts `program` with `arguments` (without the program's own name). Throws roam::Error when it cannot run.
+  ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+  ~ReaderProcess();
+  ReaderProcess(const ReaderProcess&) = delete;
+  ReaderProcess& operator=(const ReaderProcess&) = delete;
+
+  enum class Arrival { bytes, nothing, end };
+  /// Waits at most `milliseconds` for bytes of the stream and puts up to buffer.size() of them into `buffer`.
+  Arrival receive(std::span<std::byte> buffer, int milliseconds, std::size_t& received);
+
+  /// Waits at most `milliseconds` for the child to end by itself, kills it if it does not, and collects it.
+  Ending finish(int milliseconds);
+
+  /// The end of what the child wrote to its standard output and error.
+  [[nodiscard]] const std::string& complaints() const { return complaints_; }
+
+ private:
+  void drain_complaints();
+
+  int stream_ = -1;
+  int complaint_pipe_ = -1;
+  int pid_ = -1;
+  std::string complaints_;
+};
+
+}  // namespace roam::reader

@@ -1,0 +1,51 @@
+#include "import/report_notes.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace roam::reader {
+namespace {
+
+/// Names that a sentence lists before it says "and others".
+constexpr std::size_t listed_names = 3;
+
+std::string listed(const std::vector<LeftOutObject>& objects) {
+  std::string text;
+  for (std::size_t i = 0; i < objects.size() && i < listed_names; ++i) {
+    text += fmt::format("{}'{}' ({} vertices, {} triangles)", i == 0 ? "" : ", ", objects[i].name, objects[i].vertices,
+                        objects[i].triangles);
+  }
+  return objects.size() > listed_names ? text + " and others" : text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < listed_names; ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() > listed_names ? text + " and others" : text;
+}
+
+}  // namespace
+
+void add_count_notes(ImportReport& report, const ImportOptions& options, const std::vector<bool>& matched) {
+  std::vector<std::string> notes;
+  if (report.bad_vertices > 0 || report.bad_triangles > 0) {
+    notes.push_back(fmt::format(
+        "{} triangles were left out: they have one of {} vertices that are not finite or lie beyond 1e9 m, or refer to "
+        "a vertex that is not there; in {}. The scene has holes there.",
+        report.bad_triangles, report.bad_vertices, listed(report.bad_objects)));
+  }
+  if (report.missing_pages > 0) {
+    notes.push_back(
+        fmt::format("{} files that the scene refers to are absent or unreadable; coarser geometry stands in where "
+                    "there is one: {}.",
+                    report.missing_pages, listed(report.missing_page_files)));
+  }
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (!matched[i])
+      notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", options.ignore[i]));
+  }
+  report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// The counts of a report as sentences.
+
+#include <vector>
+
+#include "roam/import.h"
+
+namespace roam::reader {
+
+/// Puts before report.notes what the counts of the report and the patterns that matched nothing mean for the user.
+void add_count_notes(ImportReport& report, const ImportOptions& options, const std::vector<bool>& matched);
+
+}  // namespace roam::reader

@@ -1,0 +1,131 @@
+#pragma once
+/// \file
+/// What roam-reader says to the program that started it: frames on file descriptor stream_fd.
+///
+/// A frame is a FrameHeader and `bytes` bytes of payload, in the byte order of the machine (both ends are on it).
+/// Frames are numbered from 0 without a gap. Payloads are the fields below in this order; text is a 32-bit length and
+/// that many bytes.
+///
+///     hello         u32 stream_version                                       first, once
+///     progress      u64 bytes read so far                                    at any time
+///     georeference  f64 x, y, z; text srs                                    folders of tiles, at most once
+///     object        text name                                                begins a mesh
+///     vertices      f64 x, y, z of each                                      belong to the mesh begun last
+///     triangles     u32 a, b, c of each                                      index the vertices sent so far
+///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
+///     missing_page  text file
+///     note          text sentence
+///     failure       text sentence                                            last: the file cannot be read
+///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: all is said
+///
+/// The receiver trusts nothing: it checks the numbering, sizes, that vertices are finite and within the limit, that
+/// indices are in range, and that the totals of `end` are those that arrived.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace roam::reader {
+
+inline constexpr int stream_fd = 3;
+inline constexpr std::uint32_t stream_version = 1;
+inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
+/// Largest payload; a sender splits vertices and triangles accordingly.
+inline constexpr std::uint32_t payload_limit = 4u << 20;
+/// Largest text; longer names are cut by the sender.
+inline constexpr std::uint32_t text_limit = 64u << 10;
+
+enum class FrameKind : std::uint16_t {
+  hello,
+  progress,
+  georeference,
+  object,
+  vertices,
+  triangles,
+  left_out,
+  missing_page,
+  note,
+  failure,
+  end
+};
+
+struct FrameHeader {
+  std::uint32_t magic = frame_magic;
+  FrameKind kind = FrameKind::hello;
+  std::uint16_t zero = 0;
+  std::uint32_t number = 0;
+  std::uint32_t bytes = 0;
+};
+static_assert(sizeof(FrameHeader) == 16);
+
+enum class LeftOutReason : std::uint8_t { bad_vertices, ignored };
+
+struct Totals {
+  std::uint64_t files = 0, vertices = 0, triangles = 0;
+  std::uint64_t bad_vertices = 0, bad_triangles = 0, ignored_triangles = 0, missing_pages = 0;
+};
+
+/// Builds a payload field by field.
+class PayloadWriter {
+ public:
+  template <class T>
+  PayloadWriter& add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+    return *this;
+  }
+  PayloadWriter& add_text(std::string_view text) {
+    text = text.substr(0, text_limit);
+    add(static_cast<std::uint32_t>(text.size()));
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    bytes_.insert(bytes_.end(), first, first + text.size());
+    return *this;
+  }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// Takes a payload apart. A field that is not there makes ok() false and reads as zero or empty.
+class PayloadReader {
+ public:
+  explicit PayloadReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class T>
+  T take() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value{};
+    if (rest_.size() < sizeof(T)) {
+      ok_ = false;
+      return value;
+    }
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_ = rest_.subspan(sizeof(T));
+    return value;
+  }
+  std::string take_text() {
+    const auto length = take<std::uint32_t>();
+    if (length > text_limit || length > rest_.size()) {
+      ok_ = false;
+      return {};
+    }
+    std::string text(reinterpret_cast<const char*>(rest_.data()), length);
+    rest_ = rest_.subspan(length);
+    return text;
+  }
+  /// Whether every field was there and nothing is left over.
+  [[nodiscard]] bool complete() const { return ok_ && rest_.empty(); }
+
+ private:
+  std::span<const std::byte> rest_;
+  bool ok_ = true;
+};
+
+}  // namespace roam::reader
