@@ -1,5 +1,7 @@
 // Times roam alone: what to run while changing the index. Wrong answers come before times.
 
+#include <hwy/targets.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include "judge.h"
 #include "memory.h"
 #include "query_sets.h"
+#include "roam/error.h"
 #include "roam/world.h"
 #include "scene.h"
 #include "timing.h"
@@ -24,7 +27,23 @@ struct Options {
   int rounds = 5;
   bool lossless = false;
   bool check = true;
+  std::string instructions;
 };
+
+// Highway takes the best instruction set that is left of those that it was compiled for.
+void restrict_instructions(const std::string& name) {
+  std::string known;
+  for (auto left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const auto target = left & -left;
+    if (name == hwy::TargetName(target)) {
+      hwy::SetSupportedTargetsForTest(left);  // better sets have lower bits
+      hwy::GetChosenTarget().DeInit();
+      return;
+    }
+    known += std::string(known.empty() ? "" : ", ") + hwy::TargetName(target);
+  }
+  throw roam::Error("this machine has no instruction set '" + name + "': choose one of " + known);
+}
 
 double seconds_to_build(const Scene& scene, const roam::BuildOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -49,6 +68,7 @@ void print_build(const Scene& scene, bool lossless, const roam::World& world, st
 }
 
 int run(const Options& options) {
+  if (!options.instructions.empty()) restrict_instructions(options.instructions);
   const Scene scene = make_scene(options.scene);
   std::printf("%s\n", scene.name.c_str());
   const std::size_t before = allocated_bytes();
@@ -111,6 +131,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_flag("--lossless", options.lossless, "build with BuildOptions::lossless");
   app.add_flag("!--no-check", options.check, "leave out the comparison with the reference: faster to start");
+  app.add_option("--instructions", options.instructions,
+                 "the best instruction set to use, by Highway's name: AVX3, AVX2, SSE4, ...");
   CLI11_PARSE(app, argc, argv);
   options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
   try {
