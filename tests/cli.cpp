@@ -1,0 +1,165 @@
+// The command line as a shell sees it: what every verb has in common, and info.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli_scenes.h"
+#include "program.h"
+
+namespace {
+
+ProgramResult roam(const std::vector<std::string>& arguments) { return run_program(ROAM_PROGRAM, arguments); }
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(CommandLine, TellsItsVersion) {
+  const ProgramResult result = roam({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "roam " ROAM_VERSION "\n");
+}
+
+TEST(CommandLine, ExplainsEveryVerbWithExamples) {
+  const std::vector<std::vector<std::string>> verbs = {
+      {}, {"walk"}, {"sweep"}, {"info"}, {"make"}, {"make", "gallery"}, {"make", "terrain"}, {"make", "city"}};
+  for (std::vector<std::string> verb : verbs) {
+    verb.push_back("--help");
+    const ProgramResult result = roam(verb);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_TRUE(contains(result.out, "Examples:\n  ")) << result.out;
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST(CommandLine, NamesTheUnknownOptionAndWhereToLook) {
+  const ProgramResult result = roam({"walk", "scene.obj", "--path", "a.path", "--radis", "0.3"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(contains(result.err, "--radis")) << result.err;
+  EXPECT_TRUE(contains(result.err, "`roam walk --help`")) << result.err;
+}
+
+TEST(CommandLine, RefusesWrongUsageWithStatusTwo) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"fly"},
+      {"walk"},
+      {"walk", "scene.obj"},
+      {"walk", "scene.obj", "--path"},
+      {"walk", "scene.obj", "--path", "a", "--mode", "swim"},
+      {"walk", "scene.obj", "--path", "a", "--radius", "wide"},
+      {"walk", "scene.obj", "--path", "a", "--radius", "-1"},
+      {"walk", "scene.obj", "--path", "a", "--radius", "nan"},
+      {"walk", "scene.obj", "--path", "a", "--height", "0.5"},
+      {"walk", "scene.obj", "--path", "a", "--speed", "0"},
+      {"walk", "scene.obj", "--path", "a", "--mode", "ghost", "--verify"},
+      {"info", "scene.obj", "--up", "w"},
+      {"info", "scene.obj", "--unit", "mile"},
+      {"info", "scene.obj", "--threads", "0"},
+      {"make"},
+      {"make", "castle", "-o", "castle.ply"},
+      {"make", "gallery"},
+      {"make", "gallery", "-o", "g.ply", "--triangles", "1"},
+      {"make", "gallery", "-o", "g.ply", "--triangles", "-5"},
+      {"make", "terrain", "-o", "t.ply", "--size", "1e9"},
+  };
+  for (const auto& arguments : wrong) {
+    const ProgramResult result = roam(arguments);
+    std::string line;
+    for (const std::string& argument : arguments) line += argument + " ";
+    EXPECT_EQ(result.status, 2) << line << "\n" << result.err;
+    EXPECT_EQ(result.out, "") << line;
+    EXPECT_FALSE(result.err.empty()) << line;
+  }
+}
+
+TEST(CommandLine, NamesTheSceneThatIsNotThere) {
+  const ProgramResult result = roam({"info", "no/such/scene.obj"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "no/such/scene.obj")) << result.err;
+}
+
+TEST(CommandLine, RefusesASceneWithoutTriangles) {
+  const TestFolder folder;
+  const std::string scene = folder.write("empty.obj", "# nothing\nv 0 0 0\n");
+  const ProgramResult result = roam({"info", scene});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "empty.obj")) << result.err;
+  EXPECT_TRUE(contains(result.err, "triangle")) << result.err;
+}
+
+nlohmann::json info(const std::vector<std::string>& arguments) {
+  std::vector<std::string> all{"info", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const ProgramResult result = roam(all);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+TEST(Info, SaysWhatASceneHolds) {
+  const TestFolder folder;
+  const nlohmann::json report = info({folder.write("room.obj", room_obj())});
+  EXPECT_EQ(report["triangles"], 12);
+  EXPECT_EQ(report["objects"], 6);
+  EXPECT_GE(report["tiles"], 1);
+  EXPECT_GT(report["bytes"], 0);
+  EXPECT_DOUBLE_EQ(report["bytes_per_triangle"], report["bytes"].get<double>() / 12);
+  EXPECT_EQ(report["bounds"]["min"], (std::vector<double>{0, -2, 0}));
+  EXPECT_EQ(report["bounds"]["max"], (std::vector<double>{20, 2, 3}));
+  EXPECT_LE(report["largest_error_m"], 2e-3);
+  EXPECT_EQ(report["hash"].get<std::string>().size(), 32u);
+  EXPECT_EQ(report["import"]["files"], 1);
+  EXPECT_EQ(report["import"]["bad_vertices"], 0);
+}
+
+TEST(Info, SaysTheSameInWords) {
+  const TestFolder folder;
+  const ProgramResult result = roam({"info", folder.write("room.obj", room_obj())});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "12 in 6 objects")) << result.out;
+  EXPECT_TRUE(contains(result.out, "20.000 x 4.000 x 3.000 m")) << result.out;
+}
+
+TEST(Info, AppliesUnitAndUpAxis) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", room_obj());
+  const nlohmann::json report = info({scene, "--unit", "cm", "--up", "y"});
+  // (x, y, z) becomes (x, -z, y).
+  EXPECT_EQ(report["bounds"]["min"], (std::vector<double>{0, -0.03, -0.02}));
+  EXPECT_EQ(report["bounds"]["max"], (std::vector<double>{0.2, 0, 0.02}));
+}
+
+TEST(Info, LeavesOutWhatIsIgnored) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", room_obj());
+  const nlohmann::json report = info({scene, "--ignore", "fr*", "--ignore", "ceiling"});
+  EXPECT_EQ(report["triangles"], 8);
+  EXPECT_EQ(report["import"]["ignored_triangles"], 4);
+}
+
+TEST(Info, HashesTrianglesNotFiles) {
+  const TestFolder folder;
+  const std::string named = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no square\nf 1 2 3 4\n");
+  const std::string twice = folder.write("b.obj", "v 9 9 9\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 0\nf 5 4 3\nf 5 3 2\n");
+  const std::string other = folder.write("c.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1e-9\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_EQ(info({named})["hash"], info({twice})["hash"]);
+  EXPECT_NE(info({named})["hash"], info({other})["hash"]);
+}
+
+TEST(Info, LoadsSeveralScenesIntoOneWorld) {
+  const TestFolder folder;
+  const std::string a = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  const std::string b = folder.write("b.obj", "v 0 0 9\nv 1 0 9\nv 1 1 9\nf 1 2 3\n");
+  const nlohmann::json report = info({a, b});
+  EXPECT_EQ(report["triangles"], 2);
+  EXPECT_EQ(report["bounds"]["max"], (std::vector<double>{1, 1, 9}));
+}
+
+TEST(Info, EndsQuietlyWhenNobodyReads) {
+  const TestFolder folder;
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"info", folder.write("room.obj", room_obj())}, {.close_output = true});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err, "");
+}
+
+}  // namespace

@@ -1,0 +1,88 @@
+// roam make as a shell sees it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace {
+
+ProgramResult roam(const std::vector<std::string>& arguments) { return run_program(ROAM_PROGRAM, arguments); }
+
+nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
+
+TEST(MakeVerb, MakesAGalleryWithItsPathsAndABodyFliesTheFirst) {
+  const TestFolder folder;
+  const std::string scene = folder.file("dam.ply");
+  const ProgramResult made = roam({"make", "gallery", "-o", scene, "--triangles", "20k", "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NEAR(json(made)["triangles"].get<double>(), 20'000, 600);
+  EXPECT_EQ(json(made)["paths"].size(), 3u);
+  EXPECT_EQ(json(roam({"info", scene, "--json"}))["triangles"], json(made)["triangles"]);
+  for (const char* path : {"dam-straight.path", "dam-corner.path"}) {
+    const ProgramResult walked =
+        roam({"walk", scene, "--path", folder.file(path), "--mode", "fly", "--speed", "50", "--verify", "--json"});
+    EXPECT_EQ(walked.status, 0) << walked.err << walked.out;
+    EXPECT_EQ(json(walked)["violations"], 0);
+  }
+}
+
+TEST(MakeVerb, CrossesTheSplitWithARadiusThatBridgesIt) {
+  const TestFolder folder;
+  const std::string scene = folder.file("dam.ply");
+  ASSERT_EQ(roam({"make", "gallery", "-o", scene, "--triangles", "50k"}).status, 0);
+  const std::vector<std::string> walk{"walk",     scene,    "--path",  folder.file("dam-split.path"), "--speed", "1.5",
+                                      "--verify", "--json", "--radius"};
+  auto with = [&](const char* radius) {
+    std::vector<std::string> arguments = walk;
+    arguments.emplace_back(radius);
+    return json(roam(arguments));
+  };
+  const nlohmann::json crossed = with("0.7");
+  EXPECT_EQ(crossed["outcome"], "reached") << crossed;
+  EXPECT_EQ(crossed["violations"], 0);
+  const nlohmann::json fell = with("0.5");
+  EXPECT_EQ(fell["outcome"], "fell") << fell;
+  EXPECT_EQ(fell["violations"], 0);
+}
+
+TEST(MakeVerb, GivesTheSameBitsForTheSameSeed) {
+  const TestFolder folder;
+  const auto make = [&](const std::string& file, const std::string& seed) {
+    EXPECT_EQ(roam({"make", "terrain", "-o", folder.file(file), "--triangles", "10k", "--seed", seed}).status, 0);
+    return folder.read(file);
+  };
+  const std::string first = make("a.ply", "5");
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(first, make("b.ply", "5"));
+  EXPECT_NE(first, make("c.ply", "6"));
+}
+
+TEST(MakeVerb, ShiftsTheGalleryAndItsPathsTogether) {
+  const TestFolder folder;
+  const ProgramResult made =
+      roam({"make", "gallery", "-o", folder.file("far.obj"), "--triangles", "10k", "--origin", "4000000,500000,-100"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(folder.read("far-straight.path").find("\n3986261 500253 82\n"), std::string::npos)
+      << folder.read("far-straight.path");
+}
+
+TEST(MakeVerb, SaysWhatIsWrongWithTheOutput) {
+  for (const char* file : {"/no/such/folder/city.ply", "city.xyz"}) {
+    const ProgramResult result = roam({"make", "city", "-o", file, "--triangles", "10k"});
+    EXPECT_EQ(result.status, 1) << file;
+    EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+  }
+}
+
+TEST(MakeVerb, IsCancelledInGoodOrder) {
+  const TestFolder folder;
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"make", "terrain", "-o", folder.file("huge.ply"), "--triangles", "100M"},
+                  {.interrupt_after = 0.3});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err, "roam: cancelled\n");
+  EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(folder.file("huge.ply")).parent_path()));
+}
+
+}  // namespace

@@ -1,0 +1,223 @@
+// roam walk as a shell sees it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli_scenes.h"
+#include "program.h"
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// One walk in a folder of its own.
+struct Walk {
+  TestFolder folder;
+  ProgramResult result;
+
+  Walk(const std::string& scene, const std::string& path, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"walk", folder.write("scene.obj", scene), "--path",
+                                       folder.write("p.path", path)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    result = run_program(ROAM_PROGRAM, arguments);
+  }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(result.out, nullptr, false); }
+};
+
+TEST(WalkVerb, ReportsAPathThatWasWalkedToItsEnd) {
+  const Walk walk(room_obj(), "2 0 0.9\n18 0 0.9\n", {"--height", "1.8", "--json", "--verify"});
+  EXPECT_EQ(walk.result.status, 0) << walk.result.err;
+  const nlohmann::json report = walk.json();
+  for (const char* key :
+       {"scene", "triangles", "mode", "radius", "height", "outcome", "length_m", "steps", "simulated_s", "step_ns",
+        "least_clearance_m", "violations", "throttled", "blocked_at", "events"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["triangles"], 12);
+  EXPECT_EQ(report["mode"], "walk");
+  EXPECT_EQ(report["radius"], 0.3);
+  EXPECT_EQ(report["height"], 1.8);
+  EXPECT_EQ(report["outcome"], "reached");
+  EXPECT_NEAR(report["length_m"].get<double>(), 16.0, 0.1);
+  EXPECT_NEAR(report["simulated_s"].get<double>(), 16.0 / 1.4, 0.1);
+  EXPECT_GE(report["least_clearance_m"].get<double>(), 0.3 - 1e-6);
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_EQ(report["verified"]["overstated_clearances"], 0);
+  EXPECT_TRUE(report["blocked_at"].is_null());
+  EXPECT_GT(report["step_ns"]["median"].get<double>(), 0.0);
+  EXPECT_GE(report["step_ns"]["max"], report["step_ns"]["p99"]);
+}
+
+TEST(WalkVerb, IsASphereWhenNoHeightIsGiven) {
+  const Walk walk(room_obj(), "2 0 0.4\n4 0 0.4\n", {"--radius", "0.4", "--json"});
+  EXPECT_EQ(walk.json()["height"], 0.8);
+  EXPECT_TRUE(walk.json()["violations"].is_null());  // not asked to --verify
+}
+
+TEST(WalkVerb, NamesTheWallThatBlocks) {
+  const Walk walk(room_obj(), "2 0 1.5\n25 0 1.5\n", {"--mode", "fly", "--json", "--verify"});
+  EXPECT_EQ(walk.result.status, 3) << walk.result.err;
+  const nlohmann::json report = walk.json();
+  EXPECT_EQ(report["outcome"], "blocked");
+  EXPECT_EQ(report["blocked_at"]["object"], "front");
+  EXPECT_NEAR(report["blocked_at"]["point"][0].get<double>(), 20.0, 1e-2);
+  EXPECT_NEAR(report["blocked_at"]["normal"][0].get<double>(), -1.0, 1e-6);
+  EXPECT_TRUE(report["blocked_at"].contains("triangle"));
+  EXPECT_TRUE(report["blocked_at"]["opening_m"].is_null());
+  EXPECT_EQ(report["violations"], 0);
+}
+
+TEST(WalkVerb, SaysInWordsWhatHappened) {
+  const Walk walk(room_obj(), "2 0 1.5\n25 0 1.5\n", {"--mode", "fly", "--verify"});
+  EXPECT_EQ(walk.result.status, 3);
+  EXPECT_EQ(walk.result.out.substr(0, 9), "blocked: ");
+  EXPECT_TRUE(contains(walk.result.out, "\"front\"")) << walk.result.out;
+  EXPECT_TRUE(contains(walk.result.out, "0 violations")) << walk.result.out;
+}
+
+TEST(WalkVerb, CrossesAGapThatTheRadiusBridgesAndFallsIntoAWiderOne) {
+  const std::string path = "2 0 0.5\n12 0 0.5\n";
+  const Walk bridged(gap_obj("5.5"), path, {"--radius", "0.5", "--json", "--verify"});
+  EXPECT_EQ(bridged.json()["outcome"], "reached") << bridged.result.out;
+  EXPECT_EQ(bridged.json()["violations"], 0);
+  const Walk fell(gap_obj("6.5"), path, {"--radius", "0.5", "--json", "--verify"});
+  EXPECT_EQ(fell.result.status, 3);
+  EXPECT_EQ(fell.json()["outcome"], "fell") << fell.result.out;
+  EXPECT_EQ(fell.json()["violations"], 0);
+}
+
+TEST(WalkVerb, SaysThatAPathLeadsOutOfTheScene) {
+  const Walk walk("v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "1 1 1\n1 1 -9\n", {"--mode", "fly", "--json"});
+  EXPECT_EQ(walk.result.status, 3);
+  EXPECT_EQ(walk.json()["outcome"], "blocked");
+  const Walk out("v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "1 1 1\n1 1 2\n", {"--wander", "1", "--json"});
+  EXPECT_EQ(out.result.status, 2);  // a path or no path, not both
+}
+
+TEST(WalkVerb, SaysWhatToDoAboutAStartInsideAWall) {
+  // Between two floors 0.5 m apart that end nowhere near.
+  const std::string slot =
+      "v -90 -90 0\nv 90 -90 0\nv 90 90 0\nv -90 90 0\nv -90 -90 0.5\nv 90 -90 0.5\nv 90 90 0.5\nv -90 90 0.5\n"
+      "o lower\nf 1 2 3 4\no upper\nf 5 6 7 8\n";
+  const Walk walk(slot, "0 0 0.25\n5 0 0.25\n", {"--radius", "0.3", "--json"});
+  EXPECT_EQ(walk.result.status, 3) << walk.result.out;
+  const nlohmann::json report = walk.json();
+  EXPECT_EQ(report["outcome"], "held");
+  EXPECT_TRUE(contains(report["why"], "move the first waypoint")) << report["why"];
+}
+
+TEST(WalkVerb, TellsOfAStartFromWhichTheBodyWasFreed) {
+  const Walk walk(room_obj(), "2 -1.8 0.3\n6 0 0.3\n", {"--json"});
+  EXPECT_EQ(walk.result.status, 0) << walk.result.out;
+  bool freed = false;
+  for (const auto& event : walk.json()["events"]) freed = freed || event["kind"] == "freed";
+  EXPECT_TRUE(freed) << walk.result.out;
+}
+
+TEST(WalkVerb, PassesThroughWallsOnlyAsAGhost) {
+  const Walk walk(room_obj(), "2 0 1.5\n25 0 1.5\n", {"--mode", "ghost", "--speed", "3", "--json"});
+  EXPECT_EQ(walk.result.status, 0) << walk.result.err;
+  EXPECT_EQ(walk.json()["outcome"], "reached");
+  EXPECT_NEAR(walk.json()["length_m"].get<double>(), 23.0, 1e-9);
+  EXPECT_NEAR(walk.json()["simulated_s"].get<double>(), 23.0 / 3.0, 1e-9);
+}
+
+TEST(WalkVerb, WandersWhereThereIsNoPath) {
+  const TestFolder folder;
+  const std::vector<std::string> arguments{
+      "walk", folder.write("room.obj", room_obj()), "--wander", "30", "--height", "1.8", "--verify", "--json"};
+  const ProgramResult result = run_program(ROAM_PROGRAM, arguments);
+  EXPECT_EQ(result.status, 0) << result.err << result.out;
+  const auto report = nlohmann::json::parse(result.out, nullptr, false);
+  EXPECT_EQ(report["outcome"], "reached");
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_GT(report["length_m"].get<double>(), 15.0);  // of 42 m when it never turned
+  EXPECT_NEAR(report["simulated_s"].get<double>(), 30.0, 0.02);
+  // Inside, not on the roof.
+  EXPECT_LT(report["end"]["position"][2].get<double>(), 3.0);
+  EXPECT_GT(report["end"]["eye"][2].get<double>(), 1.5);
+}
+
+TEST(WalkVerb, SaysWhenTheBodyFitsNowhere) {
+  const TestFolder folder;
+  const std::string scene = folder.write("line.obj", "v 0 0 0\nv 0 0 4\nv 0 4 0\nf 1 2 3\n");
+  const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "5"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "--up")) << result.err;
+}
+
+TEST(WalkVerb, NamesTheLineOfThePathThatCannotBeRead) {
+  const Walk walk(room_obj(), "2 0 0.9\n# then\n18 zero 0.9\n");
+  EXPECT_EQ(walk.result.status, 1);
+  EXPECT_TRUE(contains(walk.result.err, "p.path:3: 'zero' is no number")) << walk.result.err;
+}
+
+/// A row of a trace: its fields as they stand.
+std::vector<std::string> fields(const std::string& row) {
+  std::vector<std::string> result;
+  std::istringstream in(row);
+  for (std::string field; std::getline(in, field, ',');) result.push_back(field);
+  return result;
+}
+
+TEST(WalkVerb, TracesEveryStep) {
+  TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj());
+  const std::string path = folder.write("p.path", "2 0 0.9\n6 1 0.9\n19 3 0.9\n");
+  const ProgramResult result = run_program(
+      ROAM_PROGRAM, {"walk", scene, "--path", path, "--height", "1.8", "--trace", folder.file("t.csv"), "--json"});
+  const auto report = nlohmann::json::parse(result.out, nullptr, false);
+  std::istringstream trace(folder.read("t.csv"));
+  std::string row;
+  ASSERT_TRUE(std::getline(trace, row));
+  EXPECT_EQ(row, "step,t,x,y,z,radius,height,clearance,contacts,event,teleport");
+  long long last_step = -1;
+  double last_time = 0.0;
+  double last_x = 2.0;
+  bool slid = false;
+  while (std::getline(trace, row)) {
+    if (row.back() == ',') row += ' ';
+    const auto f = fields(row);
+    ASSERT_EQ(f.size(), 11u) << row;
+    const long long step = std::stoll(f[0]);
+    EXPECT_TRUE(step == last_step || step == last_step + 1) << row;
+    const double t = std::stod(f[1]);
+    EXPECT_GE(t, last_time) << row;
+    const double x = std::stod(f[2]);
+    if (f[10] == "0") {
+      EXPECT_LE(std::abs(x - last_x), 1.4 / 60 + 1e-9) << row;
+    }
+    EXPECT_EQ(std::stod(f[5]), 0.3);
+    EXPECT_EQ(std::stod(f[6]), 1.8);
+    EXPECT_GE(std::stod(f[7]), 0.3 - 1e-6) << row;
+    slid = slid || contains(f[9], "slid");
+    last_step = step;
+    last_time = t;
+    last_x = x;
+  }
+  EXPECT_EQ(last_step, report["steps"].get<long long>());
+  EXPECT_NEAR(last_time, report["simulated_s"].get<double>(), 1e-9);
+  EXPECT_NEAR(last_x, report["end"]["position"][0].get<double>(), 0.0);
+  EXPECT_TRUE(slid);  // along the left wall, where the last waypoint lies behind it
+}
+
+TEST(WalkVerb, SaysThatTheTraceCannotBeWritten) {
+  const Walk walk(room_obj(), "2 0 0.9\n3 0 0.9\n", {"--trace", "/no/such/folder/t.csv"});
+  EXPECT_EQ(walk.result.status, 1);
+  EXPECT_TRUE(contains(walk.result.err, "/no/such/folder/t.csv")) << walk.result.err;
+}
+
+TEST(WalkVerb, GivesTheSameBitsEveryTime) {
+  const auto trace = [](const std::string& threads) {
+    const TestFolder folder;
+    run_program(ROAM_PROGRAM, {"walk", folder.write("room.obj", room_obj()), "--wander", "10", "--threads", threads,
+                               "--trace", folder.file("t.csv")});
+    return folder.read("t.csv");
+  };
+  const std::string once = trace("1");
+  EXPECT_GT(once.size(), 10'000u);
+  EXPECT_EQ(once, trace("2"));
+}
+
+}  // namespace

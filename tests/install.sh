@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# What ctest runs against a fresh prefix into which roam was installed:
+#   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
+#   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
+#   install.sh program SOURCE PREFIX WORK CXX   runs the installed roam on a scene that it made
+set -euo pipefail
+what=$1 source=$2 prefix=$3 work=$4 compiler=$5
+rm -rf "$work"
+mkdir -p "$work"
+
+# build PROGRAM.cpp: against the installed package only, with an ordinary compiler's warnings as errors.
+build() {
+  cp -r "$source/examples/sweep_a_sphere" "$work/example"
+  cmake -S "$work/example" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" -DSWEEP_A_SPHERE_SOURCE="$1" > "$work/log" || { cat "$work/log"; exit 1; }
+  cmake --build "$work/build" >> "$work/log" || { cat "$work/log"; exit 1; }
+}
+
+# expect TEXT COMMAND...: the command succeeds and says TEXT somewhere.
+expect() {
+  local text=$1 said
+  shift
+  said=$("$@") || { echo "failed with status $?: $*"; exit 1; }
+  echo "$said"
+  [[ $said == *"$text"* ]] || { echo "expected: $text"; exit 1; }
+}
+
+case $what in
+  example)
+    build sweep_a_sphere.cpp
+    expect 'stops at x = 19.' "$work/build/sweep_a_sphere"
+    ;;
+  readme)
+    sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"
+    lines=$(grep -c . "$work/readme.cpp")
+    ((lines >= 8 && lines <= 12)) || { echo "README.md promises ten lines of C++ and shows $lines"; exit 1; }
+    build "$work/readme.cpp"
+    expected=$(sed -n 's/^It prints `\(.*\)`\.$/\1/p' "$source/README.md")
+    [[ $expected ]] || { echo "README.md does not say what its example prints"; exit 1; }
+    expect "$expected" "$work/build/sweep_a_sphere"
+    ;;
+  program)
+    cd "$work"
+    "$prefix/bin/roam" make gallery -o gallery.ply --triangles 20k
+    expect '"violations": 0' "$prefix/bin/roam" walk gallery.ply --path gallery-straight.path --mode fly --speed 50 \
+      --verify --json
+    ;;
+esac

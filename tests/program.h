@@ -1,0 +1,126 @@
+#pragma once
+/// Runs the program under test as a user's shell does, and keeps the files that a test writes in a folder of its own.
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+extern char** environ;
+
+/// What a program did. `status` is 128 + the signal's number when a signal ended it, as a shell says it.
+struct ProgramResult {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+struct ProgramOptions {
+  std::string input;           ///< its standard input
+  double interrupt_after = 0;  ///< seconds after which it gets SIGINT; 0: never
+  bool close_output = false;   ///< nobody reads its standard output
+};
+
+inline ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                                 const ProgramOptions& options = {}) {
+  // An inherited end of a pipe would keep the other end from ever seeing it closed.
+  std::array<int, 2> in{}, out{}, err{};
+  for (auto* pipe_ends : {&in, &out, &err}) {
+    if (::pipe2(pipe_ends->data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  const int spawned = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  for (const int end : {in[0], out[1], err[1]}) ::close(end);
+  if (spawned != 0) throw std::runtime_error("cannot run " + program);
+  if (options.close_output) ::close(out[0]);
+  std::signal(SIGPIPE, SIG_IGN);  // a program that stops reading early is no fault of the test
+
+  ProgramResult result;
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  std::size_t fed = 0;
+  bool in_open = true, out_open = !options.close_output, err_open = true, interrupted = options.interrupt_after <= 0;
+  std::array<char, 65536> buffer{};
+  ::fcntl(in[1], F_SETFL, O_NONBLOCK);
+  while (out_open || err_open) {
+    if (in_open && fed == options.input.size()) {
+      ::close(in[1]);
+      in_open = false;
+    }
+    if (!interrupted && elapsed() >= options.interrupt_after) {
+      ::kill(child, SIGINT);
+      interrupted = true;
+    }
+    std::array<pollfd, 3> ends{
+        {{in_open ? in[1] : -1, POLLOUT, 0}, {out_open ? out[0] : -1, POLLIN, 0}, {err_open ? err[0] : -1, POLLIN, 0}}};
+    ::poll(ends.data(), ends.size(), 20);
+    if (in_open && ends[0].revents != 0) {
+      const ssize_t put = ::write(in[1], options.input.data() + fed, options.input.size() - fed);
+      fed = put > 0 ? fed + static_cast<std::size_t>(put) : (errno == EAGAIN ? fed : options.input.size());
+    }
+    const auto drain = [&](int fd, short events, bool& open, std::string& text) {
+      if (!open || events == 0) return;
+      const ssize_t got = ::read(fd, buffer.data(), buffer.size());
+      if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
+      if (got == 0) open = false;
+    };
+    drain(out[0], ends[1].revents, out_open, result.out);
+    drain(err[0], ends[2].revents, err_open, result.err);
+  }
+  if (in_open) ::close(in[1]);
+  if (!options.close_output) ::close(out[0]);
+  ::close(err[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+/// A folder that is empty when a test begins and gone when it ends.
+class TestFolder {
+ public:
+  TestFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "roam-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the test");
+    path_ = name;
+  }
+  ~TestFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream in(file(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  std::filesystem::path path_;
+};
