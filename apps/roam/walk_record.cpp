@@ -15,7 +15,10 @@ constexpr std::size_t block_bytes = 1 << 16;
 
 std::string joined_events(const StepReport& report) {
   std::string text;
-  for (const Event& event : report.events) text += (text.empty() ? "" : "+") + std::string(name(event.kind));
+  for (const Event& event : report.events) {
+    if (!text.empty()) text += '+';
+    text += name(event.kind);
+  }
   return text;
 }
 

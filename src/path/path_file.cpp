@@ -1,5 +1,7 @@
 #include "roam/path_file.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -23,7 +25,7 @@ struct Numbers {
 };
 
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
-  throw Error(name + ":" + std::to_string(line) + ": " + what);
+  throw Error(fmt::format("{}:{}: {}", name, line, what));
 }
 
 Numbers parse(std::string_view text, const std::string& name, int line) {
@@ -39,12 +41,11 @@ Numbers parse(std::string_view text, const std::string& name, int line) {
     double value = 0.0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-      fail(
-          name, line,
-          "'" + std::string(word) + "' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment");
+      fail(name, line,
+           fmt::format("'{}' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment", word));
     }
     if (status != std::errc() || !std::isfinite(value)) {
-      fail(name, line, "'" + std::string(word) + "' is not a finite number; correct or remove the line");
+      fail(name, line, fmt::format("'{}' is not a finite number; correct or remove the line", word));
     }
     if (numbers.count < pose_numbers) numbers.value[numbers.count] = value;
     ++numbers.count;
@@ -57,8 +58,8 @@ Waypoint waypoint(const Numbers& numbers, const std::string& name, int line) {
   if (numbers.count == waypoint_numbers) return {{v[0], v[1], v[2]}, std::nullopt, line};
   if (numbers.count == pose_numbers) return {{v[1], v[2], v[3]}, PathPose{v[0], {v[4], v[5], v[6], v[7]}}, line};
   fail(name, line,
-       "found " + std::to_string(numbers.count) +
-           " numbers; a waypoint has 3 (x y z), a line of osgViewer's path has 8 (t x y z qx qy qz qw)");
+       fmt::format("found {} numbers; a waypoint has 3 (x y z), a line of osgViewer's path has 8 (t x y z qx qy qz qw)",
+                   numbers.count));
 }
 
 }  // namespace
@@ -76,20 +77,21 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
       const Waypoint& last = path.back();
       if (last.pose.has_value() != next.pose.has_value()) {
         fail(name, line,
-             "waypoints 'x y z' and lines 't x y z qx qy qz qw' are mixed (the other kind is in line " +
-                 std::to_string(last.line) + "); use one kind in a file");
+             fmt::format(
+                 "waypoints 'x y z' and lines 't x y z qx qy qz qw' are mixed (the other kind is in line {}); use "
+                 "one kind in a file",
+                 last.line));
       }
       if (next.pose && next.pose->time < last.pose->time) {
-        fail(name, line,
-             "the time runs backwards (line " + std::to_string(last.line) + " is later); sort the lines by time");
+        fail(name, line, fmt::format("the time runs backwards (line {} is later); sort the lines by time", last.line));
       }
     }
     path.push_back(next);
   }
-  if (in.bad()) throw Error(name + ": reading failed; check the disk and the file's permissions");
+  if (in.bad()) throw Error(fmt::format("{}: reading failed; check the disk and the file's permissions", name));
   if (path.size() < 2) {
-    throw Error(name + ": holds " + (path.empty() ? "no waypoint" : "only one waypoint") +
-                "; a path needs a start and at least one place to go to, one 'x y z' a line");
+    throw Error(fmt::format("{}: holds {}; a path needs a start and at least one place to go to, one 'x y z' a line",
+                            name, path.empty() ? "no waypoint" : "only one waypoint"));
   }
   return path;
 }
@@ -97,7 +99,7 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
 std::vector<Waypoint> load_path(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file)) {
-    throw Error("cannot open the path file " + file.string() + "; check its name and permissions");
+    throw Error(fmt::format("cannot open the path file {}; check its name and permissions", file.string()));
   }
   return read_path(in, file.string());
 }
