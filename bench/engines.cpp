@@ -11,7 +11,6 @@
 #include "engine.h"
 #include "judge.h"
 #include "query_sets.h"
-#include "roam/error.h"
 #include "scene.h"
 #include "timing.h"
 
@@ -39,16 +38,17 @@ struct Run {
   Times times;
 };
 
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : engines()) names.push_back(name);
+  return names;
+}
+
 std::vector<Engine> build_engines(const Options& options, const Scene& scene) {
-  std::vector<std::string> wanted = options.engines;
-  if (wanted.empty()) {
-    for (const auto& [name, make] : engines()) wanted.push_back(name);
-  }
   std::vector<Engine> built;
-  for (const std::string& name : wanted) {
-    const auto found = std::find_if(engines().begin(), engines().end(), [&](const auto& e) { return e.first == name; });
-    if (found == engines().end()) throw roam::Error("this build has no engine '" + name + "'");
-    built.push_back(found->second(scene));
+  for (const auto& [name, make] : engines()) {
+    const auto& wanted = options.engines;
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) built.push_back(make(scene));
   }
   return built;
 }
@@ -189,28 +189,38 @@ void run(const Options& options, std::FILE* out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<char*> arguments(argv, argv + argc);
+  // Google Benchmark's arguments and ours; each would refuse, or answer for, the other's.
   std::string tabular = "--benchmark_counters_tabular=true";
-  arguments.insert(arguments.begin() + 1, tabular.data());
-  // A format for programs has standard output to itself.
-  const bool for_people = std::none_of(arguments.begin(), arguments.end(), [](std::string_view a) {
-    return a.starts_with("--benchmark_format=") && !a.ends_with("=console");
-  });
-  int left = static_cast<int>(arguments.size());
-  benchmark::Initialize(&left, arguments.data());
+  std::vector<char*> for_benchmark{argv[0], tabular.data()};
+  std::vector<char*> ours{argv[0]};
+  std::FILE* out = stdout;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    (argument.starts_with("--benchmark_") ? for_benchmark : ours).push_back(argv[i]);
+    // A format for programs has standard output to itself.
+    if (argument.starts_with("--benchmark_format=") && !argument.ends_with("=console")) out = stderr;
+  }
+  int count = static_cast<int>(for_benchmark.size());
+  benchmark::Initialize(&count, for_benchmark.data());
+  if (benchmark::ReportUnrecognizedArguments(count, for_benchmark.data())) return 2;
 
   Options options;
-  CLI::App app{
-      "Sweeps through one scene: roam beside other engines. Also takes Google Benchmark's --benchmark_* options"};
+  CLI::App app{"Sweeps through one scene: roam beside other engines"};
+  app.footer(
+      "Google Benchmark's options --benchmark_format=json, --benchmark_out=FILE, --benchmark_filter=REGEX, ... work "
+      "too.");
   app.add_option("--scene", options.scene.scene, "gallery, terrain, or a file")->capture_default_str();
   app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
   app.add_option("--origin", options.origin, "where the scene's centre is moved, metres: x,y,z")
       ->delimiter(',')
       ->expected(3)
       ->capture_default_str();
-  app.add_option("--sets", options.sets, "which query sets: random,coherent,long,capsule")->delimiter(',');
-  app.add_option("--engines", options.engines, "which engines: roam,bullet,embree,polytope,polytope-kdtree")
-      ->delimiter(',');
+  app.add_option("--sets", options.sets, "which query sets, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(query_set_names()));
+  app.add_option("--engines", options.engines, "which engines, separated by commas; all when left out")
+      ->delimiter(',')
+      ->check(CLI::IsMember(engine_names()));
   app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--rounds", options.rounds, "each query's time is the median over these")
       ->capture_default_str()
@@ -219,10 +229,10 @@ int main(int argc, char** argv) {
                  "seconds: an engine that needs longer for a set gets the first part of it")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, left, arguments.data());
+  CLI11_PARSE(app, static_cast<int>(ours.size()), ours.data());
   options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
   try {
-    run(options, for_people ? stdout : stderr);
+    run(options, out);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -124,7 +124,9 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->expected(3)
       ->capture_default_str();
-  app.add_option("--sets", options.sets, "which query sets: random,coherent,long,capsule")->delimiter(',');
+  app.add_option("--sets", options.sets, "which query sets, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(query_set_names()));
   app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--rounds", options.rounds, "each query's time is the median over these")
       ->capture_default_str()
