@@ -40,7 +40,7 @@ double secant(const Sample& left, const Sample& right) {
 
 Approach approach(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                   double t_end) noexcept {
-  const Obstacle obstacle(triangle.corner, body.half_height);
+  Obstacle obstacle(triangle.corner, body.half_height);
   const ErrorBound error = error_bound(body, motion, triangle);
   const double doubt = error.at(t_end);
   const auto sample = [&](double time) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "sweep/error_bound.h"
 
 namespace roam::certified {
 namespace {
@@ -10,6 +13,10 @@ namespace {
 /// perpendicular. Only speed depends on it: beyond it the edges are tried as well.
 constexpr double face_trust = 1.0 + 1e-9;
 
+void improve(Closest& best, const Closest& other) {
+  if (other.squared < best.squared) best = other;
+}
+
 Closest at_vertex(const Obstacle& o, int i, const Vec3& p) {
   const Vec3 away = p - o.corner[i];
   const double squared = glm::dot(away, away);
@@ -17,40 +24,34 @@ Closest at_vertex(const Obstacle& o, int i, const Vec3& p) {
 }
 
 Closest at_edge(const Obstacle& o, int i, const Vec3& p) {
-  const Vec3 x = p - o.corner[i];
-  const double s = o.edge_squared[i] > 0.0 ? glm::dot(x, o.edge[i]) / o.edge_squared[i] : 0.0;
-  if (!(s > 0.0)) return at_vertex(o, i, p);
-  if (!(s < 1.0)) return at_vertex(o, (i + 1) % 3, p);
-  const Vec3 away = perpendicular_to_edge(o, i, x);
+  const double along = glm::dot(p - o.corner[i], o.edge[i]);
+  if (!(along > 0.0 && o.edge_squared[i] > shortest_squared)) return at_vertex(o, i, p);
+  if (!(along < o.edge_squared[i])) return at_vertex(o, (i + 1) % 3, p);
+  const Vec3 away = perpendicular_to_edge(o, i, p - o.corner[i]);
   const double squared = glm::dot(away, away);
-  return {away, squared, squared, o.corner[i] + s * o.edge[i], Feature::edge};
+  return {away, squared, squared, p - away, Feature::edge, o.edge[i]};
 }
 
 Closest at_any_edge(const Obstacle& o, const Vec3& p) {
   Closest best = at_edge(o, 0, p);
-  for (int i = 1; i < 3; ++i) {
-    const Closest c = at_edge(o, i, p);
-    if (c.squared < best.squared) best = c;
-  }
+  for (int i = 1; i < 3; ++i) improve(best, at_edge(o, i, p));
   return best;
 }
 
 /// The face, for a point that seems to be over it. The corners' shares tell a point that is surely on the triangle:
-/// of a sliver they are mostly rounding, and then an edge may be closer.
-Closest at_face(const Obstacle& o, const Vec3& p, double a_share, double b_share, double c_share) {
-  const double height = glm::dot(o.face_normal, p - o.corner[0]);
-  const double b = b_share / (a_share + b_share + c_share), c = c_share / (a_share + b_share + c_share);
-  const Vec3 x = p - (o.corner[0] + b * o.edge[0] - c * o.edge[2]);
+/// of a sliver they are mostly rounding, and then an edge may be closer. A triangle without a normal has none.
+Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, double c_share) {
+  const Vec3& normal = o.face_normal();
+  const double height = glm::dot(normal, p - o.corner[0]);
+  const double whole = 1.0 / (a_share + b_share + c_share);
+  const Vec3 x = p - (o.corner[0] + (b_share * whole) * o.edge[0] - (c_share * whole) * o.edge[2]);
   const double squared = glm::dot(x, x);
   if (!(squared <= height * height * face_trust)) {
     const Closest edge = at_any_edge(o, p);
-    if (!(squared < edge.squared)) return edge;
+    if (!(squared < edge.squared) || normal == Vec3(0.0)) return edge;
   }
-  const Vec3 away = height < 0.0 ? -o.face_normal : o.face_normal;
-  return {away, 1.0, squared, p - height * o.face_normal, Feature::face};
+  return {height < 0.0 ? -normal : normal, 1.0, squared, p - height * normal, Feature::face};
 }
-
-bool is_degenerate(const Obstacle& o) { return o.face_normal == Vec3(0.0); }
 
 /// The axis, without its ends, against one edge. Where their closest points are not inside the axis, an end of the
 /// axis is closer to the triangle and `best` has it already.
@@ -72,9 +73,10 @@ void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Cl
   } else {
     const Vec3& nearest = s < 1.0 ? o.corner[i] : o.corner[(i + 1) % 3];
     c.away = {centre.x - nearest.x, centre.y - nearest.y, 0.0};
+    c.straight = {0.0, 0.0, 1.0};
   }
   c.squared = c.away_squared = glm::dot(c.away, c.away);
-  if (c.squared < best.squared) best = c;
+  improve(best, c);
 }
 
 /// Whether the vertical line through `centre` meets the face within the axis; `point` is set if so.
@@ -95,15 +97,15 @@ bool pierces(const Obstacle& o, const Vec3& centre, Vec3& point) {
 
 Vec3 perpendicular_to_edge(const Obstacle& o, int i, const Vec3& x) noexcept {
   const Vec3& e = o.edge[i];
-  const Vec3 once = x - e * (glm::dot(x, e) / o.edge_squared[i]);
+  const double inverse = 1.0 / o.edge_squared[i];
+  const Vec3 once = x - e * (glm::dot(x, e) * inverse);
   // The first pass leaves an error relative to |x|, the second relative to what the first left (Kahan and Parlett's
   // "twice is enough": Parlett, "The Symmetric Eigenvalue Problem", 6.9).
-  return once - e * (glm::dot(once, e) / o.edge_squared[i]);
+  return once - e * (glm::dot(once, e) * inverse);
 }
 
 // The regions follow Ericson, "Real-Time Collision Detection", 5.1.5.
-Closest closest_to_point(const Obstacle& o, const Vec3& p) noexcept {
-  if (is_degenerate(o)) return at_any_edge(o, p);
+Closest closest_to_point(Obstacle& o, const Vec3& p) noexcept {
   const Vec3& ab = o.edge[0];
   const Vec3 ac = -o.edge[2];
   const Vec3 ap = p - o.corner[0];
@@ -112,26 +114,38 @@ Closest closest_to_point(const Obstacle& o, const Vec3& p) noexcept {
   const Vec3 bp = p - o.corner[1];
   const double bp_ab = glm::dot(ab, bp), bp_ac = glm::dot(ac, bp);
   if (bp_ab >= 0.0 && bp_ac <= bp_ab) return at_vertex(o, 1, p);
-  const double c_share = ap_ab * bp_ac - bp_ab * ap_ac;
-  if (c_share <= 0.0 && ap_ab >= 0.0 && bp_ab <= 0.0) return at_edge(o, 0, p);
   const Vec3 cp = p - o.corner[2];
   const double cp_ab = glm::dot(ab, cp), cp_ac = glm::dot(ac, cp);
   if (cp_ac >= 0.0 && cp_ab <= cp_ac) return at_vertex(o, 2, p);
+  const double c_share = ap_ab * bp_ac - bp_ab * ap_ac;
   const double b_share = cp_ab * ap_ac - ap_ab * cp_ac;
-  if (b_share <= 0.0 && ap_ac >= 0.0 && cp_ac <= 0.0) return at_edge(o, 2, p);
   const double a_share = bp_ab * cp_ac - cp_ab * bp_ac;
-  if (a_share <= 0.0 && bp_ac >= bp_ab && cp_ab >= cp_ac) return at_edge(o, 1, p);
+  // Strictly outside the face: all three shares are 0 for a segment, whose every edge is then tried by at_face.
+  if (c_share < 0.0 && ap_ab >= 0.0 && bp_ab <= 0.0) return at_edge(o, 0, p);
+  if (b_share < 0.0 && ap_ac >= 0.0 && cp_ac <= 0.0) return at_edge(o, 2, p);
+  if (a_share < 0.0 && bp_ac >= bp_ab && cp_ab >= cp_ac) return at_edge(o, 1, p);
   return at_face(o, p, a_share, b_share, c_share);
 }
 
-Closest closest_to_axis(const Obstacle& o, const Vec3& centre) noexcept {
+Closest closest_to_axis(Obstacle& o, const Vec3& centre) noexcept {
   if (o.half_height == 0.0) return closest_to_point(o, centre);
   const Vec3 up(0.0, 0.0, o.half_height);
-  Closest best = closest_to_point(o, centre + up);
-  const Closest bottom = closest_to_point(o, centre - up);
-  if (bottom.squared < best.squared) best = bottom;
+  const double top = centre.z + o.half_height, bottom = centre.z - o.half_height;
+  const double highest = std::max({o.corner[0].z, o.corner[1].z, o.corner[2].z});
+  const double lowest = std::min({o.corner[0].z, o.corner[1].z, o.corner[2].z});
+  Closest best;
+  best.squared = std::numeric_limits<double>::infinity();
+  // An end of the axis can only be closest to what lies beyond it.
+  if (highest > top) best = closest_to_point(o, centre + up);
+  if (lowest < bottom) improve(best, closest_to_point(o, centre - up));
+  if (highest < bottom || lowest > top) return best;
   for (int i = 0; i < 3; ++i) improve_with_axis_and_edge(o, i, centre, best);
-  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, 0.0, point, Feature::face, true};
+  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, 0.0, point, Feature::face, Vec3(0.0), true};
+  // Rounding can hide an edge that lies as high as an end.
+  if (best.squared == std::numeric_limits<double>::infinity()) {
+    best = closest_to_point(o, centre + up);
+    improve(best, closest_to_point(o, centre - up));
+  }
   return best;
 }
 

@@ -14,14 +14,15 @@ struct Closest {
   double squared;       ///< squared distance of two real points of triangle and axis, m^2: never less than the least
   Vec3 point;           ///< on the triangle
   Feature feature;
+  Vec3 straight{0.0};  ///< the edge or axis along which the closest points may slide; zero if neither, or both
   bool meets = false;  ///< the axis pierces the face: `away` means nothing
 };
 
 /// Closest point of the triangle to a point.
-[[nodiscard]] Closest closest_to_point(const Obstacle& obstacle, const Vec3& p) noexcept;
+[[nodiscard]] Closest closest_to_point(Obstacle& obstacle, const Vec3& p) noexcept;
 
 /// Closest points of the triangle and the vertical axis about `centre`.
-[[nodiscard]] Closest closest_to_axis(const Obstacle& obstacle, const Vec3& centre) noexcept;
+[[nodiscard]] Closest closest_to_axis(Obstacle& obstacle, const Vec3& centre) noexcept;
 
 /// The part of `x` that is perpendicular to the edge, to working precision relative to itself.
 [[nodiscard]] Vec3 perpendicular_to_edge(const Obstacle& obstacle, int edge, const Vec3& x) noexcept;

@@ -14,7 +14,7 @@ double span_along_axis(const Obstacle& o, const Vec3& n) { return o.half_height 
 /// Unit vector along `x`, or zero where its length cannot be trusted.
 Vec3 unit(const Vec3& x) {
   const double squared = glm::dot(x, x);
-  return squared > shortest_squared ? x / std::sqrt(squared) : Vec3(0.0);
+  return squared > shortest_squared ? x * (1.0 / std::sqrt(squared)) : Vec3(0.0);
 }
 
 /// A unit vector perpendicular to `x`, horizontal if `x` is not vertical; some unit vector for zero.
@@ -25,7 +25,7 @@ Vec3 any_perpendicular(const Vec3& x) {
 
 /// Keeps the best of the planes that it is shown. Every direction stands for itself and its opposite.
 struct BestPlane {
-  const Obstacle& obstacle;
+  Obstacle& obstacle;
   Vec3 centre;
   double value = -std::numeric_limits<double>::infinity();
   Vec3 normal{0.0, 0.0, 1.0};
@@ -52,11 +52,11 @@ struct BestPlane {
 /// The greatest of all planes that a pair of features can have: for disjoint bodies the normal of the closest pair is
 /// among them, and for those that meet the facets of their Minkowski sum (Gottschalk et al., "OBBTree", 1996).
 void consider_every_pair_of_features(BestPlane& best) {
-  const Obstacle& o = best.obstacle;
+  Obstacle& o = best.obstacle;
   const Vec3 up(0.0, 0.0, o.half_height);
   const int ends = o.half_height > 0.0 ? 2 : 1;
-  best.consider(o.face_normal);
-  best.consider(any_perpendicular(o.edge[o.longest]));
+  best.consider(o.face_normal());
+  best.consider(any_perpendicular(o.edge[o.longest_edge()]));
   for (int i = 0; i < 3; ++i) {
     for (int end = 0; end < ends; ++end) {
       const Vec3 x = (end == 0 ? best.centre + up : best.centre - up) - o.corner[i];
@@ -78,19 +78,26 @@ Obstacle::Obstacle(const Vec3 (&corners)[3], double half_height_m) noexcept : ha
     edge[i] = corners[(i + 1) % 3] - corners[i];
     edge_squared[i] = glm::dot(edge[i], edge[i]);
   }
-  longest = edge_squared[0] >= edge_squared[1] ? 0 : 1;
-  if (edge_squared[2] > edge_squared[longest]) longest = 2;
-  face_normal = unit(glm::cross(edge[0], edge[1]));
-  // Along the longest edge even a small tilt costs much. For a sliver, whose cross product is mostly rounding, this
-  // leaves a normal that is as good as the sliver is thin.
-  if (face_normal != Vec3(0.0)) face_normal = unit(perpendicular_to_edge(*this, longest, face_normal));
 }
 
-SupportPlane support_plane(const Obstacle& o, const Vec3& centre, double slack) noexcept {
+int Obstacle::longest_edge() const noexcept {
+  const int i = edge_squared[0] >= edge_squared[1] ? 0 : 1;
+  return edge_squared[2] > edge_squared[i] ? 2 : i;
+}
+
+void Obstacle::find_face_normal() noexcept {
+  face_normal_known_ = true;
+  face_normal_ = unit(glm::cross(edge[0], edge[1]));
+  // Along the longest edge even a small tilt costs much. For a sliver, whose cross product is mostly rounding, this
+  // leaves a normal that is as good as the sliver is thin.
+  if (face_normal_ != Vec3(0.0)) face_normal_ = unit(perpendicular_to_edge(*this, longest_edge(), face_normal_));
+}
+
+SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexcept {
   const Closest closest = closest_to_axis(o, centre);
-  SupportPlane plane{Vec3(0.0), 0.0, closest.point, closest.feature};
+  SupportPlane plane{Vec3(0.0), 0.0, closest.point, closest.feature, closest.straight};
   if (!closest.meets && closest.away_squared > shortest_squared) {
-    const Vec3 n = closest.away / std::sqrt(closest.away_squared);
+    const Vec3 n = closest.away * (1.0 / std::sqrt(closest.away_squared));
     const double farthest = std::max({glm::dot(n, o.corner[0]), glm::dot(n, o.corner[1]), glm::dot(n, o.corner[2])});
     plane.normal = n;
     plane.offset = -farthest - span_along_axis(o, n);

@@ -9,15 +9,28 @@
 namespace roam::certified {
 
 /// The triangle, and the half height of the body's axis: what stays the same while the body moves.
-struct Obstacle {
+class Obstacle {
+ public:
   Obstacle(const Vec3 (&corners)[3], double half_height_m) noexcept;
 
   Vec3 corner[3];
   Vec3 edge[3];            ///< edge[i] runs from corner i to corner i + 1
   double edge_squared[3];  ///< m^2
-  int longest;             ///< index of the longest edge
-  Vec3 face_normal;        ///< unit, perpendicular to the longest edge; zero for a segment or a point
   double half_height;      ///< m, of the body's vertical axis
+
+  /// Index of the longest edge.
+  [[nodiscard]] int longest_edge() const noexcept;
+  /// Unit, perpendicular to the longest edge; zero for a segment or a point.
+  [[nodiscard]] const Vec3& face_normal() noexcept {
+    if (!face_normal_known_) find_face_normal();
+    return face_normal_;
+  }
+
+ private:
+  void find_face_normal() noexcept;
+
+  bool face_normal_known_ = false;
+  Vec3 face_normal_;
 };
 
 /// A unit normal, and the signed distance of the body's axis along it: normal . centre + offset.
@@ -26,6 +39,7 @@ struct SupportPlane {
   double offset;  ///< metres: -max_i normal . corner_i - half_height * |normal.z|
   Vec3 point;     ///< of the triangle: the one that is closest, or the last to be left when the axis meets it
   Feature feature;
+  Vec3 straight;  ///< the distance does not change for motion along it: the edge that is closest, or the axis; or zero
 
   [[nodiscard]] double value(const Vec3& centre) const { return glm::dot(normal, centre) + offset; }
 };
@@ -33,6 +47,6 @@ struct SupportPlane {
 /// The plane of greatest value for a body at `centre`: its value is the signed distance of axis and triangle, less at
 /// most about `slack` (metres) for rounding. Any plane that comes out is a valid bound; slack decides when more work
 /// is spent on a better one.
-[[nodiscard]] SupportPlane support_plane(const Obstacle& obstacle, const Vec3& centre, double slack) noexcept;
+[[nodiscard]] SupportPlane support_plane(Obstacle& obstacle, const Vec3& centre, double slack) noexcept;
 
 }  // namespace roam::certified
