@@ -77,6 +77,29 @@ std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
   return bytes;
 }
 
+/// Triangles that were left out so far, by reason.
+struct LeftOut {
+  std::uint64_t bad = 0;
+  std::uint64_t ignored = 0;
+};
+
+Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOut& before) {
+  const std::uint64_t bad = report.bad_triangles - before.bad;
+  const std::uint64_t ignored = report.ignored_triangles - before.ignored;
+  if (bad > 0) {
+    return Error(
+        fmt::format("{}: none of its {} triangles is usable: they have vertices that are not finite, lie beyond "
+                    "1e9 m, or are not there. The file is damaged, or in another unit.",
+                    path.string(), bad));
+  }
+  if (ignored > 0) {
+    return Error(fmt::format("{}: all of its {} triangles are in objects that are to be ignored; ignore fewer.",
+                             path.string(), ignored));
+  }
+  return Error(fmt::format(
+      "{}: this gives no triangle, so there is nothing to walk on; check that it is the right file.", path.string()));
+}
+
 }  // namespace
 
 UpAxis parse_up_axis(std::string_view text) {
@@ -111,6 +134,7 @@ Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options
   std::uint64_t bytes_before = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::uint64_t triangles_before = scene.report.triangles;
+    const LeftOut before{scene.report.bad_triangles, scene.report.ignored_triangles};
     const std::uint64_t mesh_bytes_before = bytes_of(scene.meshes);
     const auto say = [&](std::uint64_t bytes, std::uint64_t triangles) {
       progress.path = paths[i];
@@ -121,12 +145,7 @@ Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options
     say(0, 0);
     const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, mesh_bytes_before);
     reader::read_one({program, paths[i], sizes[i], &options, mesh_bytes, say}, scene, matched);
-    if (scene.report.triangles == triangles_before) {
-      const bool ignored = scene.report.ignored_triangles > 0;
-      throw Error(fmt::format("{}: this gives no triangle{}.", paths[i].string(),
-                              ignored ? "; the patterns of objects to ignore match everything in it"
-                                      : ", so there is nothing to walk on; check that it is the right file"));
-    }
+    if (scene.report.triangles == triangles_before) throw no_triangle(paths[i], scene.report, before);
     say(sizes[i], scene.report.triangles - triangles_before);
     bytes_before += sizes[i];
   }

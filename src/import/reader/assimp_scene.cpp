@@ -1,10 +1,14 @@
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,11 +51,13 @@ class AssimpWalk {
   AssimpWalk(const aiScene& scene, std::string path, std::string stem, MeshSink& sink)
       : scene_(scene), path_(std::move(path)), stem_(std::move(stem)), sink_(sink) {}
 
-  void walk(const aiNode& node, const Matrix& parent) {
+  void walk(const aiNode& node, const Matrix& parent) { walk_in(node, parent * Matrix::of(node.mTransformation)); }
+
+  /// Walks a node as if `to_world` were its and its ancestors' transform.
+  void walk_in(const aiNode& node, const Matrix& to_world) {
     if (names_.size() >= depth_limit) {
       throw Error(fmt::format("{}: its nodes are nested more than {} deep; the file is damaged.", path_, depth_limit));
     }
-    const Matrix to_world = parent * Matrix::of(node.mTransformation);
     names_.emplace_back(node.mName.C_Str());
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] < scene_.mNumMeshes) add_mesh(*scene_.mMeshes[node.mMeshes[i]], to_world);
@@ -62,21 +68,21 @@ class AssimpWalk {
 
  private:
   void add_mesh(const aiMesh& mesh, const Matrix& to_world) {
-    names_.emplace_back(mesh.mName.C_Str());
+    // The node is the object that people name; its mesh may be shared by many.
+    names_.insert(names_.end() - 1, mesh.mName.C_Str());
     sink_.begin_object(names_, stem_);
-    const std::uint32_t first = sink_.vertex_count();
+    index_.clear();
     const unsigned count = mesh.mVertices == nullptr ? 0 : mesh.mNumVertices;
-    for (unsigned i = 0; i < count; ++i) sink_.add_vertex(to_world * mesh.mVertices[i]);
-    const auto corner = [&](unsigned index) {
-      return index < count ? first + index : std::numeric_limits<std::uint32_t>::max();
-    };
+    // Most of assimp's readers give every face corners of its own.
+    for (unsigned i = 0; i < count; ++i) index_.push_back(sink_.add_shared_vertex(to_world * mesh.mVertices[i]));
+    const auto corner = [&](unsigned i) { return i < count ? index_[i] : std::numeric_limits<std::uint32_t>::max(); };
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       for (unsigned i = 2; i < face.mNumIndices; ++i) {
         sink_.add_triangle(corner(face.mIndices[0]), corner(face.mIndices[i - 1]), corner(face.mIndices[i]));
       }
     }
-    names_.pop_back();
+    names_.erase(names_.end() - 2);
   }
 
   const aiScene& scene_;
@@ -84,28 +90,70 @@ class AssimpWalk {
   std::string stem_;
   MeshSink& sink_;
   std::vector<std::string> names_;
+  std::vector<std::uint32_t> index_;  ///< in the sink's object, of each vertex of the mesh
 };
+
+/// The integer or real number that the file's metadata has under `key`.
+std::optional<double> stated_number(const aiScene& scene, const char* key) {
+  if (scene.mMetaData == nullptr) return std::nullopt;
+  for (unsigned i = 0; i < scene.mMetaData->mNumProperties; ++i) {
+    if (std::strcmp(scene.mMetaData->mKeys[i].C_Str(), key) != 0) continue;
+    const aiMetadataEntry& entry = scene.mMetaData->mValues[i];
+    if (entry.mType == AI_INT32) return *static_cast<const std::int32_t*>(entry.mData);
+    if (entry.mType == AI_FLOAT) return static_cast<double>(*static_cast<const float*>(entry.mData));
+    if (entry.mType == AI_DOUBLE) return *static_cast<const double*>(entry.mData);
+  }
+  return std::nullopt;
+}
+
+/// Collada: assimp turns the file's own up axis to y and its unit to metres by the root's transform, and the root, the
+/// visual_scene, has none of its own.
+void compare_collada(const aiMatrix4x4& root, const std::string& file, MeshSink& sink) {
+  const double unit = std::hypot(root.a1, root.b1, root.c1);
+  const UpAxis up = root.b3 != 0.0f ? UpAxis::z : root.b1 != 0.0f ? UpAxis::x : UpAxis::y;
+  sink.compare_with_stated(up, unit, file);
+}
+
+/// FBX: assimp keeps the file's numbers and hands on what it states; its unit is given in centimetres.
+void compare_fbx(const aiScene& scene, const std::string& file, MeshSink& sink) {
+  std::optional<UpAxis> up;
+  if (const auto axis = stated_number(scene, "UpAxis"); axis && *axis >= 0 && *axis <= 2) {
+    up = static_cast<UpAxis>(static_cast<int>(*axis));
+  }
+  std::optional<double> metres;
+  if (const auto centimetres = stated_number(scene, "UnitScaleFactor")) metres = *centimetres / 100.0;
+  sink.compare_with_stated(up, metres, file);
+}
 
 }  // namespace
 
 void read_assimp(const std::filesystem::path& path, const std::string& extension, MeshSink& sink) {
+  const std::string file = path.string();
   const bool ifc = extension == "ifc";
   if (extension == "glb" || extension == "gltf") sink.set_format_up(UpAxis::y);
 
   Assimp::Importer importer;
+  // Else Collada's nodes are called by their ids.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   // IFC's faces are concave as often as not; in other formats polygons are fanned as everywhere in roam.
-  const aiScene* scene = importer.ReadFile(path.string(), ifc ? static_cast<unsigned>(aiProcess_Triangulate) : 0u);
+  const aiScene* scene = importer.ReadFile(file, ifc ? static_cast<unsigned>(aiProcess_Triangulate) : 0u);
   if (scene == nullptr || scene->mRootNode == nullptr) {
+    if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();
     throw Error(
         fmt::format("{}: assimp cannot read this file ({}); it is damaged, or not of the format that its name "
                     "says.",
-                    path.string(), importer.GetErrorString()));
+                    file, importer.GetErrorString()));
   }
   sink.count_file();
+  AssimpWalk walk(*scene, file, path.stem().string(), sink);
+  if (extension == "dae") {
+    compare_collada(scene->mRootNode->mTransformation, file, sink);
+    return walk.walk_in(*scene->mRootNode, Matrix::identity());
+  }
+  if (extension == "fbx") compare_fbx(*scene, file, sink);
   // assimp turns IFC, whose z axis is up, to y up; this turns it back: (x, y, z) -> (x, -z, y).
   const Matrix upright{{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
-  AssimpWalk(*scene, path.string(), path.stem().string(), sink)
-      .walk(*scene->mRootNode, ifc ? upright : Matrix::identity());
+  walk.walk(*scene->mRootNode, ifc ? upright : Matrix::identity());
 }
 
 }  // namespace roam::reader

@@ -64,6 +64,9 @@ Lines::Lines(FileBytes& bytes) : bytes_(bytes) {
   const auto end = start.find_first_of("\r\n");
   if (end != std::string_view::npos && start[end] == '\r' && !start.substr(end).starts_with("\r\n"))
     end_of_line_ = '\r';
+  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
+    throw Error(fmt::format("{}: this is UTF-16 text; save it as UTF-8.", bytes_.path()));
+  }
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (start.starts_with(byte_order_mark)) bytes_.skip(byte_order_mark.size());
 }

@@ -54,6 +54,27 @@ MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings)
 
 void MeshSink::set_format_up(UpAxis up) { up_ = settings_.up.value_or(up); }
 
+void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<double> metres_per_unit,
+                                   std::string_view file) {
+  constexpr std::string_view axes = "xyz";
+  if (up && !settings_.up && *up != up_) {
+    const char axis = axes[static_cast<std::size_t>(*up)];
+    report_note(
+        fmt::format("{}: the file states that its {} axis is up; its coordinates are left as they are, z up. If "
+                    "the file is right, turn it by --up {}.",
+                    file, axis, axis));
+  }
+  const double read_as = settings_.metres_per_unit;
+  // Files round what they state: inches are 0.02539999969 m in some.
+  constexpr double stated_rounding = 1e-6;
+  if (metres_per_unit && std::abs(*metres_per_unit - read_as) > stated_rounding * read_as) {
+    report_note(
+        fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. Scale it by --unit "
+                    "(m, cm, mm, ft or in).",
+                    file, *metres_per_unit, read_as));
+  }
+}
+
 Vec3 MeshSink::placed(const Vec3& vertex) const {
   const Vec3 v = (vertex + offset_) * settings_.metres_per_unit;
   // 0 - x instead of -x: no negative zeros.

@@ -32,6 +32,9 @@ class MeshSink {
 
   /// The up axis of a format whose own definition says one; the user's choice goes before it.
   void set_format_up(UpAxis up);
+  /// Says in a note that the file states an up axis or a length of its unit (metres) that it is not read by; what it
+  /// does not state is unset.
+  void compare_with_stated(std::optional<UpAxis> up, std::optional<double> metres_per_unit, std::string_view file);
   /// Added to every vertex of the file before it is turned and scaled, in units of the file.
   void set_offset(const Vec3& offset) { offset_ = offset; }
 

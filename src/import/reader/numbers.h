@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -34,6 +35,14 @@ inline std::string_view take_word(std::string_view& rest) {
 inline std::string_view trimmed(std::string_view text) {
   skip_blanks(text);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// A word of a file as a message may show it: short and printable.
+inline std::string shown(std::string_view word) {
+  constexpr std::size_t length_limit = 40;
+  std::string text(word.substr(0, length_limit));
+  for (char& c : text) c = c >= ' ' && c <= '~' ? c : '?';
   return text;
 }
 

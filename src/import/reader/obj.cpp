@@ -70,7 +70,7 @@ class ObjReader {
     for (int k = 0; k < 3; ++k) {
       const std::string_view word = take_word(rest);
       if (word.empty()) fail("a vertex needs three coordinates");
-      if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", word));
+      if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", shown(word)));
     }
     vertices_.add(v);
   }
@@ -84,7 +84,7 @@ class ObjReader {
   std::uint64_t vertex_of(std::string_view corner) const {
     const std::string_view number = corner.substr(0, corner.find('/'));
     std::int64_t index = 0;
-    if (!parse(number, index) || index == 0) fail(fmt::format("'{}' is no corner of a face", corner));
+    if (!parse(number, index) || index == 0) fail(fmt::format("'{}' is no corner of a face", shown(corner)));
     const auto count = static_cast<std::int64_t>(vertices_.size());
     if (index > count || index < -count) {
       fail(fmt::format("a face refers to vertex {}, but {} vertices come before it", index, count));

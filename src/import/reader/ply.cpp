@@ -84,13 +84,13 @@ class AsciiValues {
   double number(PlyType) {
     const std::string_view word = next_word();
     double value = 0.0;
-    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no number.", where(), word.substr(0, 40)));
+    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no number.", where(), shown(word)));
     return value;
   }
   std::int64_t integer(PlyType) {
     const std::string_view word = next_word();
     std::int64_t value = 0;
-    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no integer.", where(), word.substr(0, 40)));
+    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no integer.", where(), shown(word)));
     return value;
   }
   void skip(PlyType) { next_word(); }

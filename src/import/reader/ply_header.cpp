@@ -54,7 +54,7 @@ class HeaderParser {
       } else if (keyword == "property") {
         take_property(line);
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-        fail(fmt::format("'{}' is no word of a PLY header", keyword.substr(0, 40)));
+        fail(fmt::format("'{}' is no word of a PLY header", shown(keyword)));
       }
     }
     if (!has_format_) fail("the header has no line 'format'");
@@ -81,7 +81,7 @@ class HeaderParser {
     } else if (name == "binary_big_endian") {
       header_.format = PlyFormat::big_endian;
     } else {
-      fail(fmt::format("the format '{}' is not one of PLY", name.substr(0, 40)));
+      fail(fmt::format("the format '{}' is not one of PLY", shown(name)));
     }
     has_format_ = true;
   }
@@ -100,7 +100,7 @@ class HeaderParser {
   PlyType take_type(std::string_view& rest) const {
     const std::string_view name = take_word(rest);
     const auto* found = std::find_if(types.begin(), types.end(), [&](const NamedType& t) { return t.name == name; });
-    if (found == types.end()) fail(fmt::format("'{}' is no type of PLY", name.substr(0, 40)));
+    if (found == types.end()) fail(fmt::format("'{}' is no type of PLY", shown(name)));
     return found->type;
   }
 

@@ -141,7 +141,7 @@ class AsciiStl {
       step(Inside::solid, Inside::nothing, word);
       rest = {};
     } else {
-      fail(fmt::format("'{}' is no word of STL", word.substr(0, 40)));
+      fail(fmt::format("'{}' is no word of STL", shown(word)));
     }
   }
 
@@ -149,7 +149,7 @@ class AsciiStl {
     Vec3 v{0.0};
     for (int k = 0; k < 3; ++k) {
       const std::string_view word = take_word(rest);
-      if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", word.substr(0, 40)));
+      if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", shown(word)));
     }
     corners_.push_back(sink_.add_shared_vertex(v));
   }
