@@ -97,6 +97,10 @@ class Route {
   [[nodiscard]] const Walker& walker() const { return *walker_; }
 
  private:
+  void start_window();
+  void turn_to_next(bool hindered);
+  void judge(const StepReport& report, double distance_before);
+  void describe_blockage(const StepReport& report);
   void note_events(const StepReport& report);
   void finish(Outcome outcome);
 

@@ -29,6 +29,10 @@
 
 namespace roam {
 
+namespace motion {
+class Move;
+}
+
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
 enum class Mode : std::uint8_t { fly, walk, ghost };
 
@@ -174,6 +178,16 @@ struct StepReport {
   }
 };
 
+/// What walking remembers from one step to the next.
+struct Stance {
+  Vec3 ground{0.0, 0.0, 1.0};  ///< normal of the ground stood on
+  double level = 0.0;          ///< z of the point last stood on, metres; means nothing before `stood`
+  double rise_speed = 0.0;     ///< upward, m/s; 0 on the ground
+  bool grounded = false;
+  bool stood = false;   ///< has stood on ground since it was placed
+  bool fallen = false;  ///< the present fall has been reported
+};
+
 class Walker {
  public:
   /// Puts a body into `world`, which must outlive it, at `start` (of its centre), as place() does. Throws roam::Error
@@ -189,8 +203,8 @@ class Walker {
   /// Puts the standing body's centre at `centre`, at rest. Where it does not fit there, it is moved to the nearest
   /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
   /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
-  /// wall. Where there is no such place it is held: it stays, reports `held`, tries again at each step, and moves only
-  /// when placed elsewhere or in ghost mode.
+  /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost
+  /// mode get it away.
   const StepReport& place(const Vec3& centre);
 
   /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is
@@ -205,10 +219,12 @@ class Walker {
   [[nodiscard]] Vec3 eye() const;                                   ///< the camera, metres
   [[nodiscard]] Body body() const;                                  ///< as it is now: standing or crouched
   [[nodiscard]] bool crouched() const { return height_ < settings_.height; }
-  [[nodiscard]] bool grounded() const { return grounded_; }
+  [[nodiscard]] bool grounded() const { return stance_.grounded; }
+  /// Does not fit where it is and can not be freed: see place().
   [[nodiscard]] bool held() const { return held_; }
+  [[nodiscard]] const Stance& stance() const { return stance_; }
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
-  [[nodiscard]] double rise_speed() const { return rise_speed_; }
+  [[nodiscard]] double rise_speed() const { return stance_.rise_speed; }
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const { return report_; }
 
@@ -223,22 +239,30 @@ class Walker {
   [[nodiscard]] double fall_limit() const { return settings_.radius + settings_.step; }
 
  private:
+  [[nodiscard]] motion::Move under_way();
+  void begin(double dt);
+  void move(const WalkerInput& input, double dt);
+  void settle();
+  void free_body();
+  void come_back();
+  void put(const Vec3& place, double time, EventKind kind);
+  void hold();
+  void remember_safe();
+  void finish();
+
   const World* world_;
   WalkerSettings settings_;
   StepReport report_;
+  Stance stance_;
   Vec3 position_{0.0};
-  Vec3 safe_{0.0};      ///< last place where the body stood, or, outside walk mode, fitted
-  Vec3 ground_{0.0};    ///< normal of the ground stood on; zero in the air
-  double stand_ = 0.0;  ///< height of the ground last stood on
+  Vec3 safe_{0.0};            ///< last place where the body stood or, where it has not stood yet, fitted
+  double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
-  double rise_speed_ = 0.0;
+  double clearance_ = 0.0;  ///< certified at position_, metres
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
-  bool grounded_ = false;
   bool held_ = false;
-  bool stood_ = false;   ///< has stood on ground since it was placed, so that stand_ means something
-  bool fallen_ = false;  ///< the present fall has been reported
 };
 
 }  // namespace roam

@@ -1,0 +1,94 @@
+#include "motion/flight.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "motion/ground.h"
+#include "motion/planes.h"
+#include "motion/slide.h"
+#include "motion/walking.h"
+
+namespace roam::motion {
+namespace {
+
+/// Seconds. A chord of this length leaves the parabola by g t^2 / 8, 1.4 mm.
+constexpr double chord_seconds = 1.0 / 30.0;
+
+/// The motion along `planes`, in which the wish to go sideways must not turn into a rise: it is first taken out of the
+/// planes as if they were vertical.
+Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
+  PlaneSet walls;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Vec3 flat(planes[i].x, planes[i].y, 0.0);
+    const double length = glm::length(flat);
+    if (length > standstill_part) walls.add(flat / length);
+  }
+  const Vec3 sideways = along_planes(Vec3(motion.x, motion.y, 0.0), walls);
+  return along_planes(Vec3(sideways.x, sideways.y, motion.z), planes);
+}
+
+void land(Move& move, Stance& stance, const Footing& ground) {
+  stand_on(move, stance, ground);
+  move.note(EventKind::landed);
+}
+
+}  // namespace
+
+double flight_seconds(const Move& move, const Stance& stance, const Vec3& velocity) {
+  double seconds = chord_seconds;
+  if (stance.rise_speed > 0.0 && move.settings.gravity > 0.0) {
+    seconds = std::min(seconds, stance.rise_speed / move.settings.gravity);
+  }
+  const double speed = glm::length(velocity);
+  return speed * seconds > longest_way ? longest_way / speed : seconds;
+}
+
+bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
+  const double start = move.time, gravity = move.settings.gravity;
+  const double fall =
+      std::max(stance.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -terminal_speed * seconds);
+  double rise_speed = std::max(stance.rise_speed - gravity * seconds, -terminal_speed);
+  // The top of a jump is met exactly, or it would be divided for ever.
+  if (stance.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
+  Vec3 whole(velocity.x * seconds, velocity.y * seconds, fall);
+  Vec3 motion = whole;
+  const double begin_z = move.place.z;
+  PlaneSet planes;
+  bool met = false;
+  double left = 1.0;
+  for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
+    const Vec3 before = move.place;
+    const Advance a = move.advance(motion * left, seconds * left);
+    left -= a.fraction * left;
+    if (!a.touched) break;
+    if (a.embedded) return false;
+    met = true;
+    move.touch(a.contact, a.gap);
+    move.ease_off(a);
+    if (glm::length(move.place - before) > move.skin) planes.clear();
+    planes.add(a.contact.normal);
+    if (whole.z <= 0.0) {
+      std::optional<Footing> ground = footing(move, stance, a.contact);
+      if (!ground && planes.size() > 1) ground = footing_here(move, stance);
+      if (ground) {
+        land(move, stance, *ground);
+        return true;
+      }
+    } else if (a.contact.normal.z < 0.0) {
+      whole.z = rise_speed = 0.0;
+    }
+    motion = along_slopes(whole, planes);
+    if (glm::length(motion) <= standstill_part * glm::length(whole)) break;
+  }
+  move.time = start + seconds;
+  // Sliding down a slope is slower than falling.
+  if (met && rise_speed < 0.0) rise_speed = std::max(rise_speed, std::min(0.0, (move.place.z - begin_z) / seconds));
+  stance.rise_speed = rise_speed;
+  if (stance.stood && !stance.fallen && move.feet() < stance.level - (move.settings.radius + move.settings.step)) {
+    stance.fallen = true;
+    move.note(EventKind::fell);
+  }
+  return true;
+}
+
+}  // namespace roam::motion

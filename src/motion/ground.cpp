@@ -1,0 +1,165 @@
+#include "motion/ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "motion/planes.h"
+
+namespace roam::motion {
+namespace {
+
+const double rim_cosine = std::cos(rim_slope_degrees * 3.14159265358979323846 / 180.0);
+const double rim_sine = std::sqrt(1.0 - rim_cosine * rim_cosine);
+
+/// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is walked on.
+constexpr double cosine_rounding = 1e-9;
+
+/// A rim is judged by a ball of this radius, metres, set down this far inside the rim: far enough that it does not lie
+/// on the rim itself, near enough for the top of a thin wall and the nosing of a stair.
+constexpr double rim_ball = 0.004;
+constexpr double rim_inset = 0.012;
+
+/// Contacts that are looked at under one body. More are only met in dense noise, where the nearest decide.
+constexpr std::size_t contacts_looked_at = 24;
+
+double tangent_of_slope(const Move& m) {
+  return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
+}
+
+/// Whether the floor behind the rim at `point`, seen from a body in the direction `normal`, can be walked on.
+bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
+  const Vec3 outward(normal.x, normal.y, 0.0);
+  const Vec3 inside = point - outward * (rim_inset / glm::length(outward));
+  const double rise = rim_inset * tangent_of_slope(m) + rim_ball + 2.0 * m.skin;
+  const Vec3 above = inside + Vec3(0.0, 0.0, rise + rim_ball);
+  const WorldSweep s = m.world.sweep({rim_ball, 0.0}, above, Vec3(0.0, 0.0, -2.0 * rise));
+  return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
+}
+
+std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Proximity& contact) {
+  const double up = contact.normal.z;
+  if (up < rim_cosine) return std::nullopt;
+  const bool gentle = up >= m.slope_cosine - cosine_rounding;
+  if (contact.feature == Feature::face) {
+    return gentle ? std::optional<Footing>({contact.normal, contact.point.z}) : std::nullopt;
+  }
+  if (stance.stood && stance.grounded && contact.point.z > stance.level + m.settings.step + 2.0 * m.skin) {
+    return std::nullopt;
+  }
+  if (!gentle && !floor_behind(m, contact.point, contact.normal)) return std::nullopt;
+  return Footing{contact.normal, contact.point.z};
+}
+
+Proximity as_proximity(const WorldSweep& s) { return {s.point, s.normal, s.feature, s.distance}; }
+
+/// Gravity along planes that leads down at less than the slope limit, so that they carry together. On a slope of angle
+/// a it leads down by sin(a)^2 of itself.
+bool carried_by(const Move& m, const PlaneSet& planes) {
+  const Vec3 down = along_planes(Vec3(0.0, 0.0, -1.0), planes);
+  return -down.z <= 1.0 - m.slope_cosine * m.slope_cosine + cosine_rounding;
+}
+
+}  // namespace
+
+std::optional<Footing> footing(const Move& move, const Stance& stance, const WorldSweep& contact) {
+  return footing_on(move, stance, as_proximity(contact));
+}
+
+std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
+  std::array<Contact, contacts_looked_at> contacts;
+  const std::size_t found =
+      move.world.contacts(move.body(), move.place, Vec3(0.0), (1.0 + 2.0 * rest_part) * move.skin, contacts);
+  PlaneSet planes;
+  std::optional<Footing> best;
+  double highest = move.feet();
+  for (std::size_t i = 0; i < std::min(found, contacts.size()); ++i) {
+    const Contact& c = contacts[i];
+    if (!(c.normal.z > 0.0)) continue;
+    const std::optional<Footing> f = footing_on(move, stance, c);
+    if (f && (!best || f->normal.z > best->normal.z)) best = f;
+    planes.add(c.normal);
+    highest = std::max(highest, c.point.z);
+  }
+  if (best) return best;
+  if (planes.size() > 1 && carried_by(move, planes)) return Footing{Vec3(0.0, 0.0, 1.0), highest};
+  return std::nullopt;
+}
+
+void stand_on(Move& move, Stance& stance, const Footing& ground) {
+  if (stance.stood && !stance.fallen && ground.level < stance.level - (move.settings.radius + move.settings.step)) {
+    move.note(EventKind::fell);
+  }
+  stance.ground = ground.normal;
+  stance.level = ground.level;
+  stance.rise_speed = 0.0;
+  stance.grounded = stance.stood = true;
+  stance.fallen = false;
+}
+
+void keep_ground(Move& move, Stance& stance, double horizontal) {
+  const double slope_drop = horizontal * tangent_of_slope(move);
+  const double reach = move.settings.step + slope_drop + 3.0 * move.skin;
+  const Vec3 down(0.0, 0.0, -1.0);
+  const WorldSweep s = move.world.sweep(move.body(), move.place, down * reach);
+  std::optional<Footing> ground;
+  if (s.hit) ground = footing(move, stance, s);
+  if (s.hit && !ground) {
+    // What is met first is too steep, but what carries may be a hair behind it.
+    Move lowered = move;
+    lowered.place.z -= std::max(0.0, s.time * reach - move.skin / s.normal.z);
+    ground = footing_here(lowered, stance);
+  }
+  if (!ground) {
+    if (stance.grounded) move.note(EventKind::airborne);
+    stance.grounded = false;
+    return;
+  }
+  const double drop = s.time * reach - move.skin / s.normal.z;
+  const double rest = rest_part * 2.0 * move.skin;
+  if (std::abs(drop) * s.normal.z > rest) {
+    if (drop > 0.0) {
+      move.go(down * drop);
+    } else {
+      move.advance(down * drop, 0.0);
+    }
+  }
+  if (drop > slope_drop + 3.0 * move.skin) move.note(EventKind::stepped_down);
+  stand_on(move, stance, *ground);
+}
+
+std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, double seconds) {
+  const double length = glm::length(motion), step = move.settings.step, skin = move.skin;
+  if (!(step > 0.0) || !(length > 0.0)) return std::nullopt;
+  // From a skin above the old ground to a skin clear of the edge of a kerb of full height.
+  const Vec3 up(0.0, 0.0, step + 3.0 * skin);
+  Move trial = move;
+  const Advance raised = trial.probe(up);
+  const Vec3 rise = up * raised.fraction;
+  if (raised.embedded || !(rise.z > 2.0 * skin)) return std::nullopt;
+  trial.place += rise;
+  // Not less than what takes a body that touches a kerb of its radius' height to where the rim carries it.
+  const double least = move.settings.radius * (1.0 - rim_sine) + 4.0 * skin;
+  const Vec3 ahead = motion * (std::max(length, least) / length);
+  const Advance forward = trial.probe(ahead);
+  const Vec3 onward = ahead * forward.fraction;
+  if (!(glm::length(onward) > skin)) return std::nullopt;
+  trial.place += onward;
+  const double reach = rise.z + step;
+  const WorldSweep landing = move.world.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  if (!landing.hit || landing.distance < 0.0) return std::nullopt;
+  const std::optional<Footing> ground = footing(trial, stance, landing);
+  if (!ground || ground->level > stance.level + step + 2.0 * skin) return std::nullopt;
+  const double drop = std::max(0.0, landing.time * reach - skin / landing.normal.z);
+
+  move.time += seconds * std::min(1.0, glm::length(onward) / length);
+  move.go(rise);
+  move.go(onward);
+  move.go(Vec3(0.0, 0.0, -drop));
+  move.note(EventKind::stepped_up);
+  stand_on(move, stance, *ground);
+  return glm::length(onward) / length;
+}
+
+}  // namespace roam::motion

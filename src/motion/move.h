@@ -1,0 +1,94 @@
+#pragma once
+/// \file
+/// A step under way: where the body is, how it advances, and the report that is written as it goes.
+
+#include "roam/walker.h"
+
+namespace roam::motion {
+
+/// World::sweep keeps the body this much less than its radius, at most, from every triangle (world.h), metres.
+constexpr double world_tolerance = 1e-6;
+
+/// Part of the skin within which a body that touches something counts as being at rest there. Moving it back and forth
+/// by rounding errors would be seen as jitter.
+constexpr double rest_part = 0.125;
+
+/// Part of the wish's length below which what is left of it along the planes is no motion but a standstill.
+constexpr double standstill_part = 1e-3;
+
+/// The longest way that one sweep is asked for, metres; the world takes 1e6 m.
+constexpr double longest_way = 5e5;
+
+/// How a step, or a part of it, ended.
+enum class Ending : std::uint8_t {
+  done,        ///< all of the time was used
+  throttled,   ///< the report is full, or the way too long for one step; Move::time says how far it came
+  embedded,    ///< the body does not fit where it is
+  bottomless,  ///< it fell below everything
+};
+
+/// How far a body gets, and what it then touches.
+struct Advance {
+  double fraction = 1.0;  ///< of the motion that is certified free, kept a skin away from what it touches
+  bool touched = false;   ///< something is in the way of the rest
+  bool embedded = false;  ///< it was already at the start: the body does not fit where it is
+  WorldSweep contact;     ///< what it touches, when touched
+  double gap = 0.0;       ///< metres from its surface to the plane of the contact, at the end of the advance
+};
+
+/// How far `body` gets from `from` along `motion`. It stops where the gap to the plane of the contact is `skin`: the
+/// skin is measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near.
+/// A body that is nearer than the skin already does not advance towards that plane; along it and away it does.
+[[nodiscard]] Advance probe(const World& world, const Body& body, const Vec3& from, const Vec3& motion, double skin);
+
+class Move {
+ public:
+  const World& world;
+  const WalkerSettings& settings;
+  StepReport& report;
+  const double skin;
+  const double slope_cosine;
+  Vec3 place;
+  double height;
+  double clearance;   ///< certified since the step began, or since it was last put somewhere, metres
+  double time = 0.0;  ///< seconds since the step began
+
+  Move(const World& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
+       double whole_height, double certified)
+      : world(in),
+        settings(of),
+        report(into),
+        skin(skin_width),
+        slope_cosine(cosine),
+        place(from),
+        height(whole_height),
+        clearance(certified) {}
+
+  [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
+  [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
+  [[nodiscard]] Advance probe(const Vec3& motion) const { return motion::probe(world, body(), place, motion, skin); }
+
+  /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
+  /// contact.
+  Advance advance(const Vec3& motion, double seconds);
+  /// Certified lower bound of the clearance since the step began and over `motion`, a free way, metres.
+  [[nodiscard]] double clearance_over(const Vec3& motion) const;
+  /// Goes along `motion`, part of a way that a sweep has found free, and measures how free that part is.
+  void go(const Vec3& motion);
+  /// Where a touch left less than half the skin, restores it as far as there is room.
+  void ease_off(const Advance& touch);
+  /// A new height about the same feet or head; the caller has seen to it that the body fits.
+  void resize(double new_height, const Vec3& new_place);
+
+  void touch(const WorldSweep& contact, double gap);
+  void note(EventKind kind, const Vec3& point) { report.events.push({kind, point}); }
+  void note(EventKind kind) { note(kind, place); }
+  /// Whether another part of a step, which may add a handful of corners, still fits into the report.
+  [[nodiscard]] bool has_room() const;
+
+ private:
+  Vec3 last_direction_{0.0};
+  int merged_ = 0;
+};
+
+}  // namespace roam::motion

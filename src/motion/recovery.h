@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Ways out for a body that does not fit where it is.
+
+#include <optional>
+
+#include "roam/world.h"
+
+namespace roam::motion {
+
+/// Whether the body fits at `place`: its certified gap to every triangle is not negative.
+[[nodiscard]] bool fits(const World& world, const Body& body, const Vec3& place);
+
+/// `checked`: only ways on which a sphere about the body's centre, of nine tenths of the centre's own distance from
+/// everything, meets nothing, so that the centre stays on its side of every wall. A body whose centre lies on a
+/// triangle has no such way. `any`: through walls too.
+enum class Way : std::uint8_t { checked, any };
+
+/// The nearest place found, at most `limit` metres away, where the body fits with its skin. Looked for by pushing the
+/// body out of what it touches, and along the 26 directions to the neighbours of a cube's centre, on each of which no
+/// free place is skipped.
+[[nodiscard]] std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec3& place, double limit,
+                                               double skin, Way way);
+
+}  // namespace roam::motion

@@ -1,0 +1,208 @@
+#include "roam/route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "motion/opening.h"
+#include "roam/error.h"
+
+namespace roam {
+namespace {
+
+/// Of the way that free motion would bring in the time of patience; see RouteOptions::patience.
+constexpr double progress_part = 0.05;
+constexpr std::uint64_t least_patience_steps = 8;
+
+/// Metres: nearer to a waypoint than this is at it. Ten times the rounding of coordinates at 6.4e6 m.
+constexpr double at_waypoint = 1e-8;
+
+/// A contact is what the opening is measured from when it is within this many skins.
+constexpr double opening_skins = 4.0;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
+  const auto positive = [](const char* what, double value, const char* unit) {
+    if (!(value > 0.0) || !std::isfinite(value)) {
+      throw Error(std::string("the route's ") + what + " is " + std::to_string(value) + " " + unit +
+                  "; it must be more than 0");
+    }
+  };
+  positive("speed", options.speed, "m/s");
+  positive("time step", options.dt, "s");
+  positive("patience", options.patience, "s");
+  if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (!finite(waypoints[i])) throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a finite point");
+  }
+  if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
+}
+
+Box grown(const Box& box, const Body& body) {
+  const Vec3 by(body.radius, body.radius, body.radius + body.half_height);
+  return {box.lower - by, box.upper + by};
+}
+
+bool inside(const Vec3& p, const Box& box) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(p[k] >= box.lower[k] && p[k] <= box.upper[k])) return false;
+  }
+  return true;
+}
+
+/// From the body to the waypoint; walking has no say in the height.
+Vec3 way_to(const Vec3& waypoint, const Walker& walker) {
+  Vec3 way = waypoint - walker.position();
+  if (walker.mode() == Mode::walk) way.z = 0.0;
+  return way;
+}
+
+bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
+  const Body body = walker.body();
+  const Vec3 way = waypoint - walker.position();
+  const double beside = glm::length(Vec3(way.x, way.y, 0.0));
+  if (walker.mode() == Mode::walk) {
+    return beside <= body.radius && std::abs(way.z) <= 0.5 * body.height() + walker.settings().step;
+  }
+  const double above = std::max(0.0, std::abs(way.z) - body.half_height);
+  return beside * beside + above * above <= body.radius * body.radius;
+}
+
+}  // namespace
+
+const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reached:
+      return "reached";
+    case Outcome::blocked:
+      return "blocked";
+    case Outcome::left_scene:
+      return "left_scene";
+    case Outcome::fell:
+      return "fell";
+    case Outcome::held:
+      return "held";
+  }
+  return "unknown";
+}
+
+Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
+    : walker_(&walker), waypoints_(waypoints.begin(), waypoints.end()), options_(options) {
+  check(options, waypoints, walker);
+  const StepReport& start = walker.place(waypoints_[0]);
+  scene_ = walker.world().bounds();
+  for (const Vec3& w : waypoints_) scene_.include(w);
+  result_.least_clearance = start.least_clearance;
+  result_.waypoints = 1;
+  result_.end = walker.position();
+  note_events(start);
+  start_window();
+  if (walker.held()) {
+    finish(Outcome::held);
+  } else {
+    turn_to_next(true);
+  }
+}
+
+void Route::start_window() {
+  window_best_ = next_ < waypoints_.size() ? glm::length(way_to(waypoints_[next_], *walker_)) : 0.0;
+  window_time_ = 0.0;
+  window_steps_ = 0;
+}
+
+void Route::turn_to_next(bool hindered) {
+  while (next_ < waypoints_.size()) {
+    const Vec3& goal = waypoints_[next_];
+    if (!counts_as_reached(goal, *walker_)) return;
+    if (!hindered && glm::length(way_to(goal, *walker_)) > at_waypoint) return;
+    ++next_;
+    ++result_.waypoints;
+    start_window();
+    hindered = false;
+  }
+  finish(Outcome::reached);
+}
+
+const StepReport& Route::advance() {
+  const Vec3 way = way_to(waypoints_[next_], *walker_);
+  const double distance = glm::length(way);
+  double dt = options_.dt;
+  WalkerInput input;
+  if (distance > at_waypoint) {
+    dt = std::min(dt, distance / options_.speed);
+    input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
+  }
+  const StepReport& report = walker_->step(input, dt);
+  ++result_.steps;
+  result_.simulated += report.elapsed;
+  Vec3 at = report.from;
+  for (const Corner& c : report.corners) {
+    if (!c.teleport) result_.length += glm::length(c.position - at);
+    at = c.position;
+  }
+  if (report.has(EventKind::throttled)) ++result_.throttled;
+  result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
+  result_.end = walker_->position();
+  note_events(report);
+  judge(report, distance);
+  return report;
+}
+
+void Route::judge(const StepReport& report, double distance_before) {
+  if (report.has(EventKind::fell)) return finish(Outcome::fell);
+  if (report.held) return finish(walker_->stance().stood && !walker_->held() ? Outcome::fell : Outcome::held);
+  if (!inside(walker_->position(), grown(scene_, walker_->body()))) return finish(Outcome::left_scene);
+  const double distance = glm::length(way_to(waypoints_[next_], *walker_));
+  const bool nearer = distance_before - distance > progress_part * options_.speed * report.elapsed;
+  turn_to_next(!report.contacts.empty() || !nearer);
+  if (done_) return;
+  window_time_ += report.elapsed;
+  ++window_steps_;
+  if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
+  const double now = glm::length(way_to(waypoints_[next_], *walker_));
+  if (window_best_ - now < progress_part * options_.speed * window_time_) {
+    describe_blockage(report);
+    finish(Outcome::blocked);
+  } else {
+    start_window();
+  }
+}
+
+void Route::describe_blockage(const StepReport& report) {
+  if (report.contacts.empty()) return;
+  const Contact& c = report.contacts.back();
+  Blockage blockage{c.point, c.normal, c.triangle, std::nullopt};
+  const Vec3 way = way_to(waypoints_[next_], *walker_);
+  const double length = glm::length(way);
+  if (length > at_waypoint) {
+    const double reach = opening_skins * walker_->skin();
+    blockage.opening =
+        motion::measure_opening(walker_->world(), walker_->body(), walker_->position(), way / length, reach);
+  }
+  result_.blocked_at = blockage;
+}
+
+void Route::note_events(const StepReport& report) {
+  std::uint32_t kinds = 0;
+  for (const Event& e : report.events) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(e.kind);
+    if (!((kinds | last_kinds_) & bit)) result_.events.push_back({result_.steps, e});
+    kinds |= bit;
+  }
+  last_kinds_ = kinds;
+}
+
+void Route::finish(Outcome outcome) {
+  result_.outcome = outcome;
+  done_ = true;
+}
+
+RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options) {
+  Route route(walker, waypoints, options);
+  while (!route.done()) route.advance();
+  return route.result();
+}
+
+}  // namespace roam

@@ -1,0 +1,106 @@
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "roam/error.h"
+#include "roam/walker.h"
+
+namespace roam {
+namespace {
+
+/// Far above every use, and low enough that nothing overflows.
+constexpr double length_limit = World::reach_limit / 4.0;
+constexpr double speed_limit = 1e4;
+constexpr double factor_limit = 1e3;
+constexpr double gravity_limit = 1e3;
+constexpr double jump_limit = 100.0;
+constexpr double slope_limit = 89.0;
+
+struct Range {
+  double lower, upper;
+  bool open;  ///< the lower end itself is refused
+};
+
+void demand(const char* what, double value, const char* unit, const Range& range, const char* hint) {
+  const bool above = range.open ? value > range.lower : value >= range.lower;
+  if (above && value <= range.upper) return;  // written so that NaN is refused
+  std::ostringstream text;
+  text << "the walker's " << what << " is " << value << " " << unit << "; it must be "
+       << (range.open ? "more than " : "at least ") << range.lower << " and at most " << range.upper << " " << unit;
+  if (*hint) text << ": " << hint;
+  throw Error(text.str());
+}
+
+}  // namespace
+
+void check(const WalkerSettings& s) {
+  demand("radius", s.radius, "m", {0.0, length_limit, true}, "");
+  demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
+         "a body is at least two radii high, and then a sphere");
+  demand("eye height", s.eye, "m", {0.0, s.height, false}, "the eye is in the body");
+  demand("step height", s.step, "m", {0.0, 0.5 * s.height, false}, "what is higher is climbed, not stepped on");
+  demand("slope limit", s.slope_degrees, "degrees", {0.0, slope_limit, false}, "");
+  demand("speed", s.speed, "m/s", {0.0, speed_limit, true}, "");
+  demand("fast factor", s.fast_factor, "times", {1.0, factor_limit, false}, "");
+  demand("gravity", s.gravity, "m/s^2", {0.0, gravity_limit, false}, "");
+  demand("jump height", s.jump_height, "m", {0.0, jump_limit, false}, "");
+  demand("crouched height", s.crouch_height, "m", {0.0, length_limit, true}, "");
+  demand("clearance reach", s.clearance_reach, "m", {0.0, World::reach_limit, false}, "");
+}
+
+Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {
+  const double length = glm::length(direction);
+  if (!std::isfinite(length)) throw Error("the wished direction is not a finite vector");
+  const double speed = settings.speed * (fast ? settings.fast_factor : 1.0);
+  return direction * (length > 1.0 ? speed / length : speed);
+}
+
+const char* name(Mode mode) {
+  switch (mode) {
+    case Mode::fly:
+      return "fly";
+    case Mode::walk:
+      return "walk";
+    case Mode::ghost:
+      return "ghost";
+  }
+  return "unknown";
+}
+
+const char* name(EventKind kind) {
+  switch (kind) {
+    case EventKind::slid:
+      return "slid";
+    case EventKind::blocked:
+      return "blocked";
+    case EventKind::stepped_up:
+      return "stepped_up";
+    case EventKind::stepped_down:
+      return "stepped_down";
+    case EventKind::jumped:
+      return "jumped";
+    case EventKind::airborne:
+      return "airborne";
+    case EventKind::landed:
+      return "landed";
+    case EventKind::fell:
+      return "fell";
+    case EventKind::crouched:
+      return "crouched";
+    case EventKind::stood:
+      return "stood";
+    case EventKind::placed:
+      return "placed";
+    case EventKind::freed:
+      return "freed";
+    case EventKind::held:
+      return "held";
+    case EventKind::returned:
+      return "returned";
+    case EventKind::throttled:
+      return "throttled";
+  }
+  return "unknown";
+}
+
+}  // namespace roam

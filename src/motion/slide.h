@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Collide and slide: free motion among walls.
+
+#include "motion/move.h"
+
+namespace roam::motion {
+
+/// A slide ends after this many contacts, and what is left of its motion is dropped. Corners need 3, a facetted curve
+/// one for each facet that is passed in one step.
+constexpr int slide_limit = 16;
+
+/// Moves by `velocity` for `dt` seconds and slides along what is met.
+Ending slide(Move& move, const Vec3& velocity, double dt);
+
+}  // namespace roam::motion

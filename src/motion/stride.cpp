@@ -1,0 +1,91 @@
+#include "motion/stride.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "motion/crouch.h"
+#include "motion/ground.h"
+#include "motion/planes.h"
+#include "motion/slide.h"
+
+namespace roam::motion {
+namespace {
+
+/// The rise of all `grounds` together along the horizontal `v`: the steepest decides.
+Vec3 over_grounds(const Vec3& v, const PlaneSet& grounds) {
+  double rise = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < grounds.size(); ++i) {
+    rise = std::max(rise, -(grounds[i].x * v.x + grounds[i].y * v.y) / grounds[i].z);
+  }
+  return {v.x, v.y, grounds.size() > 0 ? rise : 0.0};
+}
+
+/// What a steep plane is to a walker: a vertical wall. A ceiling, or an overhang that is met by rising, has no side to
+/// slide along and stands in the way as it is met.
+Vec3 as_wall(const Vec3& normal, const Vec3& v) {
+  const Vec3 flat(normal.x, normal.y, 0.0);
+  const double length = glm::length(flat);
+  if (length > standstill_part && glm::dot(flat, v) < 0.0) return flat / length;
+  return -v / glm::length(v);
+}
+
+}  // namespace
+
+double stride_seconds(const Move& move, const Vec3& velocity) {
+  const double speed = glm::length(velocity);
+  return speed > 0.0 ? 0.5 * move.settings.radius / speed : std::numeric_limits<double>::infinity();
+}
+
+bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
+  const double start = move.time, wish = glm::length(velocity);
+  const Vec3 origin = move.place;
+  PlaneSet walls, grounds;
+  grounds.add(stance.ground);
+  Vec3 v = velocity;
+  double left = seconds;
+  for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
+    const Vec3 before = move.place;
+    const Vec3 motion = over_grounds(v, grounds) * left;
+    const Advance a = move.advance(motion, left);
+    left -= a.fraction * left;
+    if (!a.touched) break;
+    if (a.embedded) return false;
+    move.touch(a.contact, a.gap);
+    move.ease_off(a);
+    if (glm::length(move.place - before) > move.skin) {
+      walls.clear();
+      grounds.clear();
+    }
+    const Vec3& normal = a.contact.normal;
+    const bool underfoot = normal.z > 0.0 && glm::dot(Vec3(normal.x, normal.y, 0.0), v) >= 0.0;
+    if (underfoot || footing(move, stance, a.contact)) {
+      grounds.add(normal);
+      continue;
+    }
+    const Vec3 rest = v * left;
+    if (crouch_under(move, a.contact, over_grounds(rest, grounds))) continue;
+    if (const std::optional<double> made = step_up(move, stance, rest, left)) {
+      left = std::max(0.0, left - *made * left);
+      walls.clear();
+      grounds.clear();
+      grounds.add(stance.ground);
+      v = velocity;
+      continue;
+    }
+    walls.add(as_wall(normal, v));
+    v = along_planes(velocity, walls);
+    if (glm::length(v) <= standstill_part * wish) {
+      move.report.blocked = true;
+      move.note(EventKind::blocked, a.contact.point);
+      break;
+    }
+    if (!move.report.has(EventKind::slid)) move.note(EventKind::slid, a.contact.point);
+  }
+  const Vec3 gone = move.place - origin;
+  keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
+  move.time = start + seconds;
+  return true;
+}
+
+}  // namespace roam::motion

@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// One stride over the ground.
+
+#include "motion/move.h"
+
+namespace roam::motion {
+
+/// How long a stride at this velocity may last, seconds: so short that the body looks for ground at least every half
+/// radius, or it would leap cracks that it can not cross.
+[[nodiscard]] double stride_seconds(const Move& move, const Vec3& velocity);
+
+/// Goes at the horizontal `velocity` for `seconds`: along the ground, up steps, under what is low, along walls; then
+/// keeps to the ground below. The speed is that seen from above. False when the body is embedded.
+bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds);
+
+}  // namespace roam::motion

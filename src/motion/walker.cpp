@@ -1,0 +1,211 @@
+#include "roam/walker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "motion/crouch.h"
+#include "motion/ground.h"
+#include "motion/recovery.h"
+#include "motion/slide.h"
+#include "motion/walking.h"
+#include "roam/error.h"
+
+namespace roam {
+namespace {
+
+/// The skin of a lossless world, metres: a thousand times what rounding moves a body at 6.4e6 m, and less than anybody
+/// sees.
+constexpr double least_skin = 1e-4;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+Walker::Walker(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& start)
+    : world_(&world), settings_(settings), mode_(mode) {
+  check(settings);
+  skin_ = least_skin + 2.0 * world.stats().largest_error_m;
+  slope_cosine_ = std::cos(settings.slope_degrees * (3.14159265358979323846 / 180.0));
+  place(start);
+}
+
+Body Walker::body() const { return Body::capsule(settings_.radius, height_); }
+
+Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
+
+Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
+
+motion::Move Walker::under_way() {
+  return {*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_};
+}
+
+void Walker::begin(double dt) {
+  report_.corners.clear();
+  report_.contacts.clear();
+  report_.events.clear();
+  report_.from = position_;
+  report_.elapsed = dt;
+  report_.blocked = report_.held = false;
+}
+
+void Walker::finish() {
+  report_.to = position_;
+  report_.height = height_;
+  report_.grounded = stance_.grounded;
+  clearance_ = 0.0;
+  if (mode_ != Mode::ghost && !held_) {
+    clearance_ = settings_.radius + world_->clearance(body(), position_, settings_.clearance_reach).distance;
+  }
+  report_.clearance = report_.least_clearance = clearance_;
+  for (const Corner& c : report_.corners) {
+    if (!c.teleport) report_.least_clearance = std::min(report_.least_clearance, c.clearance);
+  }
+}
+
+void Walker::remember_safe() {
+  safe_ = position_;
+  safe_height_ = height_;
+}
+
+void Walker::put(const Vec3& place, double time, EventKind kind) {
+  position_ = place;
+  report_.corners.push({position_, height_, time, 0.0, true});
+  report_.events.push({kind, position_});
+}
+
+void Walker::hold() {
+  held_ = report_.held = true;
+  stance_ = {};
+  report_.events.push({EventKind::held, position_});
+}
+
+void Walker::free_body() {
+  const std::optional<Vec3> way_out =
+      motion::nearest_free(*world_, body(), position_, height_, skin_, motion::Way::checked);
+  if (way_out) {
+    put(*way_out, report_.elapsed, EventKind::freed);
+  } else {
+    hold();
+  }
+}
+
+void Walker::settle() {
+  if (mode_ != Mode::walk || held_) return;
+  motion::Move m = under_way();
+  motion::keep_ground(m, stance_, 0.0);
+  position_ = m.place;
+  if (stance_.grounded || !(safe_height_ > 0.0)) remember_safe();
+}
+
+const StepReport& Walker::step(const WalkerInput& input, double dt) {
+  if (!finite(input.velocity)) throw Error("the wished velocity is not a finite vector");
+  if (!(dt >= 0.0) || !std::isfinite(dt)) {
+    throw Error("the time step is " + std::to_string(dt) + " s; it must be finite and not negative");
+  }
+  begin(dt);
+  if (mode_ == Mode::ghost) {
+    position_ += input.velocity * dt;
+    report_.corners.push({position_, height_, dt, 0.0, false});
+    if (motion::fits(*world_, body(), position_)) remember_safe();
+  } else if (held_) {
+    hold();
+  } else {
+    move(input, dt);
+  }
+  finish();
+  return report_;
+}
+
+void Walker::move(const WalkerInput& input, double dt) {
+  motion::Move m = under_way();
+  const bool walking = mode_ == Mode::walk;
+  if (walking && input.crouch) {
+    motion::crouch(m);
+  } else {
+    motion::stand_up(m);
+  }
+  motion::Ending end = motion::Ending::done;
+  if (walking) {
+    if (input.jump) motion::jump(m, stance_);
+    const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
+    end = motion::walk(m, stance_, horizontal, dt, {safe_, safe_height_});
+  } else {
+    end = motion::slide(m, input.velocity, dt);
+  }
+  position_ = m.place;
+  height_ = m.height;
+  if (end != motion::Ending::done) report_.elapsed = m.time;
+  switch (end) {
+    case motion::Ending::done:
+      break;
+    case motion::Ending::throttled:
+      report_.events.push({EventKind::throttled, position_});
+      break;
+    case motion::Ending::embedded:
+      free_body();
+      break;
+    case motion::Ending::bottomless:
+      height_ = safe_height_;
+      stance_ = {};
+      put(safe_, m.time, EventKind::held);
+      report_.held = true;
+      settle();
+      break;
+  }
+  if (!walking && !held_) remember_safe();
+}
+
+const StepReport& Walker::place(const Vec3& centre) {
+  if (!finite(centre)) throw Error("the place to put the walker to is not a finite point");
+  height_ = settings_.height;
+  begin(0.0);
+  stance_ = {};
+  held_ = false;
+  safe_height_ = 0.0;
+  put(centre, 0.0, EventKind::placed);
+  if (mode_ != Mode::ghost && !motion::fits(*world_, body(), position_)) {
+    const double low = motion::crouched_height(settings_);
+    const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
+    if (mode_ == Mode::walk && low < height_ && motion::fits(*world_, Body::capsule(settings_.radius, low), lowered)) {
+      height_ = low;
+      put(lowered, 0.0, EventKind::crouched);
+    } else {
+      free_body();
+    }
+  }
+  if (!held_ && motion::fits(*world_, body(), position_)) remember_safe();
+  settle();
+  finish();
+  return report_;
+}
+
+const StepReport& Walker::set_mode(Mode mode) {
+  begin(0.0);
+  const Mode before = mode_;
+  mode_ = mode;
+  if (mode == Mode::ghost) held_ = false;
+  if (mode != before) stance_ = {};
+  if (before == Mode::ghost && mode != Mode::ghost && !motion::fits(*world_, body(), position_)) come_back();
+  if (mode != before) settle();
+  finish();
+  return report_;
+}
+
+void Walker::come_back() {
+  const bool known = safe_height_ > 0.0;
+  const double to_safe = known ? glm::length(safe_ - position_) : height_;
+  const std::optional<Vec3> near =
+      motion::nearest_free(*world_, body(), position_, std::min(height_, to_safe), skin_, motion::Way::any);
+  if (near) {
+    put(*near, 0.0, EventKind::returned);
+  } else if (known) {
+    height_ = safe_height_;
+    put(safe_, 0.0, EventKind::returned);
+  } else {
+    hold();
+  }
+}
+
+}  // namespace roam
