@@ -109,8 +109,8 @@ SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexce
   plane.normal = best.normal;
   plane.offset = best.offset;
   if (best.value <= 0.0) {
-    // They meet: the point that matters is the one that is left last on the way out.
-    const Closest last = closest_to_axis(o, centre - best.value * best.normal);
+    // They meet: the point that matters is the one that is left last on the way out, and stays closest beyond.
+    const Closest last = closest_to_axis(o, centre + (slack - 2.0 * best.value) * best.normal);
     if (!last.meets) {
       plane.point = last.point;
       plane.feature = last.feature;
