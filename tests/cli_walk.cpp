@@ -110,9 +110,12 @@ TEST(WalkVerb, SaysWhatToDoAboutAStartInsideAWall) {
 TEST(WalkVerb, TellsOfAStartFromWhichTheBodyWasFreed) {
   const Walk walk(room_obj(), "2 -1.8 0.3\n6 0 0.3\n", {"--json"});
   EXPECT_EQ(walk.result.status, 0) << walk.result.out;
+  const nlohmann::json report = walk.json();
   bool freed = false;
-  for (const auto& event : walk.json()["events"]) freed = freed || event["kind"] == "freed";
+  for (const auto& event : report["events"]) freed = freed || event["kind"] == "freed";
   EXPECT_TRUE(freed) << walk.result.out;
+  const Walk told(room_obj(), "2 -1.8 0.3\n6 0 0.3\n");
+  EXPECT_TRUE(contains(told.result.out, "did not fit where it was put")) << told.result.out;
 }
 
 TEST(WalkVerb, PassesThroughWallsOnlyAsAGhost) {
@@ -141,7 +144,7 @@ TEST(WalkVerb, WandersWhereThereIsNoPath) {
 
 TEST(WalkVerb, SaysWhenTheBodyFitsNowhere) {
   const TestFolder folder;
-  const std::string scene = folder.write("line.obj", "v 0 0 0\nv 0 0 4\nv 0 4 0\nf 1 2 3\n");
+  const std::string scene = folder.write("spike.obj", "v 0 0 0\nv 0 1 9\nv 0 2 0\nf 1 2 3\n");
   const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "5"});
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(contains(result.err, "--up")) << result.err;

@@ -27,7 +27,7 @@ struct ProgramResult {
 };
 
 struct ProgramOptions {
-  std::string input;           ///< its standard input
+  std::string input{};         ///< its standard input
   double interrupt_after = 0;  ///< seconds after which it gets SIGINT; 0: never
   bool close_output = false;   ///< nobody reads its standard output
 };

@@ -36,6 +36,11 @@ void TraceFile::add(std::uint64_t step, double step_start, double radius, const 
                    step, time, p.x, p.y, p.z, radius, height, clearance, contacts, events, teleport ? 1 : 0);
   };
   const std::string events = joined_events(report);
+  if (step == 0) {
+    // The place that was asked for may be inside a wall; the walk starts where the body was put.
+    row(step_start, report.to, report.height, report.clearance, report.contacts.total(), events, true);
+    return;
+  }
   for (const Corner& corner : report.corners) {
     const bool last = &corner == &report.corners.back();
     row(step_start + corner.time, corner.position, corner.height, corner.clearance, last ? report.contacts.total() : 0,
@@ -61,10 +66,12 @@ void TraceFile::close() {
 void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report) {
   Vec3 from = report.from;
   for (const Corner& corner : report.corners) {
+    if (step == 0) break;
     if (corner.teleport) from = corner.position;
     pieces.push_back({step, from, corner.position, Body::capsule(radius, corner.height), corner.clearance});
     from = corner.position;
   }
+  if (step == 0 && report.held) return;
   pieces.push_back({step, report.to, report.to, Body::capsule(radius, report.height), report.clearance});
 }
 

@@ -31,7 +31,9 @@ class TraceFile {
   std::string rows_;
 };
 
-/// The pieces of one step, for verify(): each straight piece of its way, or its place when it did not move.
+/// The pieces of one step, for verify(): each straight piece of its way, and its place at the end. Of the start, step
+/// 0, only the place where the body was put, if it fits there: the way out of a wall into which a path begins is no
+/// step.
 void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report);
 
 /// The times of steps in nanoseconds.

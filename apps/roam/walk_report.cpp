@@ -124,6 +124,10 @@ std::string text_report(const WalkReport& report) {
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<17}{}\n", what, value);
   };
+  if (const auto freed = first(result, EventKind::freed)) {
+    line("start",
+         fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}", at(*freed)));
+  }
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
   line("body",
        fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));

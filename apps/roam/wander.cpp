@@ -19,13 +19,14 @@ constexpr double lift = 0.05;           // m, a start is looked for so high abov
 constexpr double floor_gap = 0.01;      // m, the next floor of a column is looked for so far below the last
 constexpr double ceiling_reach = 30.0;  // m, above which a ceiling is the sky
 constexpr double room_reach = 10.0;     // m, farther is free enough
+constexpr double indoors = 8.0;         // a floor under a ceiling counts so many times
 constexpr double fly_height = 2.0;      // m above the floor, where there is no ceiling to stay under
 
 constexpr int headings = 16;
 constexpr double stride = 0.5;     // m of one probe of the look ahead
 constexpr int most_strides = 24;   // 12 m: the next few corners of a corridor
 constexpr double cell_side = 1.0;  // m, a place that was visited
-// A leg that brings less than this share of free motion in this time is stuck.
+// A body that moves by less than this share of free motion in this time is stuck.
 constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
 constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
@@ -81,7 +82,7 @@ Start start_at(const World& world, const WalkerSettings& settings, Mode mode, co
     start.room +=
         free_way(world, body, mode == Mode::walk ? settings.step : 0.0, start.place, level(i, directions), room_reach);
   }
-  if (above.hit) start.room *= 2.0;
+  if (above.hit) start.room *= indoors;
   return start;
 }
 
@@ -166,8 +167,7 @@ Wander::Look Wander::probe(const Vec3& direction) const {
 }
 
 void Wander::look() {
-  const bool stuck = leg_seconds_ >= stuck_seconds && leg_length_ < stuck_share * options_.speed * leg_seconds_;
-  if (way_left_ > 0.0 && !stuck) return;
+  if (way_left_ > 0.0 && !stuck_) return;
   const bool fly = walker_->mode() == Mode::fly;
   double best = -1.0;
   Vec3 next = heading_;
@@ -176,7 +176,7 @@ void Wander::look() {
     for (int i = 0; i < headings; ++i) {
       const Vec3 direction = glm::normalize(level(i, headings) + Vec3(0, 0, pitch));
       // Where the body got stuck it does not try the same again.
-      if (stuck && glm::dot(direction, heading_) > 0.9) continue;
+      if (stuck_ && glm::dot(direction, heading_) > 0.9) continue;
       const Look seen = probe(direction);
       // Going on as before is worth a little: fewer turns, longer ways.
       const double score = seen.novelty * (1.0 + 0.1 * glm::dot(direction, heading_));
@@ -187,8 +187,7 @@ void Wander::look() {
     }
   }
   heading_ = next;
-  leg_seconds_ = 0.0;
-  leg_length_ = 0.0;
+  stuck_ = false;
 }
 
 const StepReport& Wander::advance() {
@@ -202,9 +201,13 @@ const StepReport& Wander::advance() {
     last = corner.position;
   }
   result_.length += moved;
-  leg_length_ += moved;
-  leg_seconds_ += report.elapsed;
   way_left_ -= moved;
+  window_length_ += moved;
+  window_seconds_ += report.elapsed;
+  if (window_seconds_ >= stuck_seconds) {
+    stuck_ = window_length_ < stuck_share * options_.speed * window_seconds_;
+    window_length_ = window_seconds_ = 0.0;
+  }
   note(report);
   if (result_.simulated >= seconds_) done_ = true;
   return report;

@@ -14,8 +14,8 @@
 namespace roam::app {
 
 /// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
-/// go farthest in eight directions, where floors with a ceiling count double, so that one starts in a tunnel instead of
-/// on top of it. Throws roam::Error when the body fits nowhere.
+/// go farthest in eight directions. Floors with a ceiling count eightfold, so that one starts in a tunnel instead of on
+/// top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere.
 [[nodiscard]] Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode);
 
 /// One walk without an aim. The walker must outlive it and be in walk or fly mode.
@@ -47,10 +47,11 @@ class Wander {
   RouteResult result_;
   std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
   std::uint64_t last_cell_ = 0;
-  Vec3 heading_{0.0};         ///< unit; zero before the first look
-  double way_left_ = 0.0;     ///< metres to go along heading_
-  double leg_seconds_ = 0.0;  ///< since the last look
-  double leg_length_ = 0.0;   ///< metres moved since
+  Vec3 heading_{0.0};            ///< unit; zero before the first look
+  double way_left_ = 0.0;        ///< metres to go along heading_
+  double window_seconds_ = 0.0;  ///< since getting on was last judged
+  double window_length_ = 0.0;   ///< metres moved since
+  bool stuck_ = false;
   double held_seconds_ = 0.0;
   std::uint32_t last_kinds_ = 0;
   bool done_ = false;
