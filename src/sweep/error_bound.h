@@ -3,9 +3,13 @@
 /// The rounding-error bound of the certified sweep: every constant that the proof uses, in one place.
 /// docs/algorithm.md, "Error bound", counts the roundings.
 
+#include <cfloat>
 #include <limits>
 
 namespace roam::certified {
+
+static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0,
+              "the error bound counts the roundings of IEEE doubles");
 
 /// Unit roundoff of IEEE double, round to nearest (Higham, "Accuracy and Stability of Numerical Algorithms", 2.2).
 inline constexpr double unit_roundoff = 0x1p-53;
