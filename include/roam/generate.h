@@ -54,7 +54,7 @@ class Scene {
   [[nodiscard]] std::uint64_t vertices() const;
   /// Number of meshes. Each has a name of its own.
   [[nodiscard]] std::uint64_t objects() const;
-  /// A box that holds every vertex, at most a few metres larger than need be.
+  /// A box that holds every vertex; it may be larger than need be.
   [[nodiscard]] const Box& bounds() const;
 
   /// Makes the scene mesh by mesh, at most `piece_triangles` triangles and a few MB of memory at a time.
@@ -103,9 +103,11 @@ inline constexpr double gallery_split_depth = 14.0;
 inline constexpr double gallery_door_width = 0.75;  ///< of the grottos
 inline constexpr double gallery_door_height = 1.8;
 
-/// The dam gallery of Table 1. Objects: `upper_gallery/segment_012`, `upper_gallery/corner_arm`, `grotto_03/door`,
-/// `grotto_03/room`, `grotto_03/instrument`, `drain_17`, `lower_gallery/segment_00`, `lower_gallery/split`, `dam`,
-/// `terrain`; where an object needs more than one mesh the second is called `NAME/2`, and so on.
+/// The dam gallery of Table 1. Objects: `upper_gallery/start`, `upper_gallery/end`, `upper_gallery/segment_012`,
+/// `upper_gallery/corner_arm`, `upper_gallery/corner_gate_left` and `_right`, `drain_17`, `grotto_03/door`,
+/// `grotto_03/room`, `grotto_03/instrument`, `lower_gallery/start`, `lower_gallery/end`, `lower_gallery/tube`,
+/// `lower_gallery/split`, `lower_gallery/drainage_grotto_0/door` and `/room`, `dam`, `terrain`; where an object needs
+/// more than one mesh the second is called `NAME/2`, and so on.
 struct GalleryOptions {
   std::uint64_t triangles = 500'000;  ///< about this many; 500 k gives cells of 0.35 m, 5 M of 0.11 m
   std::uint64_t seed = 1;             ///< of the roughness and of what stands in the grottos
@@ -125,8 +127,9 @@ struct TerrainOptions {
 [[nodiscard]] Scene terrain(const TerrainOptions& options);
 
 /// Blocks of buildings between streets with kerbs: doors into rooms, passages through buildings, window recesses,
-/// bays that overhang the street, bridges across it. Objects: `street/ROW_COLUMN`, `block_ROW_COLUMN/building_N`, ...
-/// More triangles make more blocks, up to 1600, then finer ones.
+/// bays that overhang the street, bridges across it. Objects: `street/ROW_COLUMN`, `block_ROW_COLUMN/building_N`,
+/// `block_ROW_COLUMN/building_N/interior`, `bridge_ROW_COLUMN`. More triangles make more blocks, up to 1600, then finer
+/// ones; below some 100 k the buildings have no windows.
 struct CityOptions {
   std::uint64_t triangles = 1'000'000;
   std::uint64_t seed = 1;

@@ -54,8 +54,9 @@ double bank_height(double length, double station, double margin) {
 
 double hills(std::uint64_t seed, double x, double y) {
   double sum = 0.0, wavelength = 640.0, share = 0.5;
-  for (std::uint64_t octave = 0; octave < 7; ++octave) {
-    sum += share * gradient_noise(seed + octave, x / wavelength, y / wavelength);
+  constexpr int octaves = 7;
+  for (int octave = 0; octave < octaves; ++octave) {
+    sum += share * octave_noise(seed, octave, x / wavelength, y / wavelength);
     wavelength *= 0.5;
     share *= 0.5;
   }

@@ -69,4 +69,12 @@ namespace roam::generate {
   return low + (high - low) * v;
 }
 
+/// Gradient noise for octave `octave` of a sum. Each has an offset of its own: gradient noise is 0 at all integers, and
+/// octaves of halved size would share them and draw a cross through the sum.
+[[nodiscard]] inline double octave_noise(std::uint64_t seed, int octave, double x, double y) {
+  constexpr double farthest = 256.0;
+  const std::uint64_t own = seed + static_cast<std::uint64_t>(octave);
+  return gradient_noise(own, x + uniform(0.0, farthest, own, 1), y + uniform(0.0, farthest, own, 2));
+}
+
 }  // namespace roam::generate

@@ -26,7 +26,7 @@ class Relief {
   [[nodiscard]] double height(double x, double y) const {
     double sum = 0.0, wavelength = broadest_;
     for (int k = 0; k < octaves_; ++k) {
-      const double n = gradient_noise(seed_ + static_cast<std::uint64_t>(k), x / wavelength, y / wavelength);
+      const double n = octave_noise(seed_, k, x / wavelength, y / wavelength);
       constexpr int ridged_octaves = 3;
       const double ridge = 1.0 - std::fabs(n);
       sum += height_per_wavelength * wavelength * (k < ridged_octaves ? ridge * ridge - 0.6 : 0.5 * n);
