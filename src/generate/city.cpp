@@ -132,23 +132,38 @@ double triangles(const Part& part) {
   return static_cast<double>(n);
 }
 
-/// Of all that is not street. Buildings of one design have equal numbers, so only designs are counted.
-double built_triangles(const City& city) {
-  std::array<double, designs> each{};
+/// Triangles of each thing that is built at a given cell. Buildings of one design have equal numbers.
+struct Built {
+  std::array<double, designs> building{};
+  double bridge = 0.0;
+};
+
+Built count_built(const City& city) {
+  Built built;
   for (int k = 0; k < designs; ++k) {
     const BuildingDesign d = design(city.seed, k, city.windows);
-    each[static_cast<std::size_t>(k)] = triangles(facades(d, {}, city.cell)) + triangles(interior(d, {}, city.cell));
+    built.building[static_cast<std::size_t>(k)] =
+        triangles(facades(d, {}, city.cell)) + triangles(interior(d, {}, city.cell));
   }
-  const double bridge_triangles = triangles(bridge(city, 0, 0));
+  built.bridge = triangles(bridge(city, 0, 0));
+  return built;
+}
+
+/// Of all that is not street.
+double built_triangles(const City& city, const Built& built) {
   double sum = 0.0;
   for (int row = 0; row < city.blocks; ++row) {
     for (int col = 0; col < city.blocks; ++col) {
-      for (int lot = 0; lot < lots; ++lot) sum += each[static_cast<std::size_t>(city.design_of(row, col, lot))];
-      if (city.bridged(row, col)) sum += bridge_triangles;
+      for (int lot = 0; lot < lots; ++lot) {
+        sum += built.building[static_cast<std::size_t>(city.design_of(row, col, lot))];
+      }
+      if (city.bridged(row, col)) sum += built.bridge;
     }
   }
   return sum;
 }
+
+double built_triangles(const City& city) { return built_triangles(city, count_built(city)); }
 
 constexpr double built_share = 0.9;   // of the triangles at most; the streets make up the rest
 constexpr double coarse_share = 0.7;  // of the triangles at most for the coarsest city, so that it can be refined
@@ -156,8 +171,9 @@ constexpr double coarse_share = 0.7;  // of the triangles at most for the coarse
 /// The largest city that leaves triangles to refine it.
 bool fit_blocks(City& city, double asked) {
   city.cell = cell_limit_high;
+  const Built built = count_built(city);
   for (city.blocks = most_blocks; city.blocks > 0; --city.blocks) {
-    if (built_triangles(city) <= coarse_share * asked) return true;
+    if (built_triangles(city, built) <= coarse_share * asked) return true;
   }
   return false;
 }
