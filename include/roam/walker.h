@@ -31,7 +31,8 @@ namespace roam {
 
 namespace motion {
 class Move;
-}
+enum class Ending : std::uint8_t;
+}  // namespace motion
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
 enum class Mode : std::uint8_t { fly, walk, ghost };
@@ -158,10 +159,11 @@ struct StepReport {
   InlineList<Corner, 64>
       corners;  ///< of the move, in order; empty when the body did not move. Straight ones are merged
   InlineList<Contact, 8> contacts;  ///< what was touched, in order; `distance` is the certified gap when it was
-  InlineList<Event, 16> events;     ///< what happened, in order
-  Vec3 from{0.0};                   ///< the centre before, metres
-  Vec3 to{0.0};                     ///< the centre now, metres: the last corner, if there is one
-  double height = 0.0;              ///< the body's whole height now, metres
+  /// What happened, in order. Of a very long step some slides and steps may be left out; what ends a step never is.
+  InlineList<Event, 24> events;
+  Vec3 from{0.0};       ///< the centre before, metres
+  Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
+  double height = 0.0;  ///< the body's whole height now, metres
   /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach. 0: none (ghost, held
   /// while embedded).
   double clearance = 0.0;
@@ -184,6 +186,7 @@ struct Stance {
   double level = 0.0;          ///< z of the point last stood on, metres; means nothing before `stood`
   double rise_speed = 0.0;     ///< upward, m/s; 0 on the ground
   bool grounded = false;
+  bool firm = false;    ///< grounded within the slope limit: not on a rim, not wedged between slopes
   bool stood = false;   ///< has stood on ground since it was placed
   bool fallen = false;  ///< the present fall has been reported
 };
@@ -240,8 +243,9 @@ class Walker {
 
  private:
   [[nodiscard]] motion::Move under_way();
-  void begin(double dt);
+  void begin();
   void move(const WalkerInput& input, double dt);
+  motion::Ending move_for(const WalkerInput& input, double dt);
   void settle();
   void free_body();
   void come_back();

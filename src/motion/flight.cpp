@@ -14,6 +14,9 @@ namespace {
 /// Seconds. A chord of this length leaves the parabola by g t^2 / 8, 1.4 mm.
 constexpr double chord_seconds = 1.0 / 30.0;
 
+/// A fall that comes this small a part of its way is none. Below sin(45 degrees)^2 by far.
+constexpr double hindered_part = 0.05;
+
 /// The motion along `planes`, in which the wish to go sideways must not turn into a rise: it is first taken out of the
 /// planes as if they were vertical.
 Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
@@ -54,7 +57,6 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   Vec3 motion = whole;
   const double begin_z = move.place.z;
   PlaneSet planes;
-  bool met = false;
   double left = 1.0;
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
     const Vec3 before = move.place;
@@ -62,7 +64,6 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     left -= a.fraction * left;
     if (!a.touched) break;
     if (a.embedded) return false;
-    met = true;
     move.touch(a.contact, a.gap);
     move.ease_off(a);
     if (glm::length(move.place - before) > move.skin) planes.clear();
@@ -81,8 +82,9 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     if (glm::length(motion) <= standstill_part * glm::length(whole)) break;
   }
   move.time = start + seconds;
-  // Sliding down a slope is slower than falling.
-  if (met && rise_speed < 0.0) rise_speed = std::max(rise_speed, std::min(0.0, (move.place.z - begin_z) / seconds));
+  // On a slope of angle a gravity acts by sin(a)^2, and so does the speed kept here: it is that of a free fall. Where
+  // the way down is closed the fall begins anew.
+  if (fall < 0.0 && begin_z - move.place.z < hindered_part * -fall) rise_speed = 0.0;
   stance.rise_speed = rise_speed;
   if (stance.stood && !stance.fallen && move.feet() < stance.level - (move.settings.radius + move.settings.step)) {
     stance.fallen = true;

@@ -43,13 +43,13 @@ std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Pro
   if (up < rim_cosine) return std::nullopt;
   const bool gentle = up >= m.slope_cosine - cosine_rounding;
   if (contact.feature == Feature::face) {
-    return gentle ? std::optional<Footing>({contact.normal, contact.point.z}) : std::nullopt;
+    return gentle ? std::optional<Footing>({contact.normal, contact.point.z, true, false}) : std::nullopt;
   }
   if (stance.stood && stance.grounded && contact.point.z > stance.level + m.settings.step + 2.0 * m.skin) {
     return std::nullopt;
   }
   if (!gentle && !floor_behind(m, contact.point, contact.normal)) return std::nullopt;
-  return Footing{contact.normal, contact.point.z};
+  return Footing{contact.normal, contact.point.z, gentle, true};
 }
 
 Proximity as_proximity(const WorldSweep& s) { return {s.point, s.normal, s.feature, s.distance}; }
@@ -83,7 +83,7 @@ std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
     highest = std::max(highest, c.point.z);
   }
   if (best) return best;
-  if (planes.size() > 1 && carried_by(move, planes)) return Footing{Vec3(0.0, 0.0, 1.0), highest};
+  if (planes.size() > 1 && carried_by(move, planes)) return Footing{Vec3(0.0, 0.0, 1.0), highest, false, false};
   return std::nullopt;
 }
 
@@ -95,6 +95,7 @@ void stand_on(Move& move, Stance& stance, const Footing& ground) {
   stance.level = ground.level;
   stance.rise_speed = 0.0;
   stance.grounded = stance.stood = true;
+  stance.firm = ground.firm;
   stance.fallen = false;
 }
 
@@ -113,7 +114,7 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
   }
   if (!ground) {
     if (stance.grounded) move.note(EventKind::airborne);
-    stance.grounded = false;
+    stance.grounded = stance.firm = false;
     return;
   }
   const double drop = s.time * reach - move.skin / s.normal.z;
@@ -125,13 +126,15 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
       move.advance(down * drop, 0.0);
     }
   }
-  if (drop > slope_drop + 3.0 * move.skin) move.note(EventKind::stepped_down);
+  const double usual = slope_drop + 3.0 * move.skin;
+  if (stance.grounded && ground->edge && ground->level > stance.level + usual) move.note(EventKind::stepped_up);
+  if (stance.grounded && drop > usual) move.note(EventKind::stepped_down);
   stand_on(move, stance, *ground);
 }
 
 std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, double seconds) {
   const double length = glm::length(motion), step = move.settings.step, skin = move.skin;
-  if (!(step > 0.0) || !(length > 0.0)) return std::nullopt;
+  if (!stance.firm || !(step > 0.0) || !(length > 0.0)) return std::nullopt;
   // From a skin above the old ground to a skin clear of the edge of a kerb of full height.
   const Vec3 up(0.0, 0.0, step + 3.0 * skin);
   Move trial = move;

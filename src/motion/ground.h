@@ -12,6 +12,8 @@ namespace roam::motion {
 struct Footing {
   Vec3 normal{0.0, 0.0, 1.0};  ///< of the ground to walk along
   double level = 0.0;          ///< z of the point of contact, metres
+  bool firm = true;            ///< within the slope limit: not on a rim, not wedged
+  bool edge = false;           ///< the contact is with an edge or a corner, where ground may begin
 };
 
 /// Whether the body can stand on what it touches:
@@ -27,7 +29,8 @@ struct Footing {
 [[nodiscard]] std::optional<Footing> footing_here(const Move& move, const Stance& stance);
 
 /// The steepest contact with a rim that still carries, degrees. A crack of width w carries a sphere of radius r when
-/// r >= w / (2 sin 70) = 0.532 w, and lets it through when r < w / 2; in between it is caught between the rims.
+/// r >= w / (2 sin 70) = 0.532 w, and lets it through when r < w / 2; in between it is caught between the rims, from
+/// where it can not step up.
 /// At 1.25 m: carried from 0.665 m on, through below 0.625 m.
 constexpr double rim_slope_degrees = 70.0;
 
@@ -38,9 +41,9 @@ void keep_ground(Move& move, Stance& stance, double horizontal);
 /// Stands on `ground` now.
 void stand_on(Move& move, Stance& stance, const Footing& ground);
 
-/// Steps onto what blocks the way along the horizontal `motion`: up, forward, down. Returns the part of the motion that
-/// was made, or nothing when there is no footing to step to; then the body has not moved. Longer than the motion when
-/// that is too short to get onto the rim.
+/// Steps from firm ground onto what blocks the way along the horizontal `motion`: up, forward, down. Returns the part
+/// of the motion that was made, or nothing when there is no footing to step to; then the body has not moved. Longer
+/// than the motion when that is too short to get onto the rim.
 [[nodiscard]] std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, double seconds);
 
 }  // namespace roam::motion

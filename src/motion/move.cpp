@@ -18,6 +18,9 @@ constexpr int merge_limit = 64;
 /// Corners that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
 constexpr std::size_t corners_at_once = 24;
 
+/// Slides and steps that are noted in one step; the rest of the list is kept for a fall and for what ends a step.
+constexpr std::size_t events_of_motion = 16;
+
 }  // namespace
 
 Advance probe(const World& world, const Body& body, const Vec3& from, const Vec3& motion, double skin) {
@@ -104,6 +107,11 @@ void Move::touch(const WorldSweep& contact, double gap) {
   c.triangle = contact.triangle;
   report.contacts.push(c);
   last_direction_ = Vec3(0.0);
+}
+
+void Move::note(EventKind kind, const Vec3& point) {
+  const bool seldom = kind == EventKind::fell || kind > EventKind::stood;
+  if (seldom || report.events.size() < events_of_motion) report.events.push({kind, point});
 }
 
 bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }

@@ -81,7 +81,7 @@ class Move {
   void resize(double new_height, const Vec3& new_place);
 
   void touch(const WorldSweep& contact, double gap);
-  void note(EventKind kind, const Vec3& point) { report.events.push({kind, point}); }
+  void note(EventKind kind, const Vec3& point);
   void note(EventKind kind) { note(kind, place); }
   /// Whether another part of a step, which may add a handful of corners, still fits into the report.
   [[nodiscard]] bool has_room() const;

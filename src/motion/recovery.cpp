@@ -16,6 +16,9 @@ constexpr int push_limit = 48;
 /// Marches end after this many places; a march across a solid of one body's height takes some ten.
 constexpr int march_limit = 256;
 
+/// Metres. A body nearer than this to a triangle is as good as embedded: rounding decides whether a sweep starts free.
+constexpr double least_gap = 1e-6;
+
 double gap(const World& world, const Body& body, const Vec3& place, double reach) {
   return world.clearance(body, place, reach).distance;
 }
@@ -47,7 +50,9 @@ std::optional<Vec3> march(const World& world, const Body& body, const Vec3& plac
 
 }  // namespace
 
-bool fits(const World& world, const Body& body, const Vec3& place) { return gap(world, body, place, 0.0) >= 0.0; }
+bool fits(const World& world, const Body& body, const Vec3& place) {
+  return gap(world, body, place, least_gap) >= least_gap;
+}
 
 std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec3& place, double limit, double skin,
                                  Way way) {

@@ -8,7 +8,7 @@
 
 namespace roam::motion {
 
-/// Whether the body fits at `place`: its certified gap to every triangle is not negative.
+/// Whether the body fits at `place`: its certified gap to every triangle is a micrometre at least.
 [[nodiscard]] bool fits(const World& world, const Body& body, const Vec3& place);
 
 /// `checked`: only ways on which a sphere about the body's centre, of nine tenths of the centre's own distance from

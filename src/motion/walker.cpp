@@ -38,15 +38,17 @@ Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
 Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
 
 motion::Move Walker::under_way() {
-  return {*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_};
+  motion::Move m(*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
+  m.time = report_.elapsed;
+  return m;
 }
 
-void Walker::begin(double dt) {
+void Walker::begin() {
   report_.corners.clear();
   report_.contacts.clear();
   report_.events.clear();
   report_.from = position_;
-  report_.elapsed = dt;
+  report_.elapsed = 0.0;
   report_.blocked = report_.held = false;
 }
 
@@ -71,7 +73,13 @@ void Walker::remember_safe() {
 
 void Walker::put(const Vec3& place, double time, EventKind kind) {
   position_ = place;
-  report_.corners.push({position_, height_, time, 0.0, true});
+  const Corner corner{position_, height_, time, 0.0, true};
+  // Where it was put before, and did not fit, it was not.
+  if (!report_.corners.empty() && report_.corners.back().teleport) {
+    report_.corners.back() = corner;
+  } else {
+    report_.corners.push(corner);
+  }
   report_.events.push({kind, position_});
 }
 
@@ -104,7 +112,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
     throw Error("the time step is " + std::to_string(dt) + " s; it must be finite and not negative");
   }
-  begin(dt);
+  begin();
   if (mode_ == Mode::ghost) {
     position_ += input.velocity * dt;
     report_.corners.push({position_, height_, dt, 0.0, false});
@@ -114,11 +122,29 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   } else {
     move(input, dt);
   }
+  if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   finish();
   return report_;
 }
 
 void Walker::move(const WalkerInput& input, double dt) {
+  motion::Ending end = move_for(input, dt);
+  if (end == motion::Ending::embedded) {
+    free_body();
+    if (!held_) end = move_for(input, dt - report_.elapsed);
+  }
+  if (end == motion::Ending::throttled) report_.events.push({EventKind::throttled, position_});
+  if (end == motion::Ending::bottomless) {
+    height_ = safe_height_;
+    stance_ = {};
+    put(safe_, report_.elapsed, EventKind::held);
+    report_.held = true;
+    settle();
+  }
+  if (mode_ == Mode::fly && !held_) remember_safe();
+}
+
+motion::Ending Walker::move_for(const WalkerInput& input, double dt) {
   motion::Move m = under_way();
   const bool walking = mode_ == Mode::walk;
   if (walking && input.crouch) {
@@ -136,31 +162,14 @@ void Walker::move(const WalkerInput& input, double dt) {
   }
   position_ = m.place;
   height_ = m.height;
-  if (end != motion::Ending::done) report_.elapsed = m.time;
-  switch (end) {
-    case motion::Ending::done:
-      break;
-    case motion::Ending::throttled:
-      report_.events.push({EventKind::throttled, position_});
-      break;
-    case motion::Ending::embedded:
-      free_body();
-      break;
-    case motion::Ending::bottomless:
-      height_ = safe_height_;
-      stance_ = {};
-      put(safe_, m.time, EventKind::held);
-      report_.held = true;
-      settle();
-      break;
-  }
-  if (!walking && !held_) remember_safe();
+  report_.elapsed = m.time;
+  return end;
 }
 
 const StepReport& Walker::place(const Vec3& centre) {
   if (!finite(centre)) throw Error("the place to put the walker to is not a finite point");
   height_ = settings_.height;
-  begin(0.0);
+  begin();
   stance_ = {};
   held_ = false;
   safe_height_ = 0.0;
@@ -182,7 +191,7 @@ const StepReport& Walker::place(const Vec3& centre) {
 }
 
 const StepReport& Walker::set_mode(Mode mode) {
-  begin(0.0);
+  begin();
   const Mode before = mode_;
   mode_ = mode;
   if (mode == Mode::ghost) held_ = false;

@@ -21,7 +21,7 @@ void jump(Move& move, Stance& stance) {
   const double lift = move.settings.gravity * move.settings.jump_height;
   if (!stance.grounded || !(lift > 0.0)) return;
   stance.rise_speed = std::sqrt(2.0 * lift);
-  stance.grounded = false;
+  stance.grounded = stance.firm = false;
   move.note(EventKind::jumped);
 }
 
@@ -38,10 +38,10 @@ Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const L
         stance.grounded ? stride(move, stance, velocity, seconds) : fly_on(move, stance, velocity, seconds);
     if (!fits) return Ending::embedded;
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
-    if (stance.grounded) {
+    if (stance.firm) {
       last.place = move.place;
       last.height = move.height;
-    } else if (below_everything(move)) {
+    } else if (!stance.grounded && below_everything(move)) {
       return Ending::bottomless;
     }
   }

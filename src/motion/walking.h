@@ -9,7 +9,7 @@ namespace roam::motion {
 /// Nobody falls faster than this, metres per second: about the terminal speed of a person.
 constexpr double terminal_speed = 55.0;
 
-/// Where the body last stood, kept up to date by walk().
+/// Where the body last stood firmly, kept up to date by walk().
 struct LastStand {
   Vec3& place;
   double& height;
