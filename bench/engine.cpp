@@ -23,6 +23,7 @@ const std::vector<std::pair<std::string, std::function<Engine(const Scene&)>>>& 
       {"polytope", [](const Scene& scene) { return make_polytope(scene, false); }},
       {"polytope-kdtree", [](const Scene& scene) { return make_polytope(scene, true); }},
 #endif
+      {"paper", make_paper},
   };
   return all;
 }

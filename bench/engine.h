@@ -20,12 +20,13 @@
 namespace roam::bench {
 
 struct Engine {
-  std::string name;       ///< with its version
-  std::string used;       ///< how it is used, for the reader of a table
-  bool says_when = true;  ///< false: it answers hit or free, but not when
-  std::size_t bytes = 0;  ///< resident, everything that queries need
-  double build_one = 0;   ///< seconds on one thread
-  double build_two = 0;   ///< seconds on two threads; 0 when it builds on one only
+  std::string name;           ///< with its version
+  std::string used;           ///< how it is used, for the reader of a table
+  bool spheres_only = false;  ///< it knows no capsule
+  bool says_when = true;      ///< false: it answers hit or free, but not when
+  std::size_t bytes = 0;      ///< resident, everything that queries need
+  double build_one = 0;       ///< seconds on one thread
+  double build_two = 0;       ///< seconds on two threads; 0 when it builds on one only
   std::function<Answer(const Query&)> sweep{};
   Ask ask{};  ///< the same, timed
 
@@ -45,6 +46,9 @@ struct Engine {
 [[nodiscard]] Engine make_embree(const Scene& scene);
 /// osgUtil::PolytopeIntersector over the scene graph.
 [[nodiscard]] Engine make_polytope(const Scene& scene, bool with_kd_tree);
+
+/// The paper's own equations, without any index.
+[[nodiscard]] Engine make_paper(const Scene& scene);
 
 /// Engines that this build has, by the names that --engines takes, in the order of the tables.
 [[nodiscard]] const std::vector<std::pair<std::string, std::function<Engine(const Scene&)>>>& engines();
