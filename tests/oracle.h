@@ -10,7 +10,7 @@
 ///
 /// `Real` is long double (64-bit mantissa on x86, error about 1e-17 m at a reach of 100 m; 0.4 us for a sphere) or
 /// oracle::Quad (113 bits, error about 1e-31 m; ten times slower). Coordinates are relative to the triangle before
-/// anything is multiplied. Slivers thinner than 1e-16 of their length need Quad.
+/// anything is multiplied. Slivers thinner than 1e-9 of their length need Quad.
 ///
 ///     oracle::distance(body, place, triangle)                     clearance of the axis, long double
 ///     oracle::distance<oracle::Quad>(body, place, triangle)       the same in quad

@@ -12,10 +12,12 @@
 ///
 /// (supporting plane; van den Bergen, "Ray casting against general convex objects", 2004; Mirtich, "Impulse-based
 /// dynamic simulation", 1996, for the conservative advance). docs/algorithm.md derives the rounding-error bound that
-/// is subtracted from it. Whatever a query reports as free is free in exact arithmetic on the same input.
+/// is subtracted from it. Whatever a query reports as free is free in exact arithmetic on the same input; a hit is
+/// answered within 1.5e-14 of the reach (radius, half height, motion and distance to the farthest corner, in metres)
+/// of the radius. The distance to the scene's origin costs nothing.
 ///
-/// All functions are pure and safe to call from any thread. Non-finite input, a negative radius or half height throw
-/// roam::Error.
+/// All functions are pure and safe to call from any thread. Input that is not finite or beyond 1e12 m, and a negative
+/// radius or half height, throw roam::Error.
 
 #include <cstdint>
 
