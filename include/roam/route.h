@@ -32,12 +32,13 @@ struct RouteOptions {
 
 /// How a route ended. The outcomes are those of `roam walk`.
 enum class Outcome : std::uint8_t {
-  reached,     ///< was at every waypoint in turn
-  blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
-  left_scene,  ///< its box is apart from the box of all triangles and waypoints: nothing of the scene can be met
-               ///< without turning round
-  fell,        ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
-  held,        ///< did not fit where it was put and could not be freed, or never found ground below
+  reached,  ///< was at every waypoint in turn
+  blocked,  ///< no longer came nearer to a waypoint; see RouteOptions::patience
+  /// Fly mode: came out of the box of all triangles by its own size, so that nothing of the scene is near; a route that
+  /// starts outside may come in first. Walk mode: walked over the side of that box and fell.
+  left_scene,
+  fell,  ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
+  held,  ///< did not fit where it was put and could not be freed, or never found ground below
 };
 
 /// "reached", "blocked", "left_scene", "fell" or "held".
@@ -108,7 +109,7 @@ class Route {
   std::vector<Vec3> waypoints_;
   RouteOptions options_;
   RouteResult result_;
-  Box scene_;
+  bool inside_ = false;  ///< has been in the box of all triangles
   std::size_t next_ = 1;
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
   double window_time_ = 0.0;  ///< seconds since

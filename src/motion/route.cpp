@@ -41,7 +41,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
 }
 
 Box grown(const Box& box, const Body& body) {
-  const Vec3 by(body.radius, body.radius, body.radius + body.half_height);
+  const Vec3 by(2.0 * body.radius, 2.0 * body.radius, body.height());
   return {box.lower - by, box.upper + by};
 }
 
@@ -50,6 +50,10 @@ bool inside(const Vec3& p, const Box& box) {
     if (!(p[k] >= box.lower[k] && p[k] <= box.upper[k])) return false;
   }
   return true;
+}
+
+bool above_or_below(const Vec3& p, const Box& box) {
+  return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y;
 }
 
 /// From the body to the waypoint; walking has no say in the height.
@@ -92,11 +96,10 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
     : walker_(&walker), waypoints_(waypoints.begin(), waypoints.end()), options_(options) {
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
-  scene_ = walker.world().bounds();
-  for (const Vec3& w : waypoints_) scene_.include(w);
   result_.least_clearance = start.least_clearance;
   result_.waypoints = 1;
   result_.end = walker.position();
+  inside_ = inside(result_.end, grown(walker.world().bounds(), walker.body()));
   note_events(start);
   start_window();
   if (walker.held()) {
@@ -151,9 +154,13 @@ const StepReport& Route::advance() {
 }
 
 void Route::judge(const StepReport& report, double distance_before) {
-  if (report.has(EventKind::fell)) return finish(Outcome::fell);
+  const Box& scene = walker_->world().bounds();
+  if (report.has(EventKind::fell))
+    return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(walker_->stance().stood && !walker_->held() ? Outcome::fell : Outcome::held);
-  if (!inside(walker_->position(), grown(scene_, walker_->body()))) return finish(Outcome::left_scene);
+  const bool inside_now = inside(report.to, grown(scene, walker_->body()));
+  if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
+  inside_ = inside_ || inside_now;
   const double distance = glm::length(way_to(waypoints_[next_], *walker_));
   const bool nearer = distance_before - distance > progress_part * options_.speed * report.elapsed;
   turn_to_next(!report.contacts.empty() || !nearer);
