@@ -46,6 +46,12 @@ struct Matrix {
   }
 };
 
+/// The node's name in the file; assimp calls roots that have none "<GLTFRoot>" and the like.
+std::string name_of(const aiNode& node) {
+  std::string name = node.mName.C_Str();
+  return name.starts_with('<') && name.ends_with('>') ? std::string() : name;
+}
+
 class AssimpWalk {
  public:
   AssimpWalk(const aiScene& scene, std::string path, std::string stem, MeshSink& sink)
@@ -58,7 +64,7 @@ class AssimpWalk {
     if (names_.size() >= depth_limit) {
       throw Error(fmt::format("{}: its nodes are nested more than {} deep; the file is damaged.", path_, depth_limit));
     }
-    names_.emplace_back(node.mName.C_Str());
+    names_.push_back(name_of(node));
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] < scene_.mNumMeshes) add_mesh(*scene_.mMeshes[node.mMeshes[i]], to_world);
     }

@@ -1,0 +1,114 @@
+#pragma once
+/// \file
+/// Files that a test writes, imports and throws away, and the scenes of the folder of test data.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "roam/import.h"
+
+namespace roam::test {
+
+/// A folder of its own, removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "roam-import-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code none;
+    std::filesystem::remove_all(path_, none);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  /// Writes a file, and the folders it lies in; returns its path.
+  std::filesystem::path write(const std::string& name, std::string_view content) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+    return file;
+  }
+  /// Writes a program that the shell runs.
+  std::filesystem::path write_script(const std::string& name, const std::string& commands) const {
+    const std::filesystem::path file = write(name, "#!/bin/sh\n" + commands);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return file;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// All triangles of a scene in order, by their corners.
+inline std::vector<Triangle> triangles_of(const Scene& scene) {
+  std::vector<Triangle> all;
+  for (const Mesh& mesh : scene.meshes) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) all.push_back(mesh.triangle(i));
+  }
+  return all;
+}
+
+inline Box bounds_of(const Scene& scene) {
+  Box box;
+  for (const Triangle& triangle : triangles_of(scene)) {
+    for (const Vec3& corner : triangle) box.include(corner);
+  }
+  return box;
+}
+
+/// The message of the Error that importing throws; empty when it throws none.
+inline std::string import_error(const std::filesystem::path& path, const ImportOptions& options = {}) {
+  try {
+    const Scene scene = import_scene(path, options);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+/// Whether one of the report's sentences has this part.
+inline bool notes_contain(const Scene& scene, std::string_view part) {
+  for (const std::string& note : scene.report.notes) {
+    if (contains(note, part)) return true;
+  }
+  return false;
+}
+
+/// The bytes of a value as a file holds them.
+template <class T>
+std::string bytes_of(T value, bool big_endian = false) {
+  std::string bytes(sizeof(T), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return big_endian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+}
+
+/// Where the scenes for tests are; empty when they are not there.
+inline std::filesystem::path test_data() {
+  const char* named = std::getenv("ROAM_TEST_DATA");
+  const std::filesystem::path folder =
+      named != nullptr ? std::filesystem::path(named)
+                       : std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "shared" / "data";
+  std::error_code none;
+  return std::filesystem::is_directory(folder, none) ? folder : std::filesystem::path();
+}
+
+}  // namespace roam::test
+
+/// Skips the test, by name, where there are no scenes to test on.
+#define ROAM_NEEDS_TEST_DATA() \
+  if (roam::test::test_data().empty()) GTEST_SKIP() << "set ROAM_TEST_DATA to the folder of test scenes"

@@ -1,0 +1,273 @@
+// OpenSceneGraph scenes: transforms, switches, levels of detail, pages, proxies, folders of tiles.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "import_files.h"
+
+namespace roam::test {
+namespace {
+
+/// A geode of one triangle with a corner at (x, 0, 0), in OpenSceneGraph's text format.
+std::string triangle_at(const std::string& x, const std::string& name = "") {
+  return "Geode {\n name \"" + name +
+         "\"\n num_drawables 1\n Geometry {\n  Primitives 1\n  {\n   DrawArrays TRIANGLES 0 3\n" +
+         "  }\n  VertexArray Vec3dArray 3\n  {\n   " + x + " 0 0\n   0 1 0\n   0 0 1\n  }\n }\n}\n";
+}
+
+std::string group(const std::string& kind, const std::string& fields, const std::vector<std::string>& children) {
+  std::string text = kind + " {\n" + fields + "num_children " + std::to_string(children.size()) + "\n";
+  for (const std::string& child : children) text += child;
+  return text + "}\n";
+}
+
+/// The x of each triangle's first corner.
+std::vector<double> first_xs(const Scene& scene) {
+  std::vector<double> xs;
+  for (const Triangle& t : triangles_of(scene)) xs.push_back(t[0].x);
+  return xs;
+}
+
+std::vector<double> xs_of(const std::string& content) {
+  const TemporaryFolder folder;
+  return first_xs(import_scene(folder.write("scene.osg", content)));
+}
+
+std::string moved(const std::string& x, const std::vector<std::string>& children,
+                  const std::string& frame = "RELATIVE") {
+  return group("MatrixTransform",
+               "referenceFrame " + frame + "\nMatrix {\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" + x + " 0 0 1\n}\n", children);
+}
+
+TEST(ImportSceneGraph, MultipliesTransformsInDoubles) {
+  EXPECT_EQ(xs_of(moved("4000000", {moved("0.0625", {triangle_at("0.123456789012")})})),
+            (std::vector<double>{4000000.0625 + 0.123456789012}));
+}
+
+TEST(ImportSceneGraph, ExpandsInstances) {
+  EXPECT_EQ(xs_of(group("Group", "",
+                        {moved("10", {"Geode {\n UniqueID shared\n" + triangle_at("1").substr(8)}),
+                         moved("20", {"Use shared\n"})})),
+            (std::vector<double>{11, 21}));
+}
+
+TEST(ImportSceneGraph, ReadsTheVisibleChildOfASwitch) {
+  EXPECT_EQ(xs_of(group("Switch", "NewChildDefaultValue TRUE\nValueList {\n0\n1\n0\n}\n",
+                        {triangle_at("1"), triangle_at("2"), triangle_at("3")})),
+            (std::vector<double>{2}));
+}
+
+TEST(ImportSceneGraph, ReadsTheFinestLevelOfDetail) {
+  const std::vector<std::string> levels{triangle_at("1"), triangle_at("2"), triangle_at("3")};
+  EXPECT_EQ(xs_of(group("LOD", "RangeList 3 {\n500 1000\n0 100\n100 500\n}\n", levels)), (std::vector<double>{2}));
+  EXPECT_EQ(xs_of(group("LOD", "RangeMode PIXEL_SIZE_ON_SCREEN\nRangeList 3 {\n0 10\n10 100\n100 1e10\n}\n", levels)),
+            (std::vector<double>{3}));
+  // Children whose ranges overlap are shown together.
+  EXPECT_EQ(xs_of(group("LOD", "RangeList 3 {\n0 1000\n0 100\n100 500\n}\n", levels)), (std::vector<double>{1, 2}));
+}
+
+TEST(ImportSceneGraph, LeavesOutLevelsOfDetailThatContinueASibling) {
+  const auto level = [](const std::string& range, const std::string& x) {
+    return group("LOD", "RangeList 1 {\n" + range + "\n}\n", {triangle_at(x)});
+  };
+  EXPECT_EQ(xs_of(group("Group", "", {level("100 500", "1"), level("0 100", "2"), level("200 300", "3")})),
+            (std::vector<double>{2, 3}));
+}
+
+TEST(ImportSceneGraph, LeavesOutBillboardsAndHiddenNodes) {
+  const std::string billboard = "Billboard {\n Mode AXIAL\n Positions {\n 0 0 0\n }\n" + triangle_at("1").substr(8);
+  const std::string hidden = "Geode {\n nodeMask 0x0\n" + triangle_at("2").substr(8);
+  EXPECT_EQ(xs_of(group("Group", "", {billboard, hidden, triangle_at("3")})), (std::vector<double>{3}));
+}
+
+TEST(ImportSceneGraph, ReadsAllPrimitivesInOrder) {
+  const TemporaryFolder folder;
+  std::string vertices;
+  for (int i = 0; i < 6; ++i) vertices += std::to_string(i) + " 0 0\n";
+  const auto corners = [&](const std::string& primitives) {
+    std::string text;
+    const std::string geode = "Geode {\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\n" + primitives +
+                              "\n}\nVertexArray Vec3Array 6\n{\n" + vertices + "}\n}\n}\n";
+    for (const Triangle& t : triangles_of(import_scene(folder.write("primitives.osg", geode)))) {
+      for (const Vec3& v : t) text += std::to_string(static_cast<int>(v.x));
+      text += " ";
+    }
+    return text;
+  };
+  EXPECT_EQ(corners("DrawArrays TRIANGLES 0 6"), "012 345 ");
+  EXPECT_EQ(corners("DrawArrays TRIANGLE_STRIP 0 5"), "012 213 234 ");
+  EXPECT_EQ(corners("DrawArrays TRIANGLE_FAN 1 4"), "123 134 ");
+  EXPECT_EQ(corners("DrawArrays POLYGON 0 5"), "012 023 034 ");
+  EXPECT_EQ(corners("DrawArrays QUADS 0 4"), "012 023 ");
+  EXPECT_EQ(corners("DrawArrays QUAD_STRIP 0 6"), "013 032 235 254 ");
+  EXPECT_EQ(corners("DrawArrayLengths POLYGON 1 2 {\n3 2\n}"), "123 ");
+  EXPECT_EQ(corners("DrawElementsUShort TRIANGLES 3 {\n5 0 2\n}"), "502 ");
+}
+
+TEST(ImportSceneGraph, LeavesOutTrianglesWhoseIndicesLeadNowhere) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      import_scene(folder.write("indices.osg",
+                                "Geode {\nname \"Broken\"\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\n"
+                                "DrawElementsUInt TRIANGLES 6 {\n0 1 2 0 1 70000\n}\n}\nVertexArray Vec3Array 3\n{\n"
+                                "0 0 0\n1 0 0\n0 1 0\n}\n}\n}\n"));
+  EXPECT_EQ(scene.report.triangles, 1u);
+  EXPECT_EQ(scene.report.bad_triangles, 1u);
+  ASSERT_EQ(scene.report.bad_objects.size(), 1u);
+  EXPECT_EQ(scene.report.bad_objects[0].name, "Broken");
+}
+
+TEST(ImportSceneGraph, NamesObjectsByTheNearestNameAndIgnoresByAnyAncestor) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "names.osg", group("Group", "name \"House\"\n",
+                         {group("Group", "name \"Doors\"\n", {triangle_at("1"), triangle_at("2", "Door_7")}),
+                          triangle_at("3", "Wall"), triangle_at("4", "Tree 12")}));
+  const Scene all = import_scene(file);
+  ASSERT_EQ(all.meshes.size(), 4u);
+  EXPECT_EQ(all.meshes[0].name, "Doors");
+  EXPECT_EQ(all.meshes[1].name, "Door_7");
+  const Scene some = import_scene(file, {.ignore = {"Doors", "Tree*", "Window?"}});
+  EXPECT_EQ(first_xs(some), (std::vector<double>{3}));
+  EXPECT_EQ(some.report.ignored_triangles, 3u);
+  EXPECT_EQ(some.report.ignored_objects.size(), 3u);
+  EXPECT_TRUE(notes_contain(some, "No object's name matches 'Window?'"));
+  EXPECT_TRUE(contains(import_error(file, {.ignore = {"House"}}), "all of its 4 triangles are in objects"));
+}
+
+std::string paged(const std::string& coarse, const std::vector<std::string>& files) {
+  std::string ranges = "0 100\n", names = "\"\"\n";
+  for (const std::string& file : files) {
+    ranges += "100 1e30\n";
+    names += file + "\n";
+  }
+  const std::string count = std::to_string(files.size() + 1);
+  return group("PagedLOD",
+               "RangeMode PIXEL_SIZE_ON_SCREEN\nRangeList " + count + " {\n" + ranges + "}\nFileNameList " + count +
+                   " {\n" + names + "}\n",
+               {coarse});
+}
+
+TEST(ImportSceneGraph, LoadsPagesDownToTheFinest) {
+  const TemporaryFolder folder;
+  folder.write("middle/page1.osg", paged(triangle_at("2"), {"fine/page2.osg"}));
+  folder.write("middle/fine/page2.osg", triangle_at("3"));
+  const Scene scene =
+      import_scene(folder.write("root.osg", moved("10", {paged(triangle_at("1"), {"middle/page1.osg"})})));
+  EXPECT_EQ(first_xs(scene), (std::vector<double>{13}));
+  EXPECT_EQ(scene.report.files, 3u);
+  EXPECT_EQ(scene.meshes[0].name, "page2");
+}
+
+TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAPageIsMissing) {
+  const TemporaryFolder folder;
+  folder.write("here.osg", triangle_at("5"));
+  folder.write("broken.osg", "Group {\n");
+  const Scene scene = import_scene(
+      folder.write("root.osg", group("Group", "",
+                                     {paged(triangle_at("1"), {"gone.osg"}), paged(triangle_at("2"), {"here.osg"}),
+                                      paged(triangle_at("3"), {"here.osg", "gone.osg"})})));
+  // Where one of two pages is missing the other alone would leave a hole.
+  EXPECT_EQ(first_xs(scene), (std::vector<double>{1, 5, 3}));
+  EXPECT_EQ(scene.report.missing_pages, 2u);
+  ASSERT_EQ(scene.report.missing_page_files.size(), 2u);
+  EXPECT_TRUE(contains(scene.report.missing_page_files[0], "gone.osg"));
+  EXPECT_TRUE(notes_contain(scene, "2 files that the scene refers to are absent"));
+}
+
+TEST(ImportSceneGraph, EndsPagesThatReferToThemselves) {
+  const TemporaryFolder folder;
+  const Scene scene = import_scene(folder.write("loop.osg", paged(triangle_at("1"), {"loop.osg"})));
+  EXPECT_EQ(first_xs(scene), (std::vector<double>{1}));
+  EXPECT_EQ(scene.report.missing_pages, 1u);
+}
+
+TEST(ImportSceneGraph, ReadsProxiesAndCountsThoseThatAreMissing) {
+  const TemporaryFolder folder;
+  folder.write("part.osg", triangle_at("7"));
+  const auto proxy = [](const std::string& file) {
+    return "ProxyNode {\nFileNameList 1 {\n\"" + file + "\"\n}\nnum_children 0\n}\n";
+  };
+  const Scene scene = import_scene(folder.write(
+      "root.osg", group("Group", "", {proxy("part.osg"), proxy("gone.osg"), proxy("http://localhost/a.osg")})));
+  EXPECT_EQ(first_xs(scene), (std::vector<double>{7}));
+  EXPECT_EQ(scene.report.missing_pages, 2u);
+}
+
+std::string metadata(const std::string& srs, const std::string& origin) {
+  return "<?xml version=\"1.0\"?>\n<ModelMetadata version=\"1\"><SRS>" + srs + "</SRS><SRSOrigin>" + origin +
+         "</SRSOrigin></ModelMetadata>\n";
+}
+
+/// A tile of one triangle with a corner at (x, 0, 0): the reader of .osgb knows its text form by its first word.
+std::string tile(const std::string& x) {
+  return "#Ascii Scene\n#Version 161\n#Generator test\n\nosg::Geode {\n UniqueID 1\n Drawables 1 {\n  osg::Geometry {\n"
+         "   UniqueID 2\n   PrimitiveSetList 1 {\n    osg::DrawArrays {\n     UniqueID 3\n     Mode TRIANGLES\n"
+         "     Count 3\n    }\n   }\n   VertexArray TRUE {\n    osg::Vec3Array {\n     UniqueID 4\n"
+         "     Binding BIND_PER_VERTEX\n     vector 3 {\n      " +
+         x + " 0 0\n      0 1 0\n      0 0 1\n     }\n    }\n   }\n  }\n }\n}\n";
+}
+
+TEST(ImportSceneGraph, ReadsFoldersOfTilesInTheOrderOfTheirNames) {
+  const TemporaryFolder folder;
+  folder.write("a/Data/Tile_+001_+000/Tile_+001_+000.osgb", tile("2"));
+  folder.write("a/Data/Tile_+000_+001/Tile_+000_+001.osgb", tile("1"));
+  folder.write("a/Data/Tile_+000_+001/Tile_+000_+001_L20.osgb", tile("9"));
+  folder.write("a/Data/Tile_+002_+000/not the tile.txt", "");
+  folder.write("a/Data/Thumbs/x.osgb", "");
+  for (const char* path : {"a", "a/", "a/Data", "a/Data/"}) {
+    const Scene scene = import_scene(folder.path() / path);
+    EXPECT_EQ(first_xs(scene), (std::vector<double>{1, 2})) << path;
+    EXPECT_EQ(scene.meshes[0].name, "Tile_+000_+001");
+    EXPECT_EQ(scene.report.missing_pages, 1u);
+    EXPECT_FALSE(scene.report.georeference);
+  }
+  EXPECT_EQ(first_xs(import_scene(folder.path() / "a/Data/Tile_+001_+000")), (std::vector<double>{2}));
+}
+
+TEST(ImportSceneGraph, RefusesAFolderWithoutTiles) {
+  const TemporaryFolder folder;
+  folder.write("a/Data/Tile_3/readme.txt", "");
+  EXPECT_TRUE(contains(import_error(folder.path() / "a"), "holds no Data/Tile_*/Tile_*.osgb"));
+  EXPECT_TRUE(contains(import_error(folder.path()), "holds no Data/Tile_*/Tile_*.osgb"));
+  folder.write("b/Data/Tile_4/Tile_4.osgb", "garbage");
+  EXPECT_TRUE(contains(import_error(folder.path() / "b"), "this gives no triangle"));
+}
+
+TEST(ImportSceneGraph, PlacesFoldersRelativeToTheFirstByTheirOrigins) {
+  const TemporaryFolder folder;
+  const auto scene_folder = [&](const std::string& name, const std::string& x, const std::string& srs,
+                                const std::string& origin) {
+    folder.write(name + "/Data/Tile_1/Tile_1.osgb", tile(x));
+    if (!origin.empty()) folder.write(name + "/metadata.xml", metadata(srs, origin));
+    return folder.path() / name;
+  };
+  const auto first = scene_folder("first", "1", "EPSG:32632", "500000.5,5000000,100");
+  const auto second = scene_folder("second", "1", "EPSG:32632", " 500300.25 , 5000000 , 90 ");
+  const auto elsewhere = scene_folder("elsewhere", "1", "EPSG:4326", "8,47,0");
+  const auto nowhere = scene_folder("nowhere", "5", "", "");
+  const auto broken = scene_folder("broken", "6", "EPSG:32632", "1,2");
+
+  const Scene one = import_scene(second);
+  EXPECT_EQ(first_xs(one), (std::vector<double>{1}));
+  ASSERT_TRUE(one.report.georeference);
+  EXPECT_EQ(one.report.georeference->origin, Vec3(500300.25, 5000000, 90));
+  EXPECT_TRUE(notes_contain(one, "in 'EPSG:32632' the scene's zero lies at (500300.25, 5000000, 90)"));
+
+  const std::vector<std::filesystem::path> both{first, second, nowhere};
+  const Scene merged = import_scene(both);
+  EXPECT_EQ(first_xs(merged), (std::vector<double>{1, 300.75, 5}));
+  EXPECT_EQ(triangles_of(merged)[1][1], Vec3(299.75, 1, -10));
+  EXPECT_EQ(merged.report.georeference->origin, Vec3(500000.5, 5000000, 100));
+  EXPECT_TRUE(notes_contain(merged, "are moved by (299.75, 0, -10)"));
+  EXPECT_TRUE(notes_contain(merged, "its place relative to the folders before is not known"));
+
+  const std::vector<std::filesystem::path> apart{first, elsewhere};
+  EXPECT_THROW(static_cast<void>(import_scene(apart)), Error);
+  EXPECT_TRUE(notes_contain(import_scene(broken), "holds no SRSOrigin of three numbers"));
+}
+
+}  // namespace
+}  // namespace roam::test
