@@ -64,6 +64,51 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
   EXPECT_EQ(triangles_of(told)[0][0], Vec3(10 * 0.0254, -30 * 0.0254, 20 * 0.0254));
 }
 
+TEST(ImportFormats, LeavesFbxAsItIsAndSaysWhatItStates) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("gate.fbx", R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+	FBXHeaderVersion: 1003
+	FBXVersion: 7400
+}
+GlobalSettings:  {
+	Version: 1000
+	Properties70:  {
+		P: "UpAxis", "int", "Integer", "",1
+		P: "UnitScaleFactor", "double", "Number", "",1
+	}
+}
+Objects:  {
+	Geometry: 100, "Geometry::Slab", "Mesh" {
+		Vertices: *12 {
+			a: 0,0,0,1,0,0,1,1,0,0,1,0.5
+		}
+		PolygonVertexIndex: *4 {
+			a: 0,1,2,-4
+		}
+		GeometryVersion: 124
+	}
+	Model: 200, "Model::Gate", "Mesh" {
+		Version: 232
+		Properties70:  {
+			P: "Lcl Translation", "Lcl Translation", "", "A",10,20,30
+		}
+	}
+}
+Connections:  {
+	C: "OO",200,0
+	C: "OO",100,200
+}
+)");
+  const Scene scene = import_scene(file);
+  const auto triangles = triangles_of(scene);
+  ASSERT_EQ(triangles.size(), 2u);
+  EXPECT_EQ(triangles[1], (Triangle{Vec3(10, 20, 30), Vec3(11, 21, 30), Vec3(10, 21, 30.5)}));
+  EXPECT_EQ(scene.meshes[0].name, "Gate");
+  EXPECT_TRUE(notes_contain(scene, "its y axis is up"));
+  EXPECT_TRUE(notes_contain(scene, "its unit is 0.01 m"));
+}
+
 TEST(ImportFormats, ReadsOff) {
   const TemporaryFolder folder;
   const Scene scene = import_scene(folder.write("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 3\n"));

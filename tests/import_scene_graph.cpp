@@ -203,7 +203,7 @@ std::string metadata(const std::string& srs, const std::string& origin) {
 
 /// A tile of one triangle with a corner at (x, 0, 0): the reader of .osgb knows its text form by its first word.
 std::string tile(const std::string& x) {
-  return "#Ascii Scene\n#Version 161\n#Generator test\n\nosg::Geode {\n UniqueID 1\n Drawables 1 {\n  osg::Geometry {\n"
+  return "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::Geode {\n UniqueID 1\n Drawables 1 {\n  osg::Geometry {\n"
          "   UniqueID 2\n   PrimitiveSetList 1 {\n    osg::DrawArrays {\n     UniqueID 3\n     Mode TRIANGLES\n"
          "     Count 3\n    }\n   }\n   VertexArray TRUE {\n    osg::Vec3Array {\n     UniqueID 4\n"
          "     Binding BIND_PER_VERTEX\n     vector 3 {\n      " +
