@@ -1,14 +1,10 @@
 // The dam gallery: its count, its bits, its closed tubes, and room for the bodies of Table 1.
 #include <gtest/gtest.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
 #include <set>
 #include <string>
-#include <unordered_map>
 
 #include "roam/error.h"
 #include "roam/generate.h"
