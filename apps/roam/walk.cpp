@@ -180,6 +180,7 @@ ExitStatus walk(WalkOptions options) {
     recorder.start(walker.report());
     while (!wander.done()) {
       wander.look();
+      if (wander.done()) break;
       recorder.step([&]() -> const StepReport& { return wander.advance(); });
     }
     report.result = wander.result();

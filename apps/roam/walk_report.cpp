@@ -25,10 +25,10 @@ std::optional<Vec3> first(const RouteResult& result, EventKind kind) {
 
 std::string explain_blocked(const WalkReport& report) {
   const RouteResult& result = report.result;
-  if (!result.blocked_at) return fmt::format("came no nearer to the next waypoint at {}", at(result.end));
+  if (!result.blocked_at) return fmt::format("it came no nearer to the next waypoint at {}", at(result.end));
   const Blockage& blockage = *result.blocked_at;
-  std::string text = fmt::format("blocked at {} by {} (triangle {}), touched at {}", at(result.end),
-                                 quoted(report.object), blockage.triangle, at(blockage.point));
+  std::string text = fmt::format("at {} by {} (triangle {}), touched at {}", at(result.end), quoted(report.object),
+                                 blockage.triangle, at(blockage.point));
   if (blockage.opening) {
     text += fmt::format("; the opening there is {:.3f} m, the body needs {:.3f} m across and {:.3f} m in height",
                         *blockage.opening, 2.0 * report.settings.radius, report.settings.height);
@@ -44,28 +44,27 @@ std::string explain(const WalkReport& report) {
   const RouteResult& result = report.result;
   switch (result.outcome) {
     case Outcome::reached:
-      if (report.waypoints == 0)
-        return fmt::format("wandered until the time was over, and ended at {}", at(result.end));
-      return fmt::format("reached the last of {} waypoints at {}", report.waypoints, at(result.end));
+      if (report.waypoints == 0) return fmt::format("the end of its time, having wandered to {}", at(result.end));
+      return fmt::format("came to the last of {} waypoints at {}", report.waypoints, at(result.end));
     case Outcome::blocked:
       return explain_blocked(report);
     case Outcome::left_scene:
-      return fmt::format("left the scene at {}: nothing lies ahead of it any more; is the path in the scene's frame?",
+      return fmt::format("nothing of the scene lies ahead any more at {}; is the path in the scene's frame?",
                          at(result.end));
     case Outcome::fell: {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       return fmt::format(
-          "fell at {}: the ground ends there, or has a gap that a radius of {} m does not bridge; a larger radius may",
-          at(from), report.settings.radius);
+          "at {} the ground ends, or has a gap that a radius of {} m does not bridge; a larger radius may", at(from),
+          report.settings.radius);
     }
     case Outcome::held:
       if (result.steps == 0) {
         return fmt::format(
-            "does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close by; "
-            "move the first waypoint or take a smaller radius",
+            "it does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close "
+            "by; move the first waypoint or take a smaller radius",
             at(result.end));
       }
-      return fmt::format("held at {}: there is no ground below to stand on; move the waypoint onto the ground, or fly",
+      return fmt::format("at {} there is no ground below to stand on; move the waypoint onto the ground, or fly",
                          at(result.end));
   }
   return {};

@@ -13,14 +13,13 @@
 namespace roam::app {
 namespace {
 
-constexpr int columns_a_side = 48;      // of the grid that looks for a start
-constexpr int most_floors = 64;         // that are looked at in a column
-constexpr double lift = 0.05;           // m, a start is looked for so high above a floor, then let down
-constexpr double floor_gap = 0.01;      // m, the next floor of a column is looked for so far below the last
-constexpr double ceiling_reach = 30.0;  // m, above which a ceiling is the sky
-constexpr double room_reach = 10.0;     // m, farther is free enough
-constexpr double indoors = 8.0;         // a floor under a ceiling counts so many times
-constexpr double fly_height = 2.0;      // m above the floor, where there is no ceiling to stay under
+constexpr int columns_a_side = 32;   // of the grid that looks for a start
+constexpr int most_floors = 64;      // that are looked at in a column
+constexpr double lift = 0.05;        // m, a start is looked for so high above a floor, then let down
+constexpr double floor_gap = 0.01;   // m, the next floor of a column is looked for so far below the last
+constexpr double wall_reach = 30.0;  // m, farther is the open
+constexpr int room_strides = 20;     // 10 m: farther is free enough
+constexpr double fly_height = 2.0;   // m above the floor, where there is no ceiling to stay under
 
 constexpr int headings = 16;
 constexpr double stride = 0.5;     // m of one probe of the look ahead
@@ -31,27 +30,50 @@ constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
 constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
 
+bool contains(const Box& box, const Vec3& p) {
+  return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z &&
+         p.z <= box.upper.z;
+}
+
 Vec3 level(int i, int count) {
   const double angle = 2.0 * std::numbers::pi * i / count;
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// The body without its lowest part, which may step over what is lower than `step`; and how much higher its centre is.
-struct RaisedBody {
+/// What a body is that looks ahead.
+struct Prober {
+  const World& world;
+  const WalkerSettings& settings;
+  Mode mode;
   Body body;
-  double rise;
 };
 
-RaisedBody raised(const Body& body, double step) {
-  const double cut = std::min(step, 2.0 * body.half_height);
-  return {{body.radius, body.half_height - 0.5 * cut}, step - 0.5 * cut};
-}
-
-/// How far the body can go level from `place`, at most `reach`.
-double free_way(const World& world, const Body& body, double step, const Vec3& place, const Vec3& direction,
-                double reach) {
-  const RaisedBody high = raised(body, step);
-  return reach * world.sweep(high.body, place + Vec3(0, 0, high.rise), reach * direction).time;
+/// Strides from `place` in a direction: where each leads to is handed to `visit`, with its length seen from above (or,
+/// flying, its length). Ends at a wall, where the ground ends, at the border of the scene, and after `count`.
+template <class Visit>
+void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int count, const Visit& visit) {
+  const auto& [world, settings, mode, body] = prober;
+  const bool on_foot = mode == Mode::walk;
+  // What a stride may climb, on a slope or up a kerb.
+  const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
+  const double climb = on_foot ? std::min(stride * slope + settings.step, settings.height) : 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 high = place + Vec3(0, 0, climb * world.sweep(body, place, {0, 0, climb}).time);
+    const WorldSweep along = world.sweep(body, high, stride * direction);
+    if (along.hit && along.time < 0.5) return;
+    Vec3 next = high + along.time * stride * direction;
+    if (on_foot) {
+      const double down = high.z - place.z + climb;
+      const WorldSweep ground = world.sweep(body, next, {0, 0, -down});
+      if (!ground.hit) return;
+      next.z -= ground.time * down;
+    } else if (!contains(world.bounds(), next)) {
+      return;
+    }
+    visit(next, along.time * stride);
+    if (along.hit) return;
+    place = next;
+  }
 }
 
 struct Start {
@@ -63,8 +85,8 @@ struct Start {
 Start start_at(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
   const Body body = Body::capsule(settings.radius, settings.height);
   Start start;
-  const WorldSweep above = world.ray(floor + Vec3(0, 0, lift), {0, 0, ceiling_reach});
-  const double ceiling = above.hit ? lift + above.time * ceiling_reach : ceiling_reach;
+  const WorldSweep above = world.ray(floor + Vec3(0, 0, lift), {0, 0, wall_reach});
+  const double ceiling = lift + above.time * wall_reach;
   if (mode == Mode::fly) {
     start.place = floor + Vec3(0, 0, above.hit ? 0.5 * ceiling : fly_height + 0.5 * settings.height);
   } else {
@@ -78,11 +100,13 @@ Start start_at(const World& world, const WalkerSettings& settings, Mode mode, co
   }
   start.room = 0.0;
   constexpr int directions = 8;
+  int walls = above.hit ? 1 : 0;
   for (int i = 0; i < directions; ++i) {
-    start.room +=
-        free_way(world, body, mode == Mode::walk ? settings.step : 0.0, start.place, level(i, directions), room_reach);
+    walls += world.ray(start.place, wall_reach * level(i, directions)).hit ? 1 : 0;
+    stride_ahead({world, settings, mode, body}, start.place, level(i, directions), room_strides,
+                 [&](const Vec3&, double length) { start.room += length; });
   }
-  if (above.hit) start.room *= indoors;
+  start.room *= (1.0 + walls) * (1.0 + walls);
   return start;
 }
 
@@ -136,34 +160,24 @@ std::uint64_t Wander::cell(const Vec3& place) const {
 }
 
 Wander::Look Wander::probe(const Vec3& direction) const {
-  const World& world = walker_->world();
-  const WalkerSettings& settings = walker_->settings();
-  const Body body = walker_->body();
-  const bool on_foot = walker_->mode() == Mode::walk;
-  // What a stride may climb, on a slope or up a kerb.
-  const double climb = stride * std::tan(settings.slope_degrees * std::numbers::pi / 180.0) + settings.step;
   Look look;
-  Vec3 place = walker_->position();
-  for (int i = 0; i < most_strides; ++i) {
-    const double up = on_foot ? std::min(climb, settings.height) : 0.0;
-    const Vec3 high = place + Vec3(0, 0, up * world.sweep(body, place, {0, 0, up}).time);
-    const WorldSweep along = world.sweep(body, high, stride * direction);
-    if (along.hit && along.time * stride < 0.5 * stride) break;
-    Vec3 next = high + along.time * stride * direction;
-    if (on_foot) {
-      const double down = high.z - place.z + climb;
-      const WorldSweep ground = world.sweep(body, next, {0, 0, -down});
-      if (!ground.hit) break;
-      next.z -= ground.time * down;
-    }
-    look.way +=
-        glm::distance(Vec3(next.x, next.y, on_foot ? 0.0 : next.z), Vec3(place.x, place.y, on_foot ? 0.0 : place.z));
-    const auto visits = visits_.find(cell(next));
-    look.novelty += visits == visits_.end() ? 1.0 : 1.0 / (1.0 + visits->second);
-    place = next;
-    if (along.hit) break;
-  }
+  stride_ahead({walker_->world(), walker_->settings(), walker_->mode(), walker_->body()}, walker_->position(),
+               direction, most_strides, [&](const Vec3& place, double length) {
+                 look.way += length;
+                 const auto visits = visits_.find(cell(place));
+                 look.novelty += visits == visits_.end() ? 1.0 : 1.0 / (1.0 + visits->second);
+               });
   return look;
+}
+
+bool Wander::is_barred(const Vec3& direction) const {
+  constexpr double same_place = 1.0;    // m
+  constexpr double same_heading = 0.9;  // cosine
+  // Where the body got stuck it does not try the same at once; where it fell into the void, never again.
+  if (stuck_ && glm::dot(direction, heading_) > same_heading) return true;
+  return std::any_of(voids_.begin(), voids_.end(), [&](const Leg& leg) {
+    return glm::distance(leg.from, walker_->position()) < same_place && glm::dot(direction, leg.heading) > same_heading;
+  });
 }
 
 void Wander::look() {
@@ -175,8 +189,7 @@ void Wander::look() {
     if (pitch != 0.0 && !fly) break;
     for (int i = 0; i < headings; ++i) {
       const Vec3 direction = glm::normalize(level(i, headings) + Vec3(0, 0, pitch));
-      // Where the body got stuck it does not try the same again.
-      if (stuck_ && glm::dot(direction, heading_) > 0.9) continue;
+      if (is_barred(direction)) continue;
       const Look seen = probe(direction);
       // Going on as before is worth a little: fewer turns, longer ways.
       const double score = seen.novelty * (1.0 + 0.1 * glm::dot(direction, heading_));
@@ -186,7 +199,13 @@ void Wander::look() {
       next = direction;
     }
   }
+  if (best < 0.0) {
+    // Every way from here has failed.
+    result_.outcome = Outcome::held;
+    done_ = true;
+  }
   heading_ = next;
+  leg_start_ = walker_->position();
   stuck_ = false;
 }
 
@@ -228,6 +247,12 @@ void Wander::note(const StepReport& report) {
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;
 
+  if (report.has(EventKind::held) && !done_ && result_.steps > 0) {
+    // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
+    voids_.push_back({report.to, heading_});
+    voids_.push_back({leg_start_, heading_});
+    way_left_ = 0.0;
+  }
   held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;
   if (held_seconds_ > held_limit) {
     result_.outcome = Outcome::held;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 #include "roam/route.h"
 #include "roam/walker.h"
@@ -14,8 +15,8 @@
 namespace roam::app {
 
 /// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
-/// go farthest in eight directions. Floors with a ceiling count eightfold, so that one starts in a tunnel instead of on
-/// top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere.
+/// stride farthest in eight directions. A floor with a ceiling counts fourfold, so that one starts in a tunnel instead
+/// of on top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere.
 [[nodiscard]] Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode);
 
 /// One walk without an aim. The walker must outlive it and be in walk or fly mode.
@@ -39,7 +40,14 @@ class Wander {
   };
   [[nodiscard]] Look probe(const Vec3& direction) const;
   [[nodiscard]] std::uint64_t cell(const Vec3& place) const;
+  [[nodiscard]] bool is_barred(const Vec3& direction) const;
   void note(const StepReport& report);
+
+  /// A way that ended in the void.
+  struct Leg {
+    Vec3 from{0.0};
+    Vec3 heading{0.0};
+  };
 
   Walker* walker_;
   RouteOptions options_;
@@ -52,6 +60,8 @@ class Wander {
   double window_seconds_ = 0.0;  ///< since getting on was last judged
   double window_length_ = 0.0;   ///< metres moved since
   bool stuck_ = false;
+  Vec3 leg_start_{0.0};
+  std::vector<Leg> voids_;
   double held_seconds_ = 0.0;
   std::uint32_t last_kinds_ = 0;
   bool done_ = false;
