@@ -4,14 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <random>
 
+#include "clutter.h"
 #include "oracle.h"
 #include "roam/error.h"
 
 namespace {
 
+using clutter::Random;
 using roam::Body;
 using roam::Mesh;
 using roam::Triangle;
@@ -23,48 +25,10 @@ constexpr double kNearest = 1e-6;
 constexpr double kFarthest = 2e-3;
 constexpr double kFarthestLossless = 1e-5;
 
-struct Random {
-  std::mt19937_64 engine;
-  double unit() { return double(engine() >> 11) * 0x1p-53; }
-  double between(double a, double b) { return a + (b - a) * unit(); }
-  Vec3 in_box(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
-  Vec3 direction() {
-    for (;;) {
-      const Vec3 v = in_box(1.0);
-      const double n = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-      if (n > 0.1 && n < 1.0) return v / n;
-    }
-  }
-};
-
-/// Triangles of all sizes from `small` to `large` (m), some degenerate, in a box about `centre`.
-Mesh clutter(Random& random, int count, double half, double small, double large, const Vec3& centre) {
-  Mesh mesh;
-  mesh.name = "clutter";
-  for (int i = 0; i < count; ++i) {
-    const double size = small * std::pow(large / small, random.unit());
-    const Vec3 at = centre + random.in_box(half);
-    Vec3 corner[3] = {at, at + size * random.in_box(0.5), at + size * random.in_box(0.5)};
-    switch (random.engine() % 12) {
-      case 0: corner[2] = corner[1]; break;                                   // a segment
-      case 1: corner[1] = corner[2] = corner[0]; break;                       // a point
-      case 2: corner[2] = corner[0] + 0.3 * (corner[1] - corner[0]); break;   // three corners in a row
-      case 3: corner[2] = corner[1] + 1e-5 * random.in_box(0.5); break;       // a sliver
-      default: break;
-    }
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), corner, corner + 3);
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  return mesh;
-}
-
 struct Case {
   const char* name;
-  Vec3 centre;
-  double half, small, large;
-  int count;
-  bool lossless;
+  clutter::Recipe scene;
+  bool lossless = false;
 };
 
 /// The axis' least distance to all triangles over [0, t] of a motion.
@@ -79,11 +43,11 @@ long double least_distance(const Mesh& mesh, const Body& body, const Vec3& from,
 class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
 
 TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid) {
-  const Case& c = GetParam();
-  Random random{std::mt19937_64(7)};
-  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
-  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
-  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  const clutter::Recipe& c = GetParam().scene;
+  Random random(7);
+  const Mesh mesh = clutter::make(random, c);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
+  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
   int hits = 0, misses = 0, embedded = 0;
   for (int q = 0; q < 1500; ++q) {
     const Body body{random.between(0.0, 0.05) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
@@ -116,11 +80,11 @@ TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid)
 }
 
 TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
-  const Case& c = GetParam();
-  Random random{std::mt19937_64(8)};
-  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
-  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
-  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  const clutter::Recipe& c = GetParam().scene;
+  Random random(8);
+  const Mesh mesh = clutter::make(random, c);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
+  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
   for (int q = 0; q < 600; ++q) {
     const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
     const Vec3 from = c.centre + random.in_box(1.5 * c.half);
@@ -128,7 +92,9 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
     const double reach = std::min(World::reach_limit, random.between(0.01, 1.0) * c.half);
     const auto near = world.clearance(body, from, motion, reach);
     const double gap = double(least_distance(mesh, body, from, motion, 1.0) - (long double)(body.radius));
-    if (gap > -body.radius) ASSERT_LE(near.distance, std::max(gap, 0.0) + kNearest) << "query " << q;
+    if (gap > -body.radius) {
+      ASSERT_LE(near.distance, std::max(gap, 0.0) + kNearest) << "query " << q;
+    }
     if (!near.found) {
       ASSERT_GE(gap, reach - farthest) << "query " << q;
       ASSERT_EQ(near.distance, reach);
@@ -139,11 +105,11 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
 }
 
 TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
-  const Case& c = GetParam();
-  Random random{std::mt19937_64(9)};
-  const Mesh mesh = clutter(random, c.count, c.half, c.small, c.large, c.centre);
-  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = c.lossless, .progress = {}});
-  const double farthest = c.lossless ? kFarthestLossless : kFarthest;
+  const clutter::Recipe& c = GetParam().scene;
+  Random random(9);
+  const Mesh mesh = clutter::make(random, c);
+  const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
+  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
   std::vector<roam::Contact> contacts(mesh.triangles.size() + 1);
   for (int q = 0; q < 100; ++q) {
     const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
@@ -156,7 +122,9 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
       const auto t = static_cast<std::size_t>(contacts[i].triangle);
       ASSERT_FALSE(found[t]) << "a triangle twice";
       found[t] = true;
-      if (i > 0) ASSERT_LE(contacts[i - 1].distance, contacts[i].distance);
+      if (i > 0) {
+        ASSERT_LE(contacts[i - 1].distance, contacts[i].distance);
+      }
       ASSERT_LE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach + farthest);
     }
     for (std::size_t t = 0; t < found.size(); ++t) {
@@ -171,18 +139,17 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, WorldAgainstBruteForce,
-    testing::Values(Case{"AtTheOrigin", Vec3(0.0), 5.0, 0.05, 3.0, 600, false},
-                    Case{"InThePapersGallery", {-13739.0, 253.0, 182.0}, 5.0, 0.05, 3.0, 600, false},
-                    Case{"At1e5", {1e5, -1e5, 40.0}, 20.0, 0.01, 10.0, 600, false},
-                    Case{"At6400km", {4.1e6, 4.8e6, 6.4e6}, 5.0, 0.05, 3.0, 600, false},
-                    Case{"AllSizes", {300.0, 20.0, -7.0}, 3000.0, 1e-4, 1e4, 900, false},
-                    Case{"Huge", {300.0, 20.0, -7.0}, 40.0, 20.0, 1e4, 400, false},
-                    Case{"Tiny", {1.0, 2.0, 3.0}, 0.01, 1e-5, 5e-3, 500, false},
-                    Case{"Lossless", {10.0, 20.0, 30.0}, 5.0, 0.05, 3.0, 600, true},
-                    Case{"LosslessAt6400km", {4.1e6, 4.8e6, 6.4e6}, 5.0, 0.05, 3.0, 600, true},
-                    Case{"LosslessAllSizes", {300.0, 20.0, -7.0}, 3000.0, 1e-4, 1e4, 900, true}),
-    [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldAgainstBruteForce,
+                         testing::Values(Case{"AtTheOrigin", {600, 5.0, 0.05, 3.0, Vec3(0.0)}},
+                                         Case{"InThePapersGallery", {600, 5.0, 0.05, 3.0, {-13739.0, 253.0, 182.0}}},
+                                         Case{"At1e5", {600, 20.0, 0.01, 10.0, {1e5, -1e5, 40.0}}},
+                                         Case{"At6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}},
+                                         Case{"AllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}},
+                                         Case{"Huge", {400, 40.0, 20.0, 1e4, {300.0, 20.0, -7.0}}},
+                                         Case{"Tiny", {500, 0.01, 1e-5, 5e-3, {1.0, 2.0, 3.0}}},
+                                         Case{"Lossless", {600, 5.0, 0.05, 3.0, {10.0, 20.0, 30.0}}, true},
+                                         Case{"LosslessAt6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}, true},
+                                         Case{"LosslessAllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}, true}),
+                         [](const auto& param) { return param.param.name; });
 
 }  // namespace
