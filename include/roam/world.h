@@ -55,7 +55,7 @@ struct Clearance : Proximity {
 
 /// What a build may be told. The defaults suit everybody.
 struct BuildOptions {
-  int threads = 0;        ///< worker threads; 0: one per core. Does not change the result by a bit.
+  int threads = 0;  ///< worker threads, at most one per core; 0: one per core. Does not change a bit of the result.
   bool lossless = false;  ///< answer hits within 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle
   /// Called now and then with the fraction done, in [0, 1], from any one thread at a time. Returning false cancels:
   /// build throws roam::Cancelled.
@@ -67,8 +67,8 @@ struct WorldStats {
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
   std::uint64_t tiles = 0;
-  std::uint64_t bytes = 0;        ///< resident, everything included: geometry, hierarchy, triangle ids
-  double largest_error_m = 0.0;   ///< the farthest that any stored vertex lies from where the caller put it
+  std::uint64_t bytes = 0;       ///< resident, everything included: geometry, hierarchy, triangle ids
+  double largest_error_m = 0.0;  ///< the farthest that any stored vertex lies from where the caller put it
 };
 
 /// The tiles and the tree over them.

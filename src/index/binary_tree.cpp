@@ -108,12 +108,12 @@ class Builder {
       StepBox box;
       for (std::uint32_t i = 0; i < count; ++i) {
         box.include(boxes_[keys[i].second]);
-        area_left[i] = box.half_area();
+        area_left[i] = box.half_area(options_.margin);
       }
       box = {};
       for (std::uint32_t i = count - 1; i > 0; --i) {
         box.include(boxes_[keys[i].second]);
-        const double cost = area_left[i - 1] * tests(i) + box.half_area() * tests(count - i);
+        const double cost = area_left[i - 1] * tests(i) + box.half_area(options_.margin) * tests(count - i);
         if (cost < best_cost) {
           best_cost = cost;
           best_axis = axis;
@@ -159,7 +159,7 @@ class Builder {
       for (int b = 0; b < kBins; ++b) {
         box.include(bins[k][b].box);
         count += bins[k][b].count;
-        cost_left[b] = count == 0 ? 0.0 : box.half_area() * tests(count);
+        cost_left[b] = count == 0 ? 0.0 : box.half_area(options_.margin) * tests(count);
       }
       const std::uint32_t total = count;
       box = {};
@@ -168,7 +168,7 @@ class Builder {
         box.include(bins[k][b].box);
         count += bins[k][b].count;
         if (count == 0 || count == total) continue;
-        const double cost = cost_left[b - 1] + box.half_area() * tests(count);
+        const double cost = cost_left[b - 1] + box.half_area(options_.margin) * tests(count);
         if (cost < best.cost) best = {cost, k, first_of_bin(lower[k], inverse[k], b)};
       }
     }

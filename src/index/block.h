@@ -61,13 +61,13 @@ struct FineLeaf {
 
 /// A cube of space with its own grid: vertex v lies at origin + step * v.
 struct Tile {
-  Vec3 origin;          ///< metres, a multiple of step on each axis
-  float step;           ///< metres, a power of two
-  float error;          ///< metres: no source vertex is farther from its stored one (16 bits)
-  float fine_error;     ///< the same with the low 16 bits; equal to error where there are none
-  bool fine;            ///< the tile has low bits, and answers are decided with them
-  std::uint32_t nodes;  ///< first node in the arena: the root
-  std::uint32_t leaves; ///< first leaf in the arena
+  Vec3 origin;                ///< metres, a multiple of step on each axis
+  float step;                 ///< metres, a power of two
+  float error;                ///< metres: no source vertex is farther from its stored one (16 bits)
+  float fine_error;           ///< the same with the low 16 bits; equal to error where there are none
+  bool fine;                  ///< the tile has low bits, and answers are decided with them
+  std::uint32_t nodes;        ///< first node in the arena: the root
+  std::uint32_t leaves;       ///< first leaf in the arena
   std::uint32_t fine_leaves;  ///< first FineLeaf, when fine
   std::uint64_t ids;          ///< first byte of its id stream
 };
@@ -83,9 +83,10 @@ struct StepBox {
       upper[k] = b.upper[k] > upper[k] ? b.upper[k] : upper[k];
     }
   }
-  /// Half the surface area, in square steps.
-  [[nodiscard]] double half_area() const {
-    const double x = double(upper[0]) - lower[0], y = double(upper[1]) - lower[1], z = double(upper[2]) - lower[2];
+  /// Half the surface area of the box grown by `margin` steps in all, in square steps.
+  [[nodiscard]] double half_area(double margin) const {
+    const double x = double(upper[0]) - lower[0] + margin, y = double(upper[1]) - lower[1] + margin,
+                 z = double(upper[2]) - lower[2] + margin;
     return x * y + y * z + z * x;
   }
 };

@@ -11,17 +11,17 @@ constexpr double kLeavesPerNode = 4.0;
 
 /// For each binary node, the least cost of its subtree when it may fill up to k of its parent's slots.
 struct Plan {
-  std::array<float, kWidth + 1> cost{};        ///< cost[k], k = 1 .. 16
+  std::array<float, kWidth + 1> cost{};         ///< cost[k], k = 1 .. 16
   std::array<std::uint8_t, kWidth + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
-  std::uint8_t left_own = 0;                   ///< the left child's share of the sixteen slots of the node itself
+  std::uint8_t left_own = 0;                    ///< the left child's share of the sixteen slots of the node itself
 };
 
-std::vector<Plan> plan(const BinaryTree& tree) {
+std::vector<Plan> plan(const BinaryTree& tree, double margin) {
   double leaf_area = 0.0;
   std::size_t leaf_count = 0;
   for (const BinaryNode& n : tree.nodes) {
     if (n.left < 0) {
-      leaf_area += n.box.half_area();
+      leaf_area += n.box.half_area(margin);
       ++leaf_count;
     }
   }
@@ -43,7 +43,7 @@ std::vector<Plan> plan(const BinaryTree& tree) {
     };
     const auto own = share(kWidth);
     p.left_own = static_cast<std::uint8_t>(own.second);
-    p.cost[1] = static_cast<float>(n.box.half_area() + per_node) + own.first;
+    p.cost[1] = static_cast<float>(n.box.half_area(margin) + per_node) + own.first;
     for (int slots = 2; slots <= kWidth; ++slots) {
       const auto shared = slots == kWidth ? own : share(slots);
       const bool open = shared.first < p.cost[1];
@@ -87,8 +87,8 @@ void set_boxes(Node& node, const BinaryTree& tree, const std::vector<std::int32_
 
 }  // namespace
 
-WideTree collapse(const BinaryTree& tree) {
-  const std::vector<Plan> plans = plan(tree);
+WideTree collapse(const BinaryTree& tree, double margin) {
+  const std::vector<Plan> plans = plan(tree, margin);
   WideTree wide;
   wide.nodes.resize(1);
   std::vector<std::pair<std::int32_t, std::uint32_t>> open{{0, 0}};  // binary node, wide node

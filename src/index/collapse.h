@@ -11,13 +11,13 @@
 namespace roam::index {
 
 struct WideTree {
-  std::vector<Node> nodes;                 ///< nodes[0] is the root; first_node and first_leaf count from 0
-  std::vector<std::uint32_t> leaves;       ///< binary leaves (indices into BinaryTree::nodes) in order of first_leaf
+  std::vector<Node> nodes;            ///< nodes[0] is the root; first_node and first_leaf count from 0
+  std::vector<std::uint32_t> leaves;  ///< binary leaves (indices into BinaryTree::nodes) in order of first_leaf
 };
 
 /// Chooses which binary nodes survive by dynamic programming over the number of child slots, so that the expected cost
 /// of visits is least (the idea of Ylitie et al., "Efficient incoherent ray traversal on GPUs through compressed wide
-/// BVHs", 2017, with sixteen children). The leaves are those of the binary tree.
-[[nodiscard]] WideTree collapse(const BinaryTree& tree);
+/// BVHs", 2017, with sixteen children). The leaves are those of the binary tree; `margin` as in BinaryTreeOptions.
+[[nodiscard]] WideTree collapse(const BinaryTree& tree, double margin);
 
 }  // namespace roam::index

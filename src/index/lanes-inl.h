@@ -13,6 +13,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "index/block.h"
 #include "index/margin.h"
@@ -73,24 +74,33 @@ struct Frame {
   }
 };
 
+/// A float that is no less than x, which is not negative.
+HWY_INLINE float round_up(double x) { return static_cast<float>(x) * (1.0F + 4.0F * kUnit); }
+
 /// A piece of motion in single precision.
 struct Motion {
   float way[3];
-  float inverse[3];
   float longest;      ///< of |way[k]|
   float half_height;  ///< rounded up
+  // Node tests mirror the axes along which the body moves backwards, so that it enters every box by its lower planes.
+  float mirror[3];                  ///< 1 or -1
+  float forward[3];                 ///< |way[k]|
+  float inverse[3];                 ///< 1 / forward[k], at most kHugeInverse
+  std::uint32_t entry[3], exit[3];  ///< where in a node the planes begin by which axis k is entered and left
 
   Motion(const Vec3& motion, double h) : longest(0.0F), half_height(round_up(h)) {
     for (int k = 0; k < 3; ++k) {
       way[k] = static_cast<float>(motion[k]);
-      const float inv = 1.0F / way[k];
-      inverse[k] = std::abs(inv) < kHugeInverse ? inv : std::copysign(kHugeInverse, way[k]);
-      longest = std::max(longest, std::abs(way[k]));
+      const bool back = way[k] < 0.0F;
+      mirror[k] = back ? -1.0F : 1.0F;
+      forward[k] = std::abs(way[k]);
+      inverse[k] = forward[k] > 1.0F / kHugeInverse ? 1.0F / forward[k] : kHugeInverse;
+      longest = std::max(longest, forward[k]);
+      const auto lower = static_cast<std::uint32_t>(offsetof(Node, lower) + kWidth * k);
+      const auto upper = static_cast<std::uint32_t>(offsetof(Node, upper) + kWidth * k);
+      entry[k] = back ? upper : lower;
+      exit[k] = back ? lower : upper;
     }
-  }
-  static float round_up(double x) {
-    const auto f = static_cast<float>(x);
-    return double(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
   }
 };
 
@@ -103,80 +113,86 @@ struct Children {
 /// Child boxes as distances from the start, part by part.
 struct Boxes {
   float at[3], scale[3];
-  float extent;  ///< the widest side that the node can have (m)
 
-  Boxes(const Node& node, const Frame& frame) : extent(0.0F) {
+  Boxes(const Node& node, const Frame& frame) {
     for (int k = 0; k < 3; ++k) {
       at[k] = frame.metres(node.origin[k], k);
-      scale[k] = frame.step * static_cast<float>(std::int64_t{1} << node.shift[k]);
-      extent = std::max(extent, 256.0F * scale[k]);
+      scale[k] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(frame.step) + (std::uint32_t{node.shift[k]} << 23));
     }
   }
-  /// Plane `k` of the boxes first .. first + kLanes - 1.
-  [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int first, int k) const {
+  /// Plane `k` of kLanes boxes; `mirror` is 1 or -1.
+  [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int k, float mirror) const {
     const hn::Rebind<std::uint8_t, F> bytes;
-    const VF b = hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds + first)));
-    return hn::Add(hn::Mul(b, set(scale[k])), set(at[k]));  // the product is exact
+    const VF b = hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
+    return hn::MulAdd(b, set(mirror * scale[k]),
+                      set(mirror * at[k]));  // the product is exact: fused or not, one bit pattern
   }
 };
 
-/// Which children the body may meet before t_max, and when. `radius` is what is kept free.
-HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& motion, float radius, float t_max,
+/// How far child boxes are to be grown, so that no rounding in a node test can lose a child: metres. `extent` is the
+/// widest that a node of this frame can be.
+HWY_INLINE float grown_radius(float radius, float half_height, float longest, float extent, float step) {
+  return radius * (1.0F + kRadiusRoundings * kUnit) +
+         kNodeRoundings * kUnit * (extent + longest + radius + half_height) + 2.0F * kFractionRounding * step;
+}
+
+HWY_INLINE std::uint32_t bits_of(MF mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(kF, mask, bits);
+  return std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8;
+}
+
+/// Which children the body may meet before t_max, and when. `grown` is the radius that is kept free, with the margin.
+HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                            Children& out) {
   const Boxes boxes(node, frame);
-  const float h = motion.half_height;
-  const float grown = radius * (1.0F + kRadiusRoundings * kUnit) +
-                      kNodeRoundings * kUnit * (boxes.extent + motion.longest + radius + h) +
-                      2.0F * kFractionRounding * frame.step;
-  const VF zero = hn::Zero(kF);
+  const VF zero = hn::Zero(kF), h = set(motion.half_height), r = set(grown), end = set(t_max);
+  const VF r2 = hn::Mul(r, r);
   const VF later = set(1.0F + kTimeRoundings * kUnit), earlier = set(1.0F - kTimeRoundings * kUnit);
+  const auto* planes = reinterpret_cast<const std::uint8_t*>(&node);
   out.mask = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
-    VF enter = zero, exit = set(t_max);
+    VF enter = zero, exit = end;
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(node.lower[k], first, k);
-      VF upper = boxes.plane(node.upper[k], first, k);
+      VF lower = boxes.plane(planes + motion.entry[k] + first, k, motion.mirror[k]);
+      VF upper = boxes.plane(planes + motion.exit[k] + first, k, motion.mirror[k]);
       if (k == 2) {
-        lower = hn::Sub(lower, set(h));
-        upper = hn::Add(upper, set(h));
+        lower = hn::Sub(lower, h);
+        upper = hn::Add(upper, h);
       }
       const VF inverse = set(motion.inverse[k]);
-      const VF a = hn::Mul(hn::Sub(lower, set(grown)), inverse), b = hn::Mul(hn::Add(upper, set(grown)), inverse);
-      enter = hn::Max(enter, hn::Min(a, b));
-      exit = hn::Min(exit, hn::Max(a, b));
-      // The closest point of the box to the start: one supporting plane.
+      enter = hn::Max(enter, hn::Mul(hn::Sub(lower, r), inverse));
+      exit = hn::Min(exit, hn::Mul(hn::Add(upper, r), inverse));
+      // The closest point of the box to the start gives one supporting plane.
       const VF closest = hn::Add(hn::Max(lower, zero), hn::Min(upper, zero));
       squared = hn::Add(squared, hn::Mul(closest, closest));
-      towards = hn::Add(towards, hn::Mul(closest, set(motion.way[k])));
+      towards = hn::Add(towards, hn::Mul(closest, set(motion.forward[k])));
     }
-    const VF gap = hn::Sub(squared, hn::Mul(set(grown), hn::Sqrt(squared)));
-    const MF apart = hn::Gt(gap, zero);
-    const MF never = hn::And(apart, hn::Gt(gap, hn::Mul(set(t_max), towards)));
-    const VF touch = hn::Div(gap, hn::IfThenElse(apart, hn::Max(towards, set(1.0F / kHugeInverse)), set(1.0F)));
-    const MF slab = hn::Le(hn::Mul(enter, earlier), hn::Mul(exit, later));
-    enter = hn::Mul(hn::Max(enter, hn::IfThenElseZero(apart, touch)), earlier);
-    const MF kept = hn::AndNot(never, slab);
+    // Apart at the start, and at t_max still: squared - t_max towards > r |closest|, without the root.
+    const VF left = hn::Sub(squared, hn::Mul(end, towards));
+    const MF apart = hn::And(hn::Gt(squared, r2), hn::Gt(left, zero));
+    const MF never = hn::And(apart, hn::Gt(hn::Mul(left, left), hn::Mul(r2, squared)));
+    enter = hn::Mul(enter, earlier);
+    const MF slab = hn::Le(enter, hn::Mul(exit, later));
     hn::Store(enter, kF, out.key + first);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(kF, kept, bits);
-    out.mask |= (std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8) << first;
+    out.mask |= bits_of(hn::AndNot(never, slab)) << first;
   }
   out.mask &= (1U << node.child_count) - 1;
 }
 
 /// Which children may lie within `reach` of the body's axis, and how far they are at least.
-HWY_INLINE void near_node(const Node& node, const Frame& frame, float half_height, float reach, Children& out) {
+/// `margin` is grown_radius() of radius 0.
+HWY_INLINE void near_node(const Node& node, const Frame& frame, float half_height, float margin, float reach,
+                          Children& out) {
   const Boxes boxes(node, frame);
   const VF zero = hn::Zero(kF);
-  const VF margin = set(kNodeRoundings * kUnit * (boxes.extent + reach + half_height) +
-                        2.0F * kFractionRounding * frame.step);
   out.mask = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
     VF squared = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(node.lower[k], first, k);
-      VF upper = boxes.plane(node.upper[k], first, k);
+      VF lower = boxes.plane(node.lower[k] + first, k, 1.0F);
+      VF upper = boxes.plane(node.upper[k] + first, k, 1.0F);
       if (k == 2) {
         lower = hn::Sub(lower, set(half_height));
         upper = hn::Add(upper, set(half_height));
@@ -184,11 +200,9 @@ HWY_INLINE void near_node(const Node& node, const Frame& frame, float half_heigh
       const VF closest = hn::Add(hn::Max(lower, zero), hn::Min(upper, zero));
       squared = hn::Add(squared, hn::Mul(closest, closest));
     }
-    const VF least = hn::Sub(hn::Mul(hn::Sqrt(squared), set(1.0F - kTimeRoundings * kUnit)), margin);
+    const VF least = hn::Sub(hn::Mul(hn::Sqrt(squared), set(1.0F - kTimeRoundings * kUnit)), set(margin));
     hn::Store(hn::Max(least, zero), kF, out.key + first);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(kF, hn::Le(least, set(reach)), bits);
-    out.mask |= (std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8) << first;
+    out.mask |= bits_of(hn::Le(least, set(reach))) << first;
   }
   out.mask &= (1U << node.child_count) - 1;
 }

@@ -12,14 +12,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// A vector of triangles, relative to the start of the query, and what does not change while the body moves.
+/// A vector of triangles, relative to the start of the query.
 struct Triangles {
   V3 a, b, c;
-  V3 ab, ac, bc, normal;
+  V3 ab, ac, normal;
+  VF farthest;  ///< largest absolute coordinate
+  // Set by prepare(): what the closest point needs, whatever the body's place.
+  V3 bc;
   VF ab2, ac2, abac;
   VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
-  VF farthest;  ///< largest absolute coordinate
 
+  HWY_INLINE void prepare();
   [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
 };
 
@@ -55,7 +58,8 @@ HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int fi
     const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
     return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), step);
   };
-  alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28};
+  alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28,
+                                                                0, 4, 8, 12, 16, 20, 24, 28};
   const auto numbers = [&](int c) {
     auto packed = hn::Set(u, leaf.corner[c][first / 8]);
     if constexpr (kLanes == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
@@ -80,18 +84,26 @@ HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int fi
   }
   t.ab = t.b - t.a;
   t.ac = t.c - t.a;
-  t.bc = t.c - t.b;
   t.normal = cross(t.ab, t.ac);
-  t.ab2 = dot(t.ab, t.ab);
-  t.ac2 = dot(t.ac, t.ac);
-  t.abac = dot(t.ab, t.ac);
-  const VF floor = set(kShortest * kShortest), one = set(1.0F);
-  t.inv_ab2 = hn::Div(one, hn::Max(t.ab2, floor));
-  t.inv_ac2 = hn::Div(one, hn::Max(t.ac2, floor));
-  t.inv_bc2 = hn::Div(one, hn::Max(dot(t.bc, t.bc), floor));
-  t.inv_normal2 = hn::Div(one, hn::Max(dot(t.normal, t.normal), floor));
   t.farthest = hn::Max(hn::Max(largest(t.a), largest(t.b)), largest(t.c));
   return t;
+}
+
+HWY_INLINE void Triangles::prepare() {
+  bc = c - b;
+  ab2 = dot(ab, ab);
+  ac2 = dot(ac, ac);
+  abac = dot(ab, ac);
+  const VF floor = set(kShortest * kShortest), one = set(1.0F);
+  // Two reciprocals from one division. Where a product overflows, the closest point is not a number, which leaves the
+  // triangle to double precision.
+  const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor);
+  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), floor);
+  const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
+  inv_ab2 = hn::Mul(long_ac, edges);
+  inv_ac2 = hn::Mul(long_ab, edges);
+  inv_bc2 = hn::Mul(long_normal, rest);
+  inv_normal2 = hn::Mul(long_bc, rest);
 }
 
 /// A supporting plane of a body at `centre`, unscaled: `bound` = distance bound times `length`.
@@ -127,16 +139,25 @@ struct Met {
   std::uint32_t open;              ///< to be decided in double precision, from then on
 };
 
-HWY_INLINE std::uint32_t bits_of(MF mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(kF, mask, bits);
-  return std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8;
-}
-
 /// Metres that a computed bound may be wrong by, for each triangle, with the body `way` metres along.
 HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float half_height) {
   return hn::Add(hn::Mul(set(kLeafRoundings * kUnit), hn::Add(hn::Max(t.farthest, way), set(half_height))),
                  set(4.0F * kFractionRounding * frame.step));
+}
+
+/// Triangles whose own plane, or what rounding left of it, keeps the body off all the way from `begin` to `end`: the
+/// cheapest supporting plane, and enough for most.
+HWY_INLINE MF off_plane(const Triangles& t, const V3& way, VF begin, VF end, VF keep, float longest, float t_max,
+                        const Frame& frame, float half_height) {
+  const V3& n = t.normal;
+  const VF a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), speed = dot(n, way);
+  const VF from = hn::Mul(speed, begin), to = hn::Mul(speed, end);
+  const VF above = hn::Sub(hn::Min(from, to), hn::Max(hn::Max(a, b), c));
+  const VF below = hn::Sub(hn::Min(hn::Min(a, b), c), hn::Max(from, to));
+  VF apart = hn::Max(above, below);
+  if (half_height != 0.0F) apart = hn::Sub(apart, hn::Mul(set(half_height), hn::Abs(n.z)));
+  const VF error = leaf_error(t, set(t_max * longest), frame, half_height);
+  return hn::Gt(apart, hn::Mul(hn::Add(keep, error), hn::Sqrt(dot(n, n))));
 }
 
 /// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
@@ -148,9 +169,12 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   const VF keep = set(radius * (1.0F + kRadiusRoundings * kUnit));
   const VF end = set(t_max), zero = hn::Zero(kF);
   for (int first = 0; first < leaf.triangle_count; first += kLanes) {
-    const Triangles t = load_triangles(leaf, frame, first);
+    Triangles t = load_triangles(leaf, frame, first);
     VF time = set(t_entry);
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
+    active = hn::AndNot(off_plane(t, way, time, end, keep, motion.longest, t_max, frame, motion.half_height), active);
+    if (hn::AllFalse(kF, active)) continue;
+    t.prepare();
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
     for (int round = 0; round < kRounds; ++round) {
       const V3 centre = scale(way, time);
@@ -171,8 +195,8 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       open = hn::Or(open, stuck);
       active = hn::AndNot(stuck, active);
       if (hn::AllFalse(kF, active)) break;
-      const VF step = hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))),
-                              set(1.0F - kTimeRoundings * kUnit));
+      const VF step =
+          hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - kTimeRoundings * kUnit));
       time = hn::IfThenElse(active, hn::Add(time, step), time);
     }
     open = hn::Or(open, active);
@@ -187,14 +211,15 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, float half_heigh
   out.mask = 0;
   const V3 centre{hn::Zero(kF), hn::Zero(kF), hn::Zero(kF)};
   for (int first = 0; first < leaf.triangle_count; first += kLanes) {
-    const Triangles t = load_triangles(leaf, frame, first);
+    Triangles t = load_triangles(leaf, frame, first);
+    t.prepare();
     const Support s = support(t, centre, half_height, kFirstProjections);
     const VF error = leaf_error(t, hn::Zero(kF), frame, half_height);
     const MF point = hn::Le(s.length, set(kShortest));
-    const VF least = hn::IfThenZeroElse(
-        point, hn::Sub(hn::Mul(hn::Div(s.bound, hn::IfThenElse(point, set(1.0F), s.length)),
-                               set(1.0F - kTimeRoundings * kUnit)),
-                       error));
+    const VF least =
+        hn::IfThenZeroElse(point, hn::Sub(hn::Mul(hn::Div(s.bound, hn::IfThenElse(point, set(1.0F), s.length)),
+                                                  set(1.0F - kTimeRoundings * kUnit)),
+                                          error));
     hn::Store(hn::Max(least, hn::Zero(kF)), kF, out.key + first);
     out.mask |= bits_of(hn::Le(least, set(reach))) << first;
   }

@@ -28,8 +28,8 @@ inline constexpr float kTimeRoundings = 8.0F;
 /// Of a grid step: the fraction of a step between the start of a query and its nearest grid point is stored to this.
 inline constexpr float kFractionRounding = 0x1p-25F;
 
-/// Metres; squared it is still far above underflow. Shorter edges count as points.
-inline constexpr float kShortest = 1e-15F;
+/// Metres. Shorter edges count as points, and the product of two of their squares is far above underflow.
+inline constexpr float kShortest = 1e-8F;
 
 /// Metres. A body this close to touching, its error bound apart, has arrived: a rule of economy, not of truth.
 inline constexpr float kArrival = 2e-5F;

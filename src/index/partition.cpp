@@ -24,10 +24,10 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// 0 for ordinary triangles; each class above holds four times wider ones.
+/// 0 for ordinary triangles; each class above holds sixteen times wider ones.
 std::uint64_t size_class(double extent) {
   std::uint64_t c = 0;
-  for (double limit = kOrdinaryTriangle; extent > limit && c < 15; limit *= 4.0) ++c;
+  for (double limit = kOrdinaryTriangle; extent > limit && c < 15; limit = std::ldexp(limit, kClassFactorBits)) ++c;
   return c;
 }
 
@@ -56,16 +56,17 @@ class Cutter {
   /// Cuts items[begin, end), which agree in all key bits above `bit`.
   void cut(std::uint32_t begin, std::uint32_t end, int bit) {
     const std::uint64_t c = items_[begin].key >> kClassShift;
-    if (end - begin <= kTileTriangles && width(begin, end) <= limit(c)) {
+    const std::uint32_t count = end - begin;
+    if (count <= kTileTriangles && width(begin, end) <= limit(count <= kSparseTriangles ? c + 1 : c)) {
       out_.push_back({begin, end});
       return;
     }
     for (; bit >= 0; --bit) {
       const std::uint64_t mask = std::uint64_t{1} << bit;
-      const auto middle = static_cast<std::uint32_t>(
-          std::partition_point(items_.begin() + begin, items_.begin() + end,
-                               [&](const Item& i) { return (i.key & mask) == 0; }) -
-          items_.begin());
+      const auto middle =
+          static_cast<std::uint32_t>(std::partition_point(items_.begin() + begin, items_.begin() + end,
+                                                          [&](const Item& i) { return (i.key & mask) == 0; }) -
+                                     items_.begin());
       if (middle == begin || middle == end) continue;
       cut(begin, middle, bit - 1);
       cut(middle, end, bit - 1);
@@ -81,7 +82,7 @@ class Cutter {
  private:
   /// The widest side that a tile of the class may have.
   static double limit(std::uint64_t c) {
-    return c == 0 ? kOrdinaryStep * double(kGridSteps - 4) : kOrdinaryTriangle * std::ldexp(1.0, 2 * int(c) + 2);
+    return std::ldexp(kOrdinaryStep * double(kGridSteps - 4), kClassFactorBits * static_cast<int>(c));
   }
 
   /// An upper bound of the widest side of the box of a run.
@@ -157,10 +158,10 @@ Partition partition(const Soup& soup, const std::function<void(double)>& tick) {
   Cutter cutter(items, reach, cell, result.tiles);
   for (std::uint32_t begin = 0; begin < count;) {
     const std::uint64_t c = items[begin].key >> kClassShift;
-    const auto end = static_cast<std::uint32_t>(
-        std::partition_point(items.begin() + begin, items.end(),
-                             [&](const Item& i) { return i.key >> kClassShift == c; }) -
-        items.begin());
+    const auto end =
+        static_cast<std::uint32_t>(std::partition_point(items.begin() + begin, items.end(),
+                                                        [&](const Item& i) { return i.key >> kClassShift == c; }) -
+                                   items.begin());
     cutter.cut(begin, end, kClassShift - 1);
     begin = end;
   }

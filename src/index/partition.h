@@ -14,9 +14,14 @@ namespace roam::index {
 /// A tile holds no more triangles than this.
 inline constexpr std::uint32_t kTileTriangles = 16384;
 
-/// Triangles wider than this (m, largest side of the box) go to tiles of their own kind, so that the grids of the
-/// others stay fine: three of them across make kOrdinaryStep's 64 m.
+/// Triangles wider than this (m, largest side of the box) go to tiles of their own kind, sixteen times wider for each
+/// kind, so that the grids of the others stay fine.
 inline constexpr double kOrdinaryTriangle = 16.0;
+inline constexpr int kClassFactorBits = 4;
+
+/// Fewer triangles than this are not worth a tile 64 m wide: such tiles may be sixteen times wider, and keep their low
+/// bits. Measured on a gallery under a coarse terrain, 0.5 M triangles: 75 tiles instead of 533, 2.4 node visits less.
+inline constexpr std::uint32_t kSparseTriangles = 2048;
 
 struct Partition {
   struct Run {

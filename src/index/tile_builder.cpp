@@ -11,6 +11,9 @@
 namespace roam::index {
 namespace {
 
+/// Metres. What a query typically adds to the sides of a box: the body and the way of one step.
+constexpr double kQueryMargin = 0.2;
+
 /// The three corners of a triangle in fine steps.
 using Corners = std::array<std::array<std::int64_t, 3>, 3>;
 
@@ -37,8 +40,9 @@ class TileBuilder {
     quantize();
     BinaryTreeOptions options;
     options.fits_leaf = [this](std::span<const std::uint32_t> items) { return fits_leaf(items); };
+    options.margin = std::max(1.0, kQueryMargin / grid_.step);
     const BinaryTree tree = build_binary_tree(boxes_, options);
-    WideTree wide = collapse(tree);
+    WideTree wide = collapse(tree, options.margin);
     out_.nodes = std::move(wide.nodes);
     out_.leaves.reserve(wide.leaves.size());
     for (const std::uint32_t n : wide.leaves) {
@@ -93,7 +97,8 @@ class TileBuilder {
   [[nodiscard]] VertexKey key(std::uint32_t triangle, int corner) const {
     const auto& f = corners_[triangle][corner];
     if (fine_) return {std::uint64_t(f[0]) << 32 | std::uint64_t(f[1]), std::uint64_t(f[2])};
-    return {std::uint64_t(Grid::whole(f[0])) << 32 | std::uint64_t(Grid::whole(f[1])), std::uint64_t(Grid::whole(f[2]))};
+    return {std::uint64_t(Grid::whole(f[0])) << 32 | std::uint64_t(Grid::whole(f[1])),
+            std::uint64_t(Grid::whole(f[2]))};
   }
 
   /// The distinct vertices of the triangles, in order of first use; false when there are more than a leaf holds.
@@ -140,7 +145,8 @@ class TileBuilder {
     FineLeaf low{};
     for (int v = 0; v < kWidth; ++v) {
       const VertexKey& k = keys[v < count ? v : 0];
-      const std::array<std::int64_t, 3> p{std::int64_t(k.xy >> 32), std::int64_t(k.xy & 0xffffffffU), std::int64_t(k.z)};
+      const std::array<std::int64_t, 3> p{std::int64_t(k.xy >> 32), std::int64_t(k.xy & 0xffffffffU),
+                                          std::int64_t(k.z)};
       for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t whole = fine_ ? Grid::whole(p[axis]) : p[axis];
         leaf.vertex[axis][v] = static_cast<std::uint16_t>(whole);
@@ -155,8 +161,11 @@ class TileBuilder {
   void write_ids(Leaf& leaf, std::span<const std::uint32_t> triangles) {
     const std::uint32_t base = ids_[triangles.front()];
     const std::uint32_t widest = ids_[triangles.back()] - base;
-    leaf.id_bytes = static_cast<std::uint8_t>(widest == 0 ? 0 : widest < 1U << 8 ? 1 : widest < 1U << 16 ? 2
-                                                            : widest < 1U << 24  ? 3 : 4);
+    leaf.id_bytes = static_cast<std::uint8_t>(widest == 0         ? 0
+                                              : widest < 1U << 8  ? 1
+                                              : widest < 1U << 16 ? 2
+                                              : widest < 1U << 24 ? 3
+                                                                  : 4);
     leaf.ids = static_cast<std::uint32_t>(out_.ids.size());
     const auto put = [&](std::uint32_t value, int bytes) {
       for (int b = 0; b < bytes; ++b) out_.ids.push_back(static_cast<std::uint8_t>(value >> (8 * b)));

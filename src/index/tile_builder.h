@@ -14,8 +14,8 @@ namespace roam::index {
 /// A tile on its own: offsets in `tile` and in the blocks count from its own beginning.
 struct BuiltTile {
   Tile tile;
-  Box bounds;                        ///< of the source triangles
-  std::vector<Node> nodes;           ///< the root first
+  Box bounds;               ///< of the source triangles
+  std::vector<Node> nodes;  ///< the root first
   std::vector<Leaf> leaves;
   std::vector<FineLeaf> fine_leaves;  ///< one a leaf when tile.fine, else none
   std::vector<std::uint8_t> ids;

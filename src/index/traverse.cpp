@@ -30,8 +30,8 @@ class Stack {
   void clear() { count_ = 0; }
 
   HWY_INLINE void push(float key, std::uint32_t number, bool leaf) {
-    const std::uint64_t e = std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 |
-                            (leaf ? 0U : std::uint32_t{1} << 31) | number;
+    const std::uint64_t e =
+        std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | (leaf ? 0U : std::uint32_t{1} << 31) | number;
     int i = count_++;
     for (; i > 0 && entries_[i - 1] < e; --i) entries_[i] = entries_[i - 1];
     entries_[i] = e;
@@ -65,6 +65,10 @@ HWY_INLINE void push_children(const Node& node, const Children& children, const 
   }
 }
 
+/// The widest node of a tile and of the tree over tiles, in steps.
+constexpr float kTileSteps = 0x1p16F;
+constexpr float kTopSteps = 0x1p29F;
+
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece)
@@ -72,7 +76,7 @@ class SweepTraversal {
 
   Impact run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
-    const float radius = Motion::round_up(piece_.body.radius);
+    const float grown = grown_for(round_up(piece_.body.radius), kTopSteps, frame);
     Stack stack;
     stack.push(0.0F, 0, false);
     while (!stack.empty()) {
@@ -84,21 +88,26 @@ class SweepTraversal {
       }
       const Node& node = index_.blocks[e.number].node;
       Children children;
-      sweep_node(node, frame, motion_, radius, t_max_, children);
+      sweep_node(node, frame, motion_, grown, t_max_, children);
       push_children(node, children, index_.blocks, nullptr, stack);
     }
     return best_;
   }
 
  private:
+  [[nodiscard]] float grown_for(float radius, float steps, const Frame& frame) const {
+    return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
+  }
+
   void tile(std::uint32_t number) {
     const Tile& t = index_.tiles[number];
     const Frame frame(t.origin, t.step, piece_.start);
-    const float radius = Motion::round_up(piece_.body.radius + double(t.error));
+    const float radius = round_up(piece_.body.radius + double(t.error));
+    const float grown = grown_for(radius, kTileSteps, frame);
     // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
-    const float hit_limit =
-        t.fine ? -1.0F : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
-                             (1.0F - kRadiusRoundings * kUnit);
+    const float hit_limit = t.fine ? -1.0F
+                                   : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
+                                         (1.0F - kRadiusRoundings * kUnit);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     stack_.clear();
@@ -110,10 +119,23 @@ class SweepTraversal {
         leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
         continue;
       }
-      const Node& node = nodes[e.number].node;
+      descend(nodes, leaves, e.number, frame, grown);
+    }
+  }
+
+  /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency.
+  HWY_INLINE void descend(const Block* nodes, const Block* leaves, std::uint32_t number, const Frame& frame,
+                          float grown) {
+    for (;;) {
+      const Node& node = nodes[number].node;
       Children children;
-      sweep_node(node, frame, motion_, radius, t_max_, children);
-      push_children(node, children, nodes, leaves, stack_);
+      sweep_node(node, frame, motion_, grown, t_max_, children);
+      const auto child = static_cast<std::uint32_t>(std::countr_zero(children.mask));
+      if ((children.mask & (children.mask - 1)) != 0 || child >= node.inner_count) {
+        push_children(node, children, nodes, leaves, stack_);
+        return;
+      }
+      number = node.first_node + child;
     }
   }
 
@@ -143,7 +165,7 @@ class SweepTraversal {
   void take(double time, const Place& place) {
     if (time >= best_.time && (best_.hit || time >= 1.0)) return;
     best_ = {true, time, place};
-    t_max_ = Motion::round_up(time);
+    t_max_ = round_up(time);
   }
 
   /// Metres. What double precision calls arrived: of no consequence beside the grid, small beside 1e-5 m.
@@ -163,8 +185,12 @@ Impact FirstImpact(const Index& index, const Piece& piece) { return SweepTravers
 class NearTraversal {
  public:
   NearTraversal(const Index& index, const Piece& piece, double reach, Visit visit, void* context)
-      : index_(index), piece_(piece), half_height_(Motion::round_up(piece.body.half_height)), reach_(reach),
-        visit_(visit), context_(context) {}
+      : index_(index),
+        piece_(piece),
+        half_height_(round_up(piece.body.half_height)),
+        reach_(reach),
+        visit_(visit),
+        context_(context) {}
 
   void run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
@@ -179,7 +205,7 @@ class NearTraversal {
       }
       const Node& node = index_.blocks[e.number].node;
       Children children;
-      near_node(node, frame, half_height_, axis_reach(0.0F), children);
+      near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(0.0F), children);
       push_children(node, children, index_.blocks, nullptr, stack);
     }
   }
@@ -187,7 +213,10 @@ class NearTraversal {
  private:
   /// How far from the axis stored triangles matter still.
   [[nodiscard]] float axis_reach(float error) const {
-    return std::max(0.0F, Motion::round_up(piece_.body.radius + reach_ + double(error)));
+    return round_up(std::max(0.0, piece_.body.radius + reach_ + double(error)));
+  }
+  [[nodiscard]] float margin(float steps, const Frame& frame) const {
+    return grown_radius(0.0F, half_height_, axis_reach(0.0F), steps * frame.step, frame.step);
   }
 
   void tile(std::uint32_t number) {
@@ -203,7 +232,7 @@ class NearTraversal {
       Children children;
       if (!e.leaf) {
         const Node& node = nodes[e.number].node;
-        near_node(node, frame, half_height_, axis_reach(t.error), children);
+        near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(t.error), children);
         push_children(node, children, nodes, leaves, stack_);
         continue;
       }
@@ -234,6 +263,9 @@ class NearTraversal {
 void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
   const Motion motion(piece.motion, piece.body.half_height);
   const Frame top(index.grid.origin, index.grid.step, piece.start);
+  const auto grown_for = [&](float radius, float steps, const Frame& frame) {
+    return grown_radius(radius, motion.half_height, motion.longest, steps * frame.step, frame.step);
+  };
   Stack tiles, stack;
   tiles.push(0.0F, 0, false);
   while (!tiles.empty()) {
@@ -241,7 +273,8 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
     Children children;
     if (!e.leaf) {
       const Node& node = index.blocks[e.number].node;
-      sweep_node(node, top, motion, Motion::round_up(std::max(0.0, piece.body.radius + reach)), 1.0F, children);
+      const float radius = round_up(std::max(0.0, piece.body.radius + reach));
+      sweep_node(node, top, motion, grown_for(radius, kTopSteps, top), 1.0F, children);
       push_children(node, children, index.blocks, nullptr, tiles);
       continue;
     }
@@ -250,10 +283,10 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
     stack.push(0.0F, 0, false);
     while (!stack.empty()) {
       const auto b = stack.pop();
-      const float radius = Motion::round_up(std::max(0.0, piece.body.radius + reach + double(t.error)));
+      const float radius = round_up(std::max(0.0, piece.body.radius + reach + double(t.error)));
       if (!b.leaf) {
         const Node& node = index.blocks[t.nodes + b.number].node;
-        sweep_node(node, frame, motion, radius, 1.0F, children);
+        sweep_node(node, frame, motion, grown_for(radius, kTileSteps, frame), 1.0F, children);
         push_children(node, children, index.blocks + t.nodes, index.blocks + t.leaves, stack);
         continue;
       }

@@ -1,3 +1,4 @@
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -62,7 +63,9 @@ index::StepBox step_box(const index::Grid& grid, const Box& box) {
 }
 
 /// The box of both the source triangles and the stored ones.
-Box grown(const BuiltTile& tile) { return {tile.bounds.lower - double(tile.tile.error), tile.bounds.upper + double(tile.tile.error)}; }
+Box grown(const BuiltTile& tile) {
+  return {tile.bounds.lower - double(tile.tile.error), tile.bounds.upper + double(tile.tile.error)};
+}
 
 std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partition& parts, bool lossless,
                                    Progress& progress) {
@@ -91,7 +94,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
   options.items_per_test = 1;
   options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
   const index::BinaryTree tree = index::build_binary_tree(boxes, options);
-  const index::WideTree top = index::collapse(tree);
+  const index::WideTree top = index::collapse(tree, options.margin);
 
   data.tiles.allocate(built.size());
   std::size_t blocks = top.nodes.size(), fine = 0, ids = 0;
@@ -137,7 +140,8 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   data->stats.objects = meshes.size();
   if (soup.size() > 0) {
     Progress progress(options.progress);
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    const int cores = tbb::info::default_concurrency();
+    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
     arena.execute([&] {
       auto built = [&] {
         const auto parts = index::partition(soup, [&](double done) { progress.tick(kPartitionShare * done); });

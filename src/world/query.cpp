@@ -38,7 +38,9 @@ void check(const Body& body, const Vec3& from, const Vec3& motion) {
 class Pieces {
  public:
   Pieces(const Body& body, const Vec3& from, const Vec3& motion)
-      : body_(body), from_(from), motion_(motion),
+      : body_(body),
+        from_(from),
+        motion_(motion),
         count_(std::max(1, static_cast<int>(std::ceil(largest(motion) / index::kLongestPiece)))) {
     // Starts of later pieces are rounded: three roundings of coordinates no larger than this.
     if (count_ > 1) body_.radius += 0x1p-50 * (largest(from) + largest(motion));
@@ -83,9 +85,9 @@ TriangleId triangle_id(const index::Index& index, const index::Place& place) {
 Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place) {
   const auto triangle = index::local_triangle(index, place, piece.start);
   Contact c;
-  static_cast<Proximity&>(c) =
-      piece.motion == Vec3(0.0) ? certified::proximity(piece.body, triangle)
-                                : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
+  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
+                                   ? certified::proximity(piece.body, triangle)
+                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
   c.point += piece.start;
   c.distance -= index::stored_error(index.tiles[place.tile]);
   c.triangle = triangle_id(index, place);
