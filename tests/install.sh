@@ -2,7 +2,7 @@
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
-#   install.sh program SOURCE PREFIX WORK CXX   runs the installed roam on a scene that it made
+#   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
 what=$1 source=$2 prefix=$3 work=$4 compiler=$5
 rm -rf "$work"
@@ -41,8 +41,13 @@ case $what in
     ;;
   program)
     cd "$work"
-    "$prefix/bin/roam" make gallery -o gallery.ply --triangles 20k
-    expect '"violations": 0' "$prefix/bin/roam" walk gallery.ply --path gallery-straight.path --mode fly --speed 50 \
-      --verify --json
+    mkdir build
+    ln -s "$prefix/bin/roam" build/roam
+    mapfile -t commands < <(sed -n '/^```sh$/,/^```$/p' "$source/README.md" | grep 'build/roam ')
+    ((${#commands[@]} > 0)) || { echo "README.md shows no command line"; exit 1; }
+    for command in "${commands[@]}"; do
+      echo "\$ $command"
+      bash -c "set -o pipefail; $command" || { echo "failed with status $?"; exit 1; }
+    done
     ;;
 esac
