@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
+#   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
 #   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
@@ -8,11 +9,11 @@ what=$1 source=$2 prefix=$3 work=$4 compiler=$5
 rm -rf "$work"
 mkdir -p "$work"
 
-# build PROGRAM.cpp: against the installed package only, with an ordinary compiler's warnings as errors.
+# build EXAMPLE [CMAKE ARGUMENTS...]: against the installed package only, with ordinary warnings as errors.
 build() {
-  cp -r "$source/examples/sweep_a_sphere" "$work/example"
+  cp -r "$source/examples/$1" "$work/example"
   cmake -S "$work/example" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
-    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" -DSWEEP_A_SPHERE_SOURCE="$1" > "$work/log" || { cat "$work/log"; exit 1; }
+    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" "${@:2}" > "$work/log" || { cat "$work/log"; exit 1; }
   cmake --build "$work/build" >> "$work/log" || { cat "$work/log"; exit 1; }
 }
 
@@ -27,14 +28,22 @@ expect() {
 
 case $what in
   example)
-    build sweep_a_sphere.cpp
+    build sweep_a_sphere
     expect 'stops at x = 19.' "$work/build/sweep_a_sphere"
+    ;;
+  import)
+    build walk_a_path
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
+    printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
+    # The package may have been built for another prefix than this.
+    ROAM_READER=$prefix/libexec/roam/roam-reader \
+      expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
     ;;
   readme)
     sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"
     lines=$(grep -c . "$work/readme.cpp")
     ((lines >= 8 && lines <= 12)) || { echo "README.md promises ten lines of C++ and shows $lines"; exit 1; }
-    build "$work/readme.cpp"
+    build sweep_a_sphere -DSWEEP_A_SPHERE_SOURCE="$work/readme.cpp"
     expected=$(sed -n 's/^It prints `\(.*\)`\.$/\1/p' "$source/README.md")
     [[ $expected ]] || { echo "README.md does not say what its example prints"; exit 1; }
     expect "$expected" "$work/build/sweep_a_sphere"
