@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "adversarial_queries.h"
 #include "oracle.h"
@@ -110,7 +111,27 @@ Verdict judge(Kind kind, bool capsule, const roam::Vec3& origin, std::uint64_t s
   return v;
 }
 
-class EverySweep : public testing::TestWithParam<std::tuple<Kind, bool>> {};
+struct Case {
+  Kind kind;
+  bool capsule;
+};
+
+std::string name(const Case& c) {
+  return std::string(adversarial::name(c.kind)) + (c.capsule ? "_capsule" : "_sphere");
+}
+
+void PrintTo(const Case& c, std::ostream* out) { *out << name(c); }
+
+std::vector<Case> every_case() {
+  std::vector<Case> cases;
+  for (const Kind kind : adversarial::kinds) {
+    cases.push_back({kind, false});
+    cases.push_back({kind, true});
+  }
+  return cases;
+}
+
+class EverySweep : public testing::TestWithParam<Case> {};
 
 TEST_P(EverySweep, IsNeitherMissedNorLateNorEarly) {
   const auto [kind, capsule] = GetParam();
@@ -138,10 +159,7 @@ TEST_P(EverySweep, IsNeitherMissedNorLateNorEarly) {
   RecordProperty("misses", misses);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hard, EverySweep, testing::Combine(testing::ValuesIn(adversarial::kinds), testing::Bool()),
-                         [](const auto& test) {
-                           return std::string(adversarial::name(std::get<0>(test.param))) +
-                                  (std::get<1>(test.param) ? "_capsule" : "_sphere");
-                         });
+INSTANTIATE_TEST_SUITE_P(Hard, EverySweep, testing::ValuesIn(every_case()),
+                         [](const auto& test) { return name(test.param); });
 
 }  // namespace

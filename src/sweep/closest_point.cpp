@@ -79,20 +79,6 @@ void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Cl
   improve(best, c);
 }
 
-/// Whether the vertical line through `centre` meets the face within the axis; `point` is set if so.
-bool pierces(const Obstacle& o, const Vec3& centre, Vec3& point) {
-  const Vec3 a = o.corner[0] - centre, b = o.corner[1] - centre, c = o.corner[2] - centre;
-  const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
-  const bool left = ab >= 0.0 && bc >= 0.0 && ca >= 0.0;
-  const bool right = ab <= 0.0 && bc <= 0.0 && ca <= 0.0;
-  const double area = ab + bc + ca;
-  if (!(left || right) || area == 0.0) return false;
-  const double z = (bc * a.z + ca * b.z + ab * c.z) / area;
-  if (!(std::abs(z) <= o.half_height)) return false;
-  point = {centre.x, centre.y, centre.z + z};
-  return true;
-}
-
 }  // namespace
 
 Vec3 perpendicular_to_edge(const Obstacle& o, int i, const Vec3& x) noexcept {
@@ -140,7 +126,6 @@ Closest closest_to_axis(Obstacle& o, const Vec3& centre) noexcept {
   if (lowest < bottom) improve(best, closest_to_point(o, centre - up));
   if (highest < bottom || lowest > top) return best;
   for (int i = 0; i < 3; ++i) improve_with_axis_and_edge(o, i, centre, best);
-  if (Vec3 point; pierces(o, centre, point)) best = {Vec3(0.0), 0.0, 0.0, point, Feature::face, Vec3(0.0), true};
   // Rounding can hide an edge that lies as high as an end.
   if (best.squared == std::numeric_limits<double>::infinity()) {
     best = closest_to_point(o, centre + up);

@@ -15,13 +15,13 @@ struct Closest {
   Vec3 point;           ///< on the triangle
   Feature feature;
   Vec3 straight{0.0};  ///< the edge or axis along which the closest points may slide; zero if neither, or both
-  bool meets = false;  ///< the axis pierces the face: `away` means nothing
 };
 
 /// Closest point of the triangle to a point.
 [[nodiscard]] Closest closest_to_point(Obstacle& obstacle, const Vec3& p) noexcept;
 
-/// Closest points of the triangle and the vertical axis about `centre`.
+/// Closest points of the triangle and the vertical axis about `centre`. An axis that pierces the face has none: then
+/// the answer is the best that its ends and the edges offer, and no plane can confirm it.
 [[nodiscard]] Closest closest_to_axis(Obstacle& obstacle, const Vec3& centre) noexcept;
 
 /// The part of `x` that is perpendicular to the edge, to working precision relative to itself.

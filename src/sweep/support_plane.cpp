@@ -96,12 +96,12 @@ void Obstacle::find_face_normal() noexcept {
 SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexcept {
   const Closest closest = closest_to_axis(o, centre);
   SupportPlane plane{Vec3(0.0), 0.0, closest.point, closest.feature, closest.straight};
-  if (!closest.meets && closest.away_squared > shortest_squared) {
+  if (closest.away_squared > shortest_squared) {
     const Vec3 n = closest.away * (1.0 / std::sqrt(closest.away_squared));
     const double farthest = std::max({glm::dot(n, o.corner[0]), glm::dot(n, o.corner[1]), glm::dot(n, o.corner[2])});
     plane.normal = n;
     plane.offset = -farthest - span_along_axis(o, n);
-    // Lower bound and distance agree: no other plane can be better.
+    // Lower bound and distance agree: no other plane can be better. They never do where the axis pierces the face.
     if (plane.value(centre) >= std::sqrt(closest.squared) - slack) return plane;
   }
   BestPlane best{o, centre};
@@ -111,10 +111,8 @@ SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexce
   if (best.value <= 0.0) {
     // They meet: the point that matters is the one that is left last on the way out, and stays closest beyond.
     const Closest last = closest_to_axis(o, centre + (slack - 2.0 * best.value) * best.normal);
-    if (!last.meets) {
-      plane.point = last.point;
-      plane.feature = last.feature;
-    }
+    plane.point = last.point;
+    plane.feature = last.feature;
   }
   return plane;
 }
