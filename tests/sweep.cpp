@@ -207,6 +207,42 @@ TEST(Sweep, MotionsFromANanometreToAHundredKilometresAreAnswered) {
   EXPECT_NEAR(huge.time, 0.5, 1e-13);
 }
 
+TEST(Sweep, AnyMixOfLengthsUpToTheLimitIsAnsweredSafely) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> in(-1.0, 1.0);
+  const auto length = [&](double least, double most) {
+    return in(random) < -0.8 ? 0.0 : std::pow(10.0, least + (most - least) * (0.5 + 0.5 * in(random)));
+  };
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 20000; ++i) {
+    // A scale for the scene, from far below a metre to the limit, and lengths far below that scale.
+    const double most = i % 2 == 0 ? 11.9 : -300.0 + 311.0 * (0.5 + 0.5 * in(random)), least = most - 20.0;
+    const auto point = [&] {
+      return Vec3(std::copysign(length(least, most), in(random)), std::copysign(length(least, most), in(random)),
+                  std::copysign(length(least, most), in(random)));
+    };
+    const Body body{length(least, most), i % 3 == 0 ? 0.0 : length(least, most)};
+    const Triangle t{point(), point(), point()};
+    const Vec3 from = point(), motion = point();
+    const auto s = roam::sweep(body, from, motion, t);
+    (s.hit ? hits : misses) += 1;
+    ASSERT_TRUE(s.time >= 0.0 && s.time <= 1.0);
+    ASSERT_TRUE(std::isfinite(s.distance));
+    using oracle::Quad;
+    if (s.distance >= 0.0) {
+      EXPECT_GE(oracle::least_distance<Quad>(body, from, motion, s.time, t), Quad(body.radius));
+    }
+    if (!s.hit) continue;
+    ASSERT_NEAR(glm::dot(s.normal, s.normal), 1.0, 1e-15);
+    const double reach = body.radius + body.half_height + 3.0 * std::pow(10.0, most) * 4.0;
+    const Quad gap = oracle::distance_on_the_way<Quad>(body, from, motion, s.time, t) - Quad(body.radius);
+    // Faces of less than 1e-130 m^2 have no normal.
+    EXPECT_LE(gap, Quad(1.5e-14 * reach + 1e-64));
+  }
+  EXPECT_GT(hits, 2000);
+  EXPECT_GT(misses, 2000);
+}
+
 TEST(Sweep, RayMeetsWhatItPointsAt) {
   const Body point{.radius = 0.0};
   const auto s = roam::sweep(point, {1, 1, 2}, {0, 0, -4}, floor_triangle);

@@ -97,7 +97,8 @@ Query mapped(Query q, Map map) {
 }
 
 TEST(SweepMetamorphic, TranslationDoesNotChangeABit) {
-  for (const Vec3& by : {Vec3(-13739, 253, 182), Vec3(1e5, 1e5, -1e5), Vec3(6.4e6, -6.4e6, 6.4e6)}) {
+  for (const Vec3& by :
+       {Vec3(-13739, 253, 182), Vec3(1e5, 1e5, -1e5), Vec3(6.4e6, -6.4e6, 6.4e6), Vec3(1e9, -1e9, 1e9)}) {
     Generator generator;
     for (int i = 0; i < queries; ++i) {
       const Query q = generator.next();

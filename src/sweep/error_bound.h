@@ -33,8 +33,8 @@ inline constexpr double arrival_factor = 4.0;
 /// the rounding of the closest point, and the triangle's own error.
 inline constexpr double hit_factor = arrival_factor + 4.0;
 
-/// Directions shorter than the root of this (m^2) have no reliable length: their square would lose digits to
-/// underflow. They are not used; 1e-130 m is less than any error bound of a scene in metres.
+/// Directions whose square (m^2; of a face, m^4) is less have no reliable length: the square has lost digits to
+/// underflow. They are not used; what they could tell is below 1e-65 m.
 inline constexpr double shortest_squared = 1e-260;
 
 /// Advances in one sweep. The proof allows 116; tests see 11 at most. Beyond it the sweep would stop where it is: too
