@@ -109,6 +109,15 @@ Connections:  {
   EXPECT_TRUE(notes_contain(scene, "its unit is 0.01 m"));
 }
 
+TEST(ImportFormats, SaysWhereAReaderThatKeepsFloatsRounds) {
+  const TemporaryFolder folder;
+  const Scene far = import_scene(folder.write("far.off", "OFF\n3 1 0\n4000000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
+  EXPECT_TRUE(notes_contain(far, "Coordinates of up to 4000000 m"));
+  EXPECT_TRUE(notes_contain(far, "rounded by up to 0.24 m"));
+  const Scene near = import_scene(folder.write("near.off", "OFF\n3 1 0\n8000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
+  EXPECT_TRUE(near.report.notes.empty());
+}
+
 TEST(ImportFormats, ReadsOff) {
   const TemporaryFolder folder;
   const Scene scene = import_scene(folder.write("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 3\n"));

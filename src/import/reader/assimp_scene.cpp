@@ -80,7 +80,12 @@ class AssimpWalk {
     index_.clear();
     const unsigned count = mesh.mVertices == nullptr ? 0 : mesh.mNumVertices;
     // Most of assimp's readers give every face corners of its own.
-    for (unsigned i = 0; i < count; ++i) index_.push_back(sink_.add_shared_vertex(to_world * mesh.mVertices[i]));
+    for (unsigned i = 0; i < count; ++i) {
+      const Vec3 v = to_world * mesh.mVertices[i];
+      // assimp's vertices and transforms alike are floats.
+      for (int k = 0; k < 3; ++k) sink_.note_rounded(v[k]);
+      index_.push_back(sink_.add_shared_vertex(v));
+    }
     const auto corner = [&](unsigned i) { return i < count ? index_[i] : std::numeric_limits<std::uint32_t>::max(); };
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];

@@ -228,8 +228,23 @@ void MeshSink::report_progress(std::uint64_t bytes_read) {
   frames_.flush();
 }
 
+void MeshSink::say_what_was_rounded() {
+  const double largest = largest_rounded_ * settings_.metres_per_unit;
+  if (!(largest <= World::coordinate_limit)) return;
+  // Neighbouring floats at x are up to x * 2^-23 apart; a millimetre of that is worth a word.
+  const double spacing = std::ldexp(largest, -std::numeric_limits<float>::digits + 1);
+  constexpr double worth_telling = 1e-3;
+  if (spacing < worth_telling) return;
+  report_note(
+      fmt::format("Coordinates of up to {:.0f} m came through a reader that keeps floats: they are rounded by up "
+                  "to {:.2g} m. OBJ, STL and PLY keep every digit; so does a scene that is stored near its own "
+                  "origin.",
+                  largest, spacing / 2.0));
+}
+
 void MeshSink::end() {
   finish_object();
+  say_what_was_rounded();
   PayloadWriter payload;
   payload.add(totals_).add(static_cast<std::uint32_t>(matched_.size()));
   for (const std::uint8_t matched : matched_) payload.add(matched);

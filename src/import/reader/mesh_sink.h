@@ -51,8 +51,12 @@ class MeshSink {
   /// Adds a triangle of vertices of the current object. One that has a bad vertex, or an index that add_vertex did not
   /// return, is left out and counted.
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  /// Counts triangles whose corners do not exist in the file.
-  void leave_out_triangles(std::uint64_t count) { bad_triangles_ += count; }
+  /// Tells a coordinate that the reader kept as a float though the file may say more; end() notes what that costs.
+  void note_rounded(double coordinate) {
+    // Written so that a NaN changes nothing; vertices are checked elsewhere.
+    const double size = coordinate < 0.0 ? -coordinate : coordinate;
+    if (size > largest_rounded_) largest_rounded_ = size;
+  }
   /// How many vertices the current object has.
   [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
   /// Whether the current object is left out by name, so that its vertices need not be added.
@@ -76,6 +80,7 @@ class MeshSink {
   [[nodiscard]] Vec3 placed(const Vec3& vertex) const;
   bool matches_ignore(std::span<const std::string> names);
   void finish_object();
+  void say_what_was_rounded();
   void send_vertices();
   void send_triangles();
   void send_left_out(LeftOutReason reason, std::uint64_t vertices, std::uint64_t triangles);
@@ -88,6 +93,7 @@ class MeshSink {
   std::vector<std::uint8_t> matched_;
   std::set<std::string, std::less<>> said_;
   std::uint64_t bytes_read_ = 0;
+  double largest_rounded_ = 0.0;  ///< in units of the file
   std::chrono::steady_clock::time_point progress_sent_{};
 
   // The current object.

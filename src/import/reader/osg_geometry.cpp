@@ -44,6 +44,7 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
   void set(unsigned int count, const Vertex* vertices) {
     count_ = vertices == nullptr ? 0 : count;
     vertices_ = vertices;
+    is_float_ = std::is_same_v<typename Vertex::value_type, float>;
     get_ = [](const void* array, std::uint64_t i) { return point(static_cast<const Vertex*>(array)[i]); };
     index_in_object_.assign(count_, none);
   }
@@ -59,7 +60,11 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
     if (i >= count_) return none;
     std::uint32_t& index = index_in_object_[i];
     if (index == none) {
-      const osg::Vec3d v = get_(vertices_, i) * to_world_;
+      const osg::Vec3d in_file = get_(vertices_, i);
+      if (is_float_) {
+        for (int k = 0; k < 3; ++k) sink_.note_rounded(in_file[k]);
+      }
+      const osg::Vec3d v = in_file * to_world_;
       // Arrays without indices repeat the vertices that triangles share.
       index = unindexed ? sink_.add_shared_vertex({v.x(), v.y(), v.z()}) : sink_.add_vertex({v.x(), v.y(), v.z()});
     }
@@ -105,6 +110,7 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
   MeshSink& sink_;
   std::uint64_t count_ = 0;
   const void* vertices_ = nullptr;
+  bool is_float_ = false;
   osg::Vec3d (*get_)(const void*, std::uint64_t) = nullptr;
   std::vector<std::uint32_t> index_in_object_;
 };
