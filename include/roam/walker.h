@@ -263,6 +263,7 @@ class Walker {
   double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
   double clearance_ = 0.0;  ///< certified at position_, metres
+  double nearest_ = 0.0;    ///< upper bound of the gap at position_, metres: see motion::Move
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;

@@ -117,11 +117,14 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     stance.grounded = stance.firm = false;
     return;
   }
-  const double drop = s.time * reach - move.skin / s.normal.z;
+  const double to_ground = s.time * reach;
+  move.nearest = to_ground + hit_tolerance;
+  const double drop = to_ground - move.skin / s.normal.z;
   const double rest = rest_part * 2.0 * move.skin;
   if (std::abs(drop) * s.normal.z > rest) {
     if (drop > 0.0) {
       move.go(down * drop);
+      move.nearest = to_ground - drop + hit_tolerance;
     } else {
       move.advance(down * drop, 0.0);
     }

@@ -68,6 +68,7 @@ void Move::go(const Vec3& motion) {
   if (!(length > 0.0)) return;
   clearance = clearance_over(motion);
   place += motion;
+  nearest += length;
   const Vec3 direction = motion / length;
   const bool straight_on = !report.corners.empty() && direction == last_direction_ && merged_ < merge_limit &&
                            report.corners.back().height == height;
@@ -91,6 +92,7 @@ void Move::ease_off(const Advance& touch) {
 void Move::resize(double new_height, const Vec3& new_place) {
   height = new_height;
   place = new_place;
+  nearest = std::numeric_limits<double>::infinity();
   report.corners.push({place, height, time, clearance, false});
   last_direction_ = Vec3(0.0);
 }

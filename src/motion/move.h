@@ -2,12 +2,17 @@
 /// \file
 /// A step under way: where the body is, how it advances, and the report that is written as it goes.
 
+#include <limits>
+
 #include "roam/walker.h"
 
 namespace roam::motion {
 
 /// World::sweep keeps the body this much less than its radius, at most, from every triangle (world.h), metres.
 constexpr double world_tolerance = 1e-6;
+
+/// A hit is answered when a triangle is at most this much farther than the radius (world.h), metres.
+constexpr double hit_tolerance = 2e-3;
 
 /// Part of the skin within which a body that touches something counts as being at rest there. Moving it back and forth
 /// by rounding errors would be seen as jitter.
@@ -52,6 +57,8 @@ class Move {
   double height;
   double clearance;   ///< certified since the step began, or since it was last put somewhere, metres
   double time = 0.0;  ///< seconds since the step began
+  /// An upper bound of the gap at the present place, metres: to look for the nearest triangle farther off is in vain.
+  double nearest = std::numeric_limits<double>::infinity();
 
   Move(const World& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
        double whole_height, double certified)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <string>
 
 #include "motion/crouch.h"
@@ -49,6 +50,7 @@ void Walker::begin() {
   report_.events.clear();
   report_.from = position_;
   report_.elapsed = 0.0;
+  nearest_ = std::numeric_limits<double>::infinity();
   report_.blocked = report_.held = false;
 }
 
@@ -58,7 +60,8 @@ void Walker::finish() {
   report_.grounded = stance_.grounded;
   clearance_ = 0.0;
   if (mode_ != Mode::ghost && !held_) {
-    clearance_ = settings_.radius + world_->clearance(body(), position_, settings_.clearance_reach).distance;
+    const double reach = std::min(settings_.clearance_reach, nearest_);
+    clearance_ = settings_.radius + world_->clearance(body(), position_, reach).distance;
   }
   report_.clearance = report_.least_clearance = clearance_;
   for (const Corner& c : report_.corners) {
@@ -73,6 +76,7 @@ void Walker::remember_safe() {
 
 void Walker::put(const Vec3& place, double time, EventKind kind) {
   position_ = place;
+  nearest_ = std::numeric_limits<double>::infinity();
   const Corner corner{position_, height_, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
   if (!report_.corners.empty() && report_.corners.back().teleport) {
@@ -162,6 +166,7 @@ motion::Ending Walker::move_for(const WalkerInput& input, double dt) {
   }
   position_ = m.place;
   height_ = m.height;
+  nearest_ = m.nearest;
   report_.elapsed = m.time;
   return end;
 }
