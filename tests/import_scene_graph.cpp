@@ -201,9 +201,53 @@ std::string metadata(const std::string& srs, const std::string& origin) {
          "</SRSOrigin></ModelMetadata>\n";
 }
 
+/// A chunk of a 3DS file.
+std::string chunk(std::uint16_t id, const std::string& content) {
+  return bytes_of(id) + bytes_of(static_cast<std::uint32_t>(content.size() + 6)) + content;
+}
+
+TEST(ImportSceneGraph, Reads3dsWithItsNumbers) {
+  std::string vertices = bytes_of(std::uint16_t{3}), faces = bytes_of(std::uint16_t{1});
+  for (const float c : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f, 7.f, 9.f, 8.f}) vertices += bytes_of(c);
+  for (const std::uint16_t i : {0, 1, 2, 0}) faces += bytes_of(i);
+  const std::string mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
+  const std::string object = chunk(0x4000, std::string("Ramp") + '\0' + mesh);
+  const TemporaryFolder folder;
+  const Scene scene = import_scene(
+      folder.write("ramp.3ds", chunk(0x4d4d, chunk(0x0002, bytes_of(std::uint32_t{3})) + chunk(0x3d3d, object))));
+  ASSERT_EQ(scene.report.triangles, 1u);
+  EXPECT_EQ(scene.meshes[0].name, "Ramp");
+  EXPECT_EQ(triangles_of(scene)[0], (Triangle{Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 9, 8)}));
+}
+
+TEST(ImportSceneGraph, ReadsAc3dWithItsNumbers) {
+  const TemporaryFolder folder;
+  const Scene scene = import_scene(folder.write(
+      "ramp.ac",
+      "AC3Db\nMATERIAL \"White\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 64 trans 0\nOBJECT world\nkids 1\n"
+      "OBJECT poly\nname \"Ramp\"\nloc 10 0 0\nnumvert 4\n1 2 3\n4 5 6\n7 9 8\n1 9 8\nnumsurf 1\nSURF 0x20\nmat 0\n"
+      "refs 4\n0 0 0\n1 1 0\n2 1 1\n3 1 1\nkids 0\n"));
+  ASSERT_EQ(scene.report.triangles, 2u);
+  EXPECT_EQ(scene.meshes[0].name, "Ramp");
+  EXPECT_EQ(triangles_of(scene)[0][0], Vec3(11, 2, 3));
+}
+
+TEST(ImportSceneGraph, ReadsDxfFacesWithTheirNumbers) {
+  std::string face = "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\nRamp\n";
+  const char* codes[] = {"10", "20", "30", "11", "21", "31", "12", "22", "32", "13", "23", "33"};
+  const char* values[] = {"1", "2", "3", "4", "5", "6", "7", "9", "8", "1", "9", "8"};
+  for (int i = 0; i < 12; ++i) face += std::string(codes[i]) + "\n" + values[i] + "\n";
+  const TemporaryFolder folder;
+  const Scene scene = import_scene(folder.write("ramp.dxf", face + "0\nENDSEC\n0\nEOF\n"));
+  EXPECT_EQ(scene.report.triangles, 2u);
+  EXPECT_EQ(bounds_of(scene).lower, Vec3(1, 2, 3));
+  EXPECT_EQ(bounds_of(scene).upper, Vec3(7, 9, 8));
+}
+
 /// A tile of one triangle with a corner at (x, 0, 0): the reader of .osgb knows its text form by its first word.
 std::string tile(const std::string& x) {
-  return "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::Geode {\n UniqueID 1\n Drawables 1 {\n  osg::Geometry {\n"
+  return "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::Geode {\n UniqueID 1\n Drawables 1 {\n  "
+         "osg::Geometry {\n"
          "   UniqueID 2\n   PrimitiveSetList 1 {\n    osg::DrawArrays {\n     UniqueID 3\n     Mode TRIANGLES\n"
          "     Count 3\n    }\n   }\n   VertexArray TRUE {\n    osg::Vec3Array {\n     UniqueID 4\n"
          "     Binding BIND_PER_VERTEX\n     vector 3 {\n      " +

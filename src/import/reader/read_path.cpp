@@ -25,13 +25,13 @@ struct Format {
 };
 /// Where both libraries know a format, the one that reads more of the files that are about: OpenSceneGraph refuses some
 /// exporters' Collada, and assimp knows no 3DS hierarchy.
-constexpr std::array<Format, 22> formats{
-    {{"obj", Family::obj},     {"stl", Family::stl},     {"ply", Family::ply},    {"ive", Family::osg},
-     {"osg", Family::osg},     {"osgb", Family::osg},    {"osgt", Family::osg},   {"osgx", Family::osg},
-     {"3ds", Family::osg},     {"flt", Family::osg},     {"dae", Family::assimp}, {"ac", Family::osg},
-     {"dxf", Family::osg},     {"lwo", Family::osg},     {"x", Family::osg},      {"glb", Family::assimp},
-     {"gltf", Family::assimp}, {"fbx", Family::assimp},  {"ifc", Family::assimp}, {"off", Family::assimp},
-     {"3mf", Family::assimp},  {"blend", Family::assimp}}};
+constexpr std::array<Format, 23> formats{
+    {{"obj", Family::obj},    {"stl", Family::stl},     {"ply", Family::ply},     {"ive", Family::osg},
+     {"osg", Family::osg},    {"osgb", Family::osg},    {"osgt", Family::osg},    {"osgx", Family::osg},
+     {"3ds", Family::osg},    {"flt", Family::osg},     {"dae", Family::assimp},  {"ac", Family::osg},
+     {"dxf", Family::osg},    {"lwo", Family::osg},     {"x", Family::osg},       {"iv", Family::osg},
+     {"glb", Family::assimp}, {"gltf", Family::assimp}, {"fbx", Family::assimp},  {"ifc", Family::assimp},
+     {"off", Family::assimp}, {"3mf", Family::assimp},  {"blend", Family::assimp}}};
 
 /// Formats that people will try, and what to do instead.
 struct Unsupported {
