@@ -34,7 +34,6 @@ constexpr auto cm = LengthUnit::cm;
 constexpr auto in = LengthUnit::in;
 constexpr auto y_up = Measured::z_up_turned_y_up;
 constexpr auto z_up = Measured::y_up_turned_z_up;
-constexpr auto file = Measured::as_in_file;
 
 const Known known[] = {
     {"underground/subt_tunnel_practice_1.ive", 175778, {8.29967, -93.7739, -42.9243, 243.774, 82.8181, 5.53121}},
