@@ -42,8 +42,6 @@ install_missing() {
 # configure PRESET [ARGUMENTS...]: quiet when it succeeds, the whole log when it does not.
 configure() {
   local log
-  # Paths relative to the clone, so that the cache serves every clone alike.
-  export CCACHE_BASEDIR=$PWD
   if log=$(cmake --preset "$@" 2>&1 < /dev/null); then
     return 0
   fi
