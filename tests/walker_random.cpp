@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "roam/walker.h"
@@ -58,7 +59,7 @@ Mesh gallery(scenes::Random& random) {
   for (int i = 0; i <= rings; ++i) {
     const double x = -side + 2.0 * side * i / rings;
     for (int k = 0; k <= parts; ++k) {
-      const double a = M_PI * k / parts, r = random.between(1.15, 1.35);
+      const double a = std::numbers::pi * k / parts, r = random.between(1.15, 1.35);
       ring[i].push_back({x, r * std::cos(a), 1.2 + 1.1 * r * std::sin(a)});
     }
     ring[i].insert(ring[i].begin(), Vec3(x, 1.25, random.between(-0.04, 0.04)));
@@ -143,7 +144,7 @@ void wander(const roam::World& world, const scenes::Judge& judge, const WalkerSe
     return origin + Vec3(p.x, p.y * (half_width / side), p.z + 0.5 * settings.height);
   };
   roam::Walker walker(world, settings, mode, somewhere());
-  double heading = random.between(0.0, 2.0 * M_PI), climb = 0.0;
+  double heading = random.between(0.0, 2.0 * std::numbers::pi), climb = 0.0;
   for (int i = 0; i < steps; ++i) {
     if (walker.held() || random.chance(0.002)) {
       walker.place(somewhere());
@@ -153,7 +154,7 @@ void wander(const roam::World& world, const scenes::Judge& judge, const WalkerSe
       }
       tally.worst = std::min(tally.worst, scenes::margin(judge, walker.report(), settings.radius));
     }
-    if (walker.report().blocked || random.chance(0.02)) heading = random.between(0.0, 2.0 * M_PI);
+    if (walker.report().blocked || random.chance(0.02)) heading = random.between(0.0, 2.0 * std::numbers::pi);
     if (random.chance(0.05)) climb = random.between(-1.0, 1.0);
     const double speed = random.chance(0.9) ? random.between(0.2, 3.0) : std::pow(10.0, random.between(-2.0, 2.0));
     const double dt = random.chance(0.9) ? 1.0 / 60.0 : std::pow(10.0, random.between(-5.0, -0.5));

@@ -97,7 +97,8 @@ enum class EventKind : std::uint8_t {
   crouched,      ///< became low to pass under something, or on command
   stood,         ///< found head-room and stood up again
   placed,        ///< put at a place by the caller
-  freed,         ///< was put where it did not fit and moved, by a checked way, to where it does
+  freed,         ///< was put where it did not fit and moved, by a checked way, to where it does; not said of the few
+                 ///< millimetres that part a body put exactly in touch from what it touches
   held,          ///< cannot move: does not fit here and no checked way leads out, or nothing is below and it was put
                  ///< back to the last safe place
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
@@ -249,7 +250,7 @@ class Walker {
   void settle();
   void free_body();
   void come_back();
-  void put(const Vec3& place, double time, EventKind kind);
+  void put(const Vec3& place, double time);
   void hold();
   void remember_safe();
   void finish();

@@ -10,8 +10,9 @@
 namespace roam::motion {
 namespace {
 
-const double rim_cosine = std::cos(rim_slope_degrees * 3.14159265358979323846 / 180.0);
-const double rim_sine = std::sqrt(1.0 - rim_cosine * rim_cosine);
+/// Of rim_slope_degrees.
+constexpr double rim_cosine = 0.34202014332566873;
+constexpr double rim_sine = 0.93969262078590838;
 
 /// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is walked on.
 constexpr double cosine_rounding = 1e-9;

@@ -85,7 +85,7 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   const Vec3 gone = move.place - origin;
   keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
   // What rolls off a rim falls at the speed at which it came down.
-  if (!stance.grounded) stance.rise_speed = std::min(0.0, (move.place.z - origin.z) / seconds);
+  if (!stance.grounded && seconds > 0.0) stance.rise_speed = std::min(0.0, (move.place.z - origin.z) / seconds);
   move.time = start + seconds;
   return true;
 }

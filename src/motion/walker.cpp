@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "motion/crouch.h"
@@ -28,7 +29,7 @@ Walker::Walker(const World& world, const WalkerSettings& settings, Mode mode, co
     : world_(&world), settings_(settings), mode_(mode) {
   check(settings);
   skin_ = least_skin + 2.0 * world.stats().largest_error_m;
-  slope_cosine_ = std::cos(settings.slope_degrees * (3.14159265358979323846 / 180.0));
+  slope_cosine_ = std::cos(settings.slope_degrees * (std::numbers::pi / 180.0));
   place(start);
 }
 
@@ -74,7 +75,7 @@ void Walker::remember_safe() {
   safe_height_ = height_;
 }
 
-void Walker::put(const Vec3& place, double time, EventKind kind) {
+void Walker::put(const Vec3& place, double time) {
   position_ = place;
   nearest_ = std::numeric_limits<double>::infinity();
   const Corner corner{position_, height_, time, 0.0, true};
@@ -84,7 +85,6 @@ void Walker::put(const Vec3& place, double time, EventKind kind) {
   } else {
     report_.corners.push(corner);
   }
-  report_.events.push({kind, position_});
 }
 
 void Walker::hold() {
@@ -96,11 +96,11 @@ void Walker::hold() {
 void Walker::free_body() {
   const std::optional<Vec3> way_out =
       motion::nearest_free(*world_, body(), position_, height_, skin_, motion::Way::checked);
-  if (way_out) {
-    put(*way_out, report_.elapsed, EventKind::freed);
-  } else {
-    hold();
-  }
+  if (!way_out) return hold();
+  // Put exactly in touch, a body is a hair too near: that is set right without a word.
+  const bool worth_saying = glm::length(*way_out - position_) > 2.0 * skin_ + motion::hit_tolerance;
+  put(*way_out, report_.elapsed);
+  if (worth_saying) report_.events.push({EventKind::freed, position_});
 }
 
 void Walker::settle() {
@@ -141,7 +141,8 @@ void Walker::move(const WalkerInput& input, double dt) {
   if (end == motion::Ending::bottomless) {
     height_ = safe_height_;
     stance_ = {};
-    put(safe_, report_.elapsed, EventKind::held);
+    put(safe_, report_.elapsed);
+    report_.events.push({EventKind::held, position_});
     report_.held = true;
     settle();
   }
@@ -178,13 +179,15 @@ const StepReport& Walker::place(const Vec3& centre) {
   stance_ = {};
   held_ = false;
   safe_height_ = 0.0;
-  put(centre, 0.0, EventKind::placed);
+  put(centre, 0.0);
+  report_.events.push({EventKind::placed, position_});
   if (mode_ != Mode::ghost && !motion::fits(*world_, body(), position_)) {
     const double low = motion::crouched_height(settings_);
     const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
     if (mode_ == Mode::walk && low < height_ && motion::fits(*world_, Body::capsule(settings_.radius, low), lowered)) {
       height_ = low;
-      put(lowered, 0.0, EventKind::crouched);
+      put(lowered, 0.0);
+      report_.events.push({EventKind::crouched, position_});
     } else {
       free_body();
     }
@@ -213,10 +216,12 @@ void Walker::come_back() {
   const std::optional<Vec3> near =
       motion::nearest_free(*world_, body(), position_, std::min(height_, to_safe), skin_, motion::Way::any);
   if (near) {
-    put(*near, 0.0, EventKind::returned);
+    put(*near, 0.0);
+    report_.events.push({EventKind::returned, position_});
   } else if (known) {
     height_ = safe_height_;
-    put(safe_, 0.0, EventKind::returned);
+    put(safe_, 0.0);
+    report_.events.push({EventKind::returned, position_});
   } else {
     hold();
   }
