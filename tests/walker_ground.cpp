@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "walker_judged.h"
+
+namespace {
+
+using namespace scenes;
+
+TEST(Ground, ClimbsStairsAndComesDownAgain) {
+  Mesh m = floor_mesh();
+  for (int i = 0; i < 10; ++i) {
+    const double x = 1.0 + 0.28 * i, z = 0.17 * i;
+    add_wall(m, x, -2.0, x, 2.0, z, z + 0.17);
+    add_floor(m, x, -2.0, i == 9 ? 12.0 : x + 0.28, 2.0, z + 0.17);
+  }
+  Walk w(m, {}, Mode::walk, {-1.0, 0.0, 0.95});
+  w.go({1.4, 0.0, 0.0}, 6.0);
+  EXPECT_NEAR(w.feet(), 1.7, near_ground);
+  EXPECT_NEAR(w.walker.position().x, -1.0 + 8.4, 0.3);
+  EXPECT_GE(w.count(EventKind::stepped_up), 5);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+  w.go({-1.4, 0.0, 0.0}, 6.0);
+  EXPECT_NEAR(w.feet(), 0.0, near_ground);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+  EXPECT_EQ(w.count(EventKind::fell), 0);
+}
+
+TEST(Ground, StepsOntoAKerbOfStepHeightAtAnySpeedButNotOntoAHigherOne) {
+  for (const double speed : {0.05, 0.5, 1.4, 7.0}) {
+    for (const double height : {0.05, 0.15, 0.29, 0.31, 0.5}) {
+      Mesh m = floor_mesh();
+      add_wall(m, 1.0, -2.0, 1.0, 2.0, 0.0, height);
+      add_floor(m, 1.0, -2.0, 15.0, 2.0, height);
+      Walk w(m, {}, Mode::walk, {0.68, 0.0, 0.95});
+      w.go({speed, 0.0, 0.0}, 1.0 / speed);
+      SCOPED_TRACE(testing::Message() << "speed " << speed << ", kerb " << height);
+      if (height < 0.3) {
+        EXPECT_NEAR(w.feet(), height, near_ground);
+        EXPECT_NEAR(w.walker.position().x, 1.68, 0.1);
+      } else {
+        EXPECT_NEAR(w.feet(), 0.0, near_ground);
+        EXPECT_LT(w.walker.position().x, 0.7);
+        EXPECT_TRUE(w.walker.report().blocked);
+      }
+    }
+  }
+}
+
+TEST(Ground, ABigBallDoesNotRollUpAKerbThatIsTooHighToStepOnto) {
+  for (const double speed : {0.2, 1.4, 10.0}) {
+    Mesh m = floor_mesh();
+    add_wall(m, 2.0, -5.0, 2.0, 5.0, 0.0, 0.45);
+    add_floor(m, 2.0, -5.0, 15.0, 5.0, 0.45);
+    Walk w(m, {.radius = 0.7, .height = 1.4, .eye = 1.0}, Mode::walk, {0.5, 0.0, 0.71});
+    w.go({speed, 0.0, 0.0}, 3.0 / speed);
+    EXPECT_LT(w.walker.position().x, 2.0) << speed;
+    EXPECT_LT(w.feet(), 0.1) << speed;
+  }
+}
+
+Mesh ramp(double degrees) {
+  Mesh m = floor_mesh();
+  const double rise = 6.0 * std::tan(degrees * std::numbers::pi / 180.0);
+  add_quad(m, {1.0, -3.0, 0.0}, {7.0, -3.0, rise}, {7.0, 3.0, rise}, {1.0, 3.0, 0.0});
+  return m;
+}
+
+TEST(Ground, ClimbsARampJustBelowTheSlopeLimit) {
+  const Mesh m = ramp(44.0);
+  Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
+  w.go({1.4, 0.0, 0.0}, 3.0);
+  EXPECT_NEAR(w.walker.position().x, 4.2, 0.02);
+  EXPECT_GT(w.feet(), 2.5);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+  const Vec3 rest = w.walker.position();
+  w.go({0.0, 0.0, 0.0}, 1.0);
+  EXPECT_EQ(w.walker.position(), rest);
+  w.go({-1.4, 0.0, 0.0}, 3.0);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+  EXPECT_LT(w.feet(), near_ground);
+}
+
+TEST(Ground, DoesNotClimbARampJustAboveTheSlopeLimit) {
+  const Mesh m = ramp(46.0);
+  for (const double speed : {0.1, 1.4, 14.0}) {
+    Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
+    w.go({speed, 0.0, 0.0}, 3.0);
+    EXPECT_LT(w.feet(), 0.1) << speed;
+    EXPECT_LT(w.walker.position().x, 1.1) << speed;
+  }
+}
+
+TEST(Ground, SlidesDownASlopeThatIsTooSteepToStandOn) {
+  const Mesh m = ramp(60.0);
+  Walk w(m, {}, Mode::walk, {4.0, 0.0, 6.5});
+  w.go({0.0, 0.0, 0.0}, 6.0);
+  EXPECT_TRUE(w.walker.grounded());
+  EXPECT_LT(w.feet(), near_ground);
+  EXPECT_LT(w.walker.position().x, 1.0);
+}
+
+struct FlatFloor {
+  const char* name;
+  int fields;
+  Vec3 origin;
+  bool lossless;
+};
+
+class FlatFloors : public testing::TestWithParam<FlatFloor> {};
+
+TEST_P(FlatFloors, NeverCatchTheWalkerOnTheirInnerEdges) {
+  Mesh m = rough_tiling(GetParam().fields, 7);
+  shift(m, GetParam().origin);
+  const World world = build(m, GetParam().lossless);
+  Random random(3);
+  for (int walk = 0; walk < 40; ++walk) {
+    const double angle = random.between(0.0, 2.0 * std::numbers::pi);
+    const Vec3 velocity(1.4 * std::cos(angle), 1.4 * std::sin(angle), 0.0);
+    const Vec3 start = GetParam().origin + Vec3(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.95);
+    Walker w(world, {}, Mode::walk, start);
+    double lowest = w.feet().z, highest = lowest;
+    for (int i = 1; i <= 300; ++i) {
+      const StepReport& r = w.step({velocity}, frame);
+      ASSERT_FALSE(r.blocked);
+      ASSERT_TRUE(r.grounded);
+      ASSERT_TRUE(r.events.empty());
+      lowest = std::min(lowest, w.feet().z);
+      highest = std::max(highest, w.feet().z);
+      ASSERT_NEAR(w.position().x, start.x + velocity.x * i * frame, 1e-6);
+      ASSERT_NEAR(w.position().y, start.y + velocity.y * i * frame, 1e-6);
+    }
+    EXPECT_LT(highest - lowest, 0.004);
+  }
+}
+
+// 60 fields are 10^4 triangles in one tile of the index; 150 are 6 10^4 in several, with seams between them.
+INSTANTIATE_TEST_SUITE_P(Walker, FlatFloors,
+                         testing::Values(FlatFloor{"OneTile", 60, Vec3(0.0), false},
+                                         FlatFloor{"ManyTiles", 150, Vec3(0.0), false},
+                                         FlatFloor{"Lossless", 150, Vec3(0.0), true},
+                                         FlatFloor{"InTheDamGallery", 150, Vec3(-13739.0, 253.0, 182.0), false},
+                                         FlatFloor{"At6400Kilometres", 150, Vec3(6.4e6, -6.4e6, 6.4e6), false}),
+                         [](const testing::TestParamInfo<FlatFloor>& floor) { return std::string(floor.param.name); });
+
+/// Two floors with a crack of `width` between them, 5 m deep.
+Mesh split(double width) {
+  Mesh m;
+  const double half = 0.5 * width;
+  add_floor(m, -10.0, -5.0, -half, 5.0, 0.0);
+  add_floor(m, half, -5.0, 10.0, 5.0, 0.0);
+  add_wall(m, -half, -5.0, -half, 5.0, -5.0, 0.0);
+  add_wall(m, half, -5.0, half, 5.0, -5.0, 0.0);
+  add_floor(m, -half, -5.0, half, 5.0, -5.0);
+  return m;
+}
+
+TEST(Ground, ABallThatBridgesTheSplitCrossesItAndOneThatDoesNotFallsIn) {
+  const Mesh m = split(1.25);
+  for (const double dt : {1.0 / 240.0, 1.0 / 60.0, 1.0 / 25.0}) {
+    for (const double radius : {0.3, 0.5, 0.6, 0.62, 0.7, 0.8, 1.0}) {
+      SCOPED_TRACE(testing::Message() << "radius " << radius << ", dt " << dt);
+      Walk w(m, ball(radius), Mode::walk, {-4.0, 0.0, radius + 0.05});
+      double lowest = 0.0;
+      for (double t = 0.0; t < 6.0; t += dt) {
+        w.step({1.5, 0.0, 0.0}, dt);
+        lowest = std::min(lowest, w.feet());
+      }
+      if (radius > 0.65) {
+        EXPECT_GT(w.walker.position().x, 3.0);
+        EXPECT_EQ(w.count(EventKind::fell), 0);
+        // The lowest of the steps' ends, not of the way: it may miss the bottom by half a step.
+        const double bottom = -(radius - std::sqrt(radius * radius - 0.625 * 0.625));
+        EXPECT_GT(lowest, bottom - near_ground);
+        EXPECT_LT(lowest, bottom + 1.5 * dt);
+      } else {
+        EXPECT_EQ(w.count(EventKind::fell), 1);
+        EXPECT_LT(std::abs(w.walker.position().x), 0.625);
+        EXPECT_NEAR(w.feet(), -5.0, near_ground);
+      }
+    }
+  }
+}
+
+TEST(Ground, APersonFallsIntoTheSplit) {
+  const Mesh m = split(1.25);
+  Walk w(m, {}, Mode::walk, {-2.0, 0.0, 0.95});
+  w.go({1.5, 0.0, 0.0}, 4.0);
+  EXPECT_EQ(w.count(EventKind::fell), 1);
+}
+
+TEST(Ground, StepsOverANarrowJointWithoutNoticing) {
+  const Mesh m = split(0.05);
+  Walk w(m, {}, Mode::walk, {-2.0, 0.0, 0.95});
+  w.go({1.4, 0.0, 0.0}, 3.0);
+  EXPECT_GT(w.walker.position().x, 2.0);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+}
+
+TEST(Ground, JumpsAsHighAsToldAndLands) {
+  const Mesh m = floor_mesh();
+  Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
+  w.step({});
+  double highest = 0.0;
+  w.step({}, frame, true);
+  for (int i = 0; i < 120; ++i) {
+    w.step({});
+    highest = std::max(highest, w.feet());
+  }
+  EXPECT_NEAR(highest, 0.5, 0.02);
+  EXPECT_TRUE(w.walker.grounded());
+  EXPECT_EQ(w.count(EventKind::jumped), 1);
+  EXPECT_EQ(w.count(EventKind::landed), 1);
+  EXPECT_EQ(w.count(EventKind::fell), 0);
+}
+
+TEST(Ground, BumpsItsHeadAndComesDown) {
+  Mesh m = floor_mesh();
+  add_floor(m, -5.0, -5.0, 5.0, 5.0, 1.9);
+  Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
+  w.step({});
+  w.step({}, frame, true);
+  double airborne = 0.0;
+  for (int i = 0; i < 120 && !w.walker.grounded(); ++i, airborne += frame) w.step({});
+  EXPECT_LT(airborne, 0.3);
+  EXPECT_TRUE(w.walker.grounded());
+}
+
+}  // namespace
