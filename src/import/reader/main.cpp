@@ -44,7 +44,7 @@ void limit(int resource, rlim_t value) {
 }
 
 /// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
-void confine(std::uint64_t memory_limit) {
+void confine([[maybe_unused]] std::uint64_t memory_limit) {
 #ifndef ROAM_ADDRESS_SANITIZER
   limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
 #endif
