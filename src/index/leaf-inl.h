@@ -21,6 +21,7 @@ struct Triangles {
   V3 bc;
   VF ab2, ac2, abac;
   VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
+  MF narrow;  ///< the normal is noise: the edges stand for the face
 
   HWY_INLINE void prepare();
   [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
@@ -43,7 +44,7 @@ HWY_INLINE V3 Triangles::away(const V3& p) const {
   const VF va = hn::Sub(hn::Mul(d3, d6), hn::Mul(d5, d4));
   const VF vb = hn::Sub(hn::Mul(d5, d2), hn::Mul(d1, d6));
   const VF vc = hn::Sub(hn::Mul(d1, d4), hn::Mul(d3, d2));
-  const MF inside = hn::Gt(hn::Min(hn::Min(va, vb), vc), zero);
+  const MF inside = hn::AndNot(narrow, hn::Gt(hn::Min(hn::Min(va, vb), vc), zero));
   return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
 }
 
@@ -104,6 +105,9 @@ HWY_INLINE void Triangles::prepare() {
   inv_ac2 = hn::Mul(long_ab, edges);
   inv_bc2 = hn::Mul(long_normal, rest);
   inv_normal2 = hn::Mul(long_bc, rest);
+  const VF width = hn::Mul(set(kNarrow), farthest);  // against the height over the longest edge
+  const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
+  narrow = hn::Le(long_normal, hn::Mul(hn::Mul(width, width), longest));
 }
 
 /// A supporting plane of a body at `centre`, unscaled: `bound` = distance bound times `length`.
@@ -157,7 +161,8 @@ HWY_INLINE MF off_plane(const Triangles& t, const V3& way, VF begin, VF end, VF 
   VF apart = hn::Max(above, below);
   if (half_height != 0.0F) apart = hn::Sub(apart, hn::Mul(set(half_height), hn::Abs(n.z)));
   const VF error = leaf_error(t, set(t_max * longest), frame, half_height);
-  return hn::Gt(apart, hn::Mul(hn::Add(keep, error), hn::Sqrt(dot(n, n))));
+  const VF length = hn::Sqrt(dot(n, n));
+  return hn::And(hn::Gt(length, set(kShortest)), hn::Gt(apart, hn::Mul(hn::Add(keep, error), length)));
 }
 
 /// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
@@ -182,7 +187,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       const VF error = leaf_error(t, hn::Mul(time, set(motion.longest)), frame, motion.half_height);
       const VF slack = hn::Sub(s.bound, hn::Mul(hn::Add(keep, error), s.length));
       const VF speed = hn::Sub(hn::Mul(set(kSpeedRoundings * kUnit * motion.longest), s.length), dot(s.away, way));
-      const MF apart = hn::Ge(slack, zero);
+      const MF apart = hn::And(hn::Ge(slack, zero), hn::Gt(s.length, set(kShortest)));
       const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
       active = hn::AndNot(missed, active);
       const VF reached = hn::Min(hn::Add(keep, hn::Add(set(kArrival), hn::Add(error, error))), set(hit_limit));

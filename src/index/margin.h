@@ -9,17 +9,17 @@ namespace roam::index {
 inline constexpr float kUnit = 0x1p-24F;
 
 /// Roundings charged to each metre of a node's frame (its extent, the motion, the radius, the half height) when its
-/// child boxes are tested. 9 are counted.
-inline constexpr float kNodeRoundings = 16.0F;
+/// child boxes are tested. 28 are counted.
+inline constexpr float kNodeRoundings = 40.0F;
 
 /// Roundings charged to each metre of a triangle's farthest coordinate or of the way made, when a leaf bounds its
 /// distance. 27 are counted.
 inline constexpr float kLeafRoundings = 32.0F;
 
-/// The same for the speed of approach, per metre of the whole motion. 7 are counted.
+/// The same for the speed of approach, per metre of the whole motion. 9 are counted.
 inline constexpr float kSpeedRoundings = 16.0F;
 
-/// Relative roundings of the radius in a product with a length. 4 are counted.
+/// Relative roundings of the radius in a product with a length. 5 are counted.
 inline constexpr float kRadiusRoundings = 8.0F;
 
 /// Relative roundings of a quotient of two lengths, such as a time of entry. 4 are counted.
@@ -28,8 +28,16 @@ inline constexpr float kTimeRoundings = 8.0F;
 /// Of a grid step: the fraction of a step between the start of a query and its nearest grid point is stored to this.
 inline constexpr float kFractionRounding = 0x1p-25F;
 
-/// Metres. Shorter edges count as points, and the product of two of their squares is far above underflow.
+/// Metres. Shorter edges count as points, shorter directions as none; squares of squares are far above underflow.
 inline constexpr float kShortest = 1e-8F;
+
+/// A triangle counts as its edges in single precision when it is narrower than this fraction of its farthest
+/// coordinate: 2^10 roundings, below which the direction of its face is noise.
+inline constexpr float kNarrow = 0x1p10F * kUnit;
+
+/// Metres. The foot on a face that is tilted by roundings lies off the closest point by a part of the distance: larger
+/// bodies leave their hits to double precision.
+inline constexpr double kWideBody = 4.0;
 
 /// Metres. A body this close to touching, its error bound apart, has arrived: a rule of economy, not of truth.
 inline constexpr float kArrival = 2e-5F;

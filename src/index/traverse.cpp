@@ -105,9 +105,10 @@ class SweepTraversal {
     const float radius = round_up(piece_.body.radius + double(t.error));
     const float grown = grown_for(radius, kTileSteps, frame);
     // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
-    const float hit_limit = t.fine ? -1.0F
-                                   : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
-                                         (1.0F - kRadiusRoundings * kUnit);
+    const bool exact = t.fine || piece_.body.radius > kWideBody;
+    const float hit_limit = exact ? -1.0F
+                                  : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
+                                        (1.0F - kRadiusRoundings * kUnit);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     stack_.clear();
