@@ -68,9 +68,9 @@ struct Frame {
       rest[k] = static_cast<float>(at - nearest);
     }
   }
-  /// Metres from the start, of a coordinate in steps.
-  [[nodiscard]] float metres(std::int32_t steps, int k) const {
-    return (static_cast<float>(steps - whole[k]) - rest[k]) * step;
+  /// Steps from the start.
+  [[nodiscard]] float steps(std::int32_t coordinate, int k) const {
+    return static_cast<float>(coordinate - whole[k]) - rest[k];
   }
 };
 
@@ -110,22 +110,23 @@ struct Children {
   std::uint32_t mask;
 };
 
-/// Child boxes as distances from the start, part by part.
+/// Child boxes as distances from the start, each axis times `mirror` (1 or -1), part by part.
 struct Boxes {
   float at[3], scale[3];
 
-  Boxes(const Node& node, const Frame& frame) {
+  HWY_INLINE Boxes(const Node& node, const Frame& frame, const float* mirror) {
     for (int k = 0; k < 3; ++k) {
-      at[k] = frame.metres(node.origin[k], k);
-      scale[k] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(frame.step) + (std::uint32_t{node.shift[k]} << 23));
+      const float step = mirror[k] * frame.step;
+      at[k] = frame.steps(node.origin[k], k) * step;
+      // step * 2^shift, by its exponent
+      scale[k] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(step) + (std::uint32_t{node.shift[k]} << 23));
     }
   }
-  /// Plane `k` of kLanes boxes; `mirror` is 1 or -1.
-  [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int k, float mirror) const {
+  /// Plane `k` of kLanes boxes.
+  [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int k) const {
     const hn::Rebind<std::uint8_t, F> bytes;
     const VF b = hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
-    return hn::MulAdd(b, set(mirror * scale[k]),
-                      set(mirror * at[k]));  // the product is exact: fused or not, one bit pattern
+    return hn::MulAdd(b, set(scale[k]), set(at[k]));  // the product is exact: fused or not gives the same bits
   }
 };
 
@@ -145,7 +146,7 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
 /// Which children the body may meet before t_max, and when. `grown` is the radius that is kept free, with the margin.
 HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                            Children& out) {
-  const Boxes boxes(node, frame);
+  const Boxes boxes(node, frame, motion.mirror);
   const VF zero = hn::Zero(kF), h = set(motion.half_height), r = set(grown), end = set(t_max);
   const VF r2 = hn::Mul(r, r);
   const VF later = set(1.0F + kTimeRoundings * kUnit), earlier = set(1.0F - kTimeRoundings * kUnit);
@@ -155,8 +156,8 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
     VF enter = zero, exit = end;
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(planes + motion.entry[k] + first, k, motion.mirror[k]);
-      VF upper = boxes.plane(planes + motion.exit[k] + first, k, motion.mirror[k]);
+      VF lower = boxes.plane(planes + motion.entry[k] + first, k);
+      VF upper = boxes.plane(planes + motion.exit[k] + first, k);
       if (k == 2) {
         lower = hn::Sub(lower, h);
         upper = hn::Add(upper, h);
@@ -185,14 +186,15 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
 /// `margin` is grown_radius() of radius 0.
 HWY_INLINE void near_node(const Node& node, const Frame& frame, float half_height, float margin, float reach,
                           Children& out) {
-  const Boxes boxes(node, frame);
+  static constexpr float kAsIs[3] = {1.0F, 1.0F, 1.0F};
+  const Boxes boxes(node, frame, kAsIs);
   const VF zero = hn::Zero(kF);
   out.mask = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
     VF squared = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(node.lower[k] + first, k, 1.0F);
-      VF upper = boxes.plane(node.upper[k] + first, k, 1.0F);
+      VF lower = boxes.plane(node.lower[k] + first, k);
+      VF upper = boxes.plane(node.upper[k] + first, k);
       if (k == 2) {
         lower = hn::Sub(lower, set(half_height));
         upper = hn::Add(upper, set(half_height));
