@@ -11,23 +11,44 @@ namespace {
 
 using namespace scenes;
 
-TEST(Ground, ClimbsStairsAndComesDownAgain) {
+struct Stairs {
+  double rise, tread;
+};
+
+/// Ten stairs up from x = 1 and a landing. Without risers they are boards with a nosing of 3 cm.
+Mesh stairs(const Stairs& stair, bool risers) {
   Mesh m = floor_mesh();
   for (int i = 0; i < 10; ++i) {
-    const double x = 1.0 + 0.28 * i, z = 0.17 * i;
-    add_wall(m, x, -2.0, x, 2.0, z, z + 0.17);
-    add_floor(m, x, -2.0, i == 9 ? 12.0 : x + 0.28, 2.0, z + 0.17);
+    const double x = 1.0 + stair.tread * i, z = stair.rise * i;
+    if (risers) add_wall(m, x, -2.0, x, 2.0, z, z + stair.rise);
+    add_floor(m, risers ? x : x - 0.03, -2.0, i == 9 ? 15.0 : x + stair.tread, 2.0, z + stair.rise);
   }
-  Walk w(m, {}, Mode::walk, {-1.0, 0.0, 0.95});
-  w.go({1.4, 0.0, 0.0}, 6.0);
-  EXPECT_NEAR(w.feet(), 1.7, near_ground);
-  EXPECT_NEAR(w.walker.position().x, -1.0 + 8.4, 0.3);
-  EXPECT_GE(w.count(EventKind::stepped_up), 5);
-  EXPECT_EQ(w.count(EventKind::airborne), 0);
-  w.go({-1.4, 0.0, 0.0}, 6.0);
-  EXPECT_NEAR(w.feet(), 0.0, near_ground);
-  EXPECT_EQ(w.count(EventKind::airborne), 0);
-  EXPECT_EQ(w.count(EventKind::fell), 0);
+  return m;
+}
+
+TEST(Ground, StairsAreClimbedAndComeDownAtAnySpeed) {
+  for (const Stairs& stair : {Stairs{0.17, 0.28}, Stairs{0.20, 0.23}, Stairs{0.25, 0.25}, Stairs{0.28, 0.35}}) {
+    for (const bool risers : {true, false}) {
+      const Mesh m = stairs(stair, risers);
+      for (const double speed : {0.3, 1.4, 5.0}) {
+        for (const WalkerSettings& settings : {WalkerSettings{}, ball(0.3), ball(0.5)}) {
+          SCOPED_TRACE(testing::Message() << stair.rise << " by " << stair.tread << " m, risers " << risers
+                                          << ", speed " << speed << ", radius " << settings.radius);
+          Walk w(m, settings, Mode::walk, {-0.5, 0.0, 0.5 * settings.height + 0.01});
+          w.go({speed, 0.0, 0.0}, 6.0 / speed);
+          EXPECT_NEAR(w.feet(), 10.0 * stair.rise, near_ground);
+          EXPECT_GE(w.count(EventKind::stepped_up), 5);
+          EXPECT_EQ(w.count(EventKind::airborne), 0);
+          w.go({-speed, 0.0, 0.0}, 6.5 / speed);
+          EXPECT_NEAR(w.feet(), 0.0, near_ground);
+          EXPECT_EQ(w.count(EventKind::fell), 0);
+          if (speed < 2.0) {
+            EXPECT_EQ(w.count(EventKind::airborne), 0);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Ground, StepsOntoAKerbOfStepHeightAtAnySpeedButNotOntoAHigherOne) {
@@ -139,7 +160,7 @@ TEST_P(FlatFloors, NeverCatchTheWalkerOnTheirInnerEdges) {
 }
 
 // 60 fields are 10^4 triangles in one tile of the index; 150 are 6 10^4 in several, with seams between them.
-INSTANTIATE_TEST_SUITE_P(Walker, FlatFloors,
+INSTANTIATE_TEST_SUITE_P(Ground, FlatFloors,
                          testing::Values(FlatFloor{"OneTile", 60, Vec3(0.0), false},
                                          FlatFloor{"ManyTiles", 150, Vec3(0.0), false},
                                          FlatFloor{"Lossless", 150, Vec3(0.0), true},

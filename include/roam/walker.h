@@ -11,7 +11,8 @@
 ///     axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each with
 ///     its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
-///     such a way can be (see Walker::place), or held where it is, and the report says which;
+///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
+///     was put and not moved are marked as teleports;
 ///   - the same world, settings and calls give the same bits on every run.
 ///
 /// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap
@@ -157,9 +158,12 @@ struct Corner {
 
 /// What one step did. Lives in the Walker; valid until its next call.
 struct StepReport {
-  InlineList<Corner, 64>
-      corners;  ///< of the move, in order; empty when the body did not move. Straight ones are merged
-  InlineList<Contact, 8> contacts;  ///< what was touched, in order; `distance` is the certified gap when it was
+  /// Of the move, in order; empty when the body did not move. Pieces in one direction are merged. A step that would
+  /// need more ends early: see `elapsed`.
+  InlineList<Corner, 64> corners;
+  /// What was touched on the way, each triangle once, the last touched last; of more than 8 the first 7 and the last.
+  /// `distance` is the gap to the plane of the contact where the body stopped.
+  InlineList<Contact, 8> contacts;
   /// What happened, in order. Of a very long step some slides and steps may be left out; what ends a step never is.
   InlineList<Event, 24> events;
   Vec3 from{0.0};       ///< the centre before, metres
@@ -201,10 +205,12 @@ class Walker {
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
   /// input that is not finite.
   ///
-  /// Cost on free flat ground: one sweep along, one down to the ground, one clearance. Fly: one sweep, one clearance.
+  /// Cost on free flat ground: one sweep along, one down to the ground, and two looks for the nearest triangle, over
+  /// the way and at its end. Flying: one sweep and the two looks.
   const StepReport& step(const WalkerInput& input, double dt);
 
-  /// Puts the standing body's centre at `centre`, at rest. Where it does not fit there, it is moved to the nearest
+  /// Puts the standing body's centre at `centre`, at rest; in walk mode, where only the crouched body fits, that, with
+  /// the same feet. Where it does not fit there, it is moved to the nearest
   /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
   /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
   /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost

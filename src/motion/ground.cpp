@@ -100,9 +100,39 @@ void stand_on(Move& move, Stance& stance, const Footing& ground) {
   stance.fallen = false;
 }
 
+namespace {
+
+/// Off a rim that has become too steep to stand on, onto ground at most a step below it: outward until the body is
+/// clear of the rim, and down.
+bool step_off(Move& move, Stance& stance, const WorldSweep& rim) {
+  const Vec3 flat(rim.normal.x, rim.normal.y, 0.0);
+  const double radius = move.settings.radius, lateral = glm::length(flat);
+  if (rim.feature == Feature::face || !(lateral > 0.0)) return false;
+  Move trial = move;
+  const Vec3 outward = flat * ((radius * (1.0 - lateral) + 2.0 * move.skin) / lateral);
+  const Advance off = trial.probe(outward);
+  if (off.embedded) return false;
+  trial.place += outward * off.fraction;
+  const double reach = move.feet() - (stance.level - move.settings.step) + 3.0 * move.skin;
+  if (!(reach > 0.0)) return false;
+  const WorldSweep landing = move.world.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  if (!landing.hit || landing.distance < 0.0) return false;
+  const std::optional<Footing> ground = footing(trial, stance, landing);
+  if (!ground) return false;
+  move.go(outward * off.fraction);
+  move.go(Vec3(0.0, 0.0, -std::max(0.0, landing.time * reach - move.skin / landing.normal.z)));
+  move.note(EventKind::stepped_down);
+  stand_on(move, stance, *ground);
+  return true;
+}
+
+}  // namespace
+
 void keep_ground(Move& move, Stance& stance, double horizontal) {
   const double slope_drop = horizontal * tangent_of_slope(move);
-  const double reach = move.settings.step + slope_drop + 3.0 * move.skin;
+  // On a rim the body has sunk below the level that it stands on.
+  const double sunk = stance.grounded && !stance.firm ? std::max(0.0, stance.level - move.feet()) : 0.0;
+  const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
   const Vec3 down(0.0, 0.0, -1.0);
   const WorldSweep s = move.world.sweep(move.body(), move.place, down * reach);
   std::optional<Footing> ground;
@@ -114,6 +144,7 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     ground = footing_here(lowered, stance);
   }
   if (!ground) {
+    if (stance.grounded && s.hit && step_off(move, stance, s)) return;
     if (stance.grounded) move.note(EventKind::airborne);
     stance.grounded = stance.firm = false;
     return;

@@ -98,16 +98,26 @@ void Move::resize(double new_height, const Vec3& new_place) {
 }
 
 void Move::touch(const WorldSweep& contact, double gap) {
-  for (const Contact& c : report.contacts) {
-    if (c.triangle == contact.triangle && c.feature == contact.feature) return;
-  }
   Contact c;
   c.point = contact.point;
   c.normal = contact.normal;
   c.feature = contact.feature;
   c.distance = gap;
   c.triangle = contact.triangle;
-  report.contacts.push(c);
+  // The last touched stands last, and once.
+  InlineList<Contact, 8>& list = report.contacts;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].triangle != c.triangle || list[i].feature != c.feature) continue;
+    for (; i + 1 < list.size(); ++i) list[i] = list[i + 1];
+    list[i] = c;
+    last_direction_ = Vec3(0.0);
+    return;
+  }
+  if (list.full()) {
+    list.back() = c;
+  } else {
+    list.push(c);
+  }
   last_direction_ = Vec3(0.0);
 }
 

@@ -62,7 +62,9 @@ void Walker::finish() {
   clearance_ = 0.0;
   if (mode_ != Mode::ghost && !held_) {
     const double reach = std::min(settings_.clearance_reach, nearest_);
-    clearance_ = settings_.radius + world_->clearance(body(), position_, reach).distance;
+    // Where a sweep ended the body fits, whatever rounding says.
+    clearance_ =
+        settings_.radius + std::max(world_->clearance(body(), position_, reach).distance, -motion::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
   for (const Corner& c : report_.corners) {
