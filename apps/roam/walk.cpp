@@ -25,6 +25,7 @@ struct WalkOptions {
   SceneOptions scene;
   std::filesystem::path path;
   std::optional<double> wander;  ///< seconds
+  std::vector<double> from;      ///< where wandering starts: x, y, z, or nothing
   std::string mode = "walk";
   WalkerSettings settings;
   std::optional<double> height;
@@ -172,7 +173,9 @@ ExitStatus walk(WalkOptions options) {
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, seconds / options.route.dt);
-  const Vec3 start = options.wander ? wander_start(scene.world, options.settings, mode) : path.front();
+  const Vec3 start = !options.from.empty() ? Vec3(options.from[0], options.from[1], options.from[2])
+                     : options.wander      ? wander_start(scene.world, options.settings, mode)
+                                           : path.front();
   Walker walker(scene.world, options.settings, mode, start);
   WalkReport report;
   if (options.wander) {
@@ -237,11 +240,16 @@ void add_walk(CLI::App& program, Run& run) {
   o.scene.add_to(*verb);
   auto* ways = verb->add_option_group("Way", "One of");
   ways->add_option("--path", o.path, "Waypoints to go along")->type_name("FILE");
-  ways->add_option("--wander", o.wander,
-                   "Without a path: start where there is most room and go where the body has been least")
-      ->check(CLI::PositiveNumber)
-      ->type_name("S");
+  auto* wander =
+      ways->add_option("--wander", o.wander, "Without a path: go where the body has been least, for S seconds")
+          ->check(CLI::PositiveNumber)
+          ->type_name("S");
   ways->require_option(1);
+  verb->add_option("--from", o.from, "Where to start wandering (default: where there is most room and walls in sight)")
+      ->expected(3)
+      ->delimiter(',')
+      ->type_name("X,Y,Z")
+      ->needs(wander);
   verb->add_option("--mode", o.mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
       ->check(CLI::IsMember({"fly", "walk", "ghost"}))
       ->type_name("MODE");

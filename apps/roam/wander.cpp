@@ -106,7 +106,7 @@ Start start_at(const World& world, const WalkerSettings& settings, Mode mode, co
     stride_ahead({world, settings, mode, body}, start.place, level(i, directions), room_strides,
                  [&](const Vec3&, double length) { start.room += length; });
   }
-  start.room *= (1.0 + walls) * (1.0 + walls);
+  start.room *= 1.0 + walls;
   return start;
 }
 
