@@ -109,7 +109,8 @@ struct Scene {
 };
 
 /// Reads files and folders (a folder of photogrammetry: the one that holds Data/Tile_*/Tile_*.osgb) into one scene.
-/// The same input gives the same bits. Blocks; may be called from several threads at once, each with its own reader.
+/// The same input gives the same bits (except for damaged files in which a foreign reader reads beyond its data).
+/// Blocks; may be called from several threads at once, each with its own reader.
 ///
 /// Throws roam::Error when a path is missing, of no known format, malformed, gives no triangle, makes its reader
 /// crash, or needs more memory or time than allowed; the message names the file, the cause and what to do.

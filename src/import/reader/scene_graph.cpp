@@ -145,9 +145,10 @@ void SceneGraphWalk::walk_children_shown(osg::LOD& lod, osg::PagedLOD* paged) {
         missing.push_back(i);
         continue;
       }
-      const fs::path file = fs::path(paged->getDatabasePath()).empty()
-                                ? files_.back().parent_path() / paged->getFileName(i)
-                                : fs::path(paged->getDatabasePath()) / paged->getFileName(i);
+      const fs::path named_from =
+          paged->getDatabasePath().empty() ? files_.back().parent_path() : fs::path(paged->getDatabasePath());
+      // Normal, so that a circle is known by its name.
+      const fs::path file = (named_from / paged->getFileName(i)).lexically_normal();
       const bool circle = std::find(files_.begin(), files_.end(), file) != files_.end();
       if (circle) sink_.report_missing_page(file.string());
       if (osg::ref_ptr<osg::Node> page = circle ? nullptr : read_osg_file(file, false)) {
