@@ -5,6 +5,7 @@
 
 #include "cli_scenes.h"
 #include "program.h"
+#include "progress.h"
 
 namespace {
 
@@ -85,6 +86,23 @@ TEST(CommandLine, RefusesASceneWithoutTriangles) {
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(contains(result.err, "empty.obj")) << result.err;
   EXPECT_TRUE(contains(result.err, "triangle")) << result.err;
+}
+
+TEST(Progress, WritesCountsAndTimesForPeople) {
+  using roam::app::short_count;
+  using roam::app::short_time;
+  EXPECT_EQ(short_count(0), "0");
+  EXPECT_EQ(short_count(999), "999");
+  EXPECT_EQ(short_count(1000), "1.00 k");
+  EXPECT_EQ(short_count(12345), "12.3 k");
+  EXPECT_EQ(short_count(999'600), "1.00 M");
+  EXPECT_EQ(short_count(123'456'789), "123 M");
+  EXPECT_EQ(short_time(0.04), "0.0 s");
+  EXPECT_EQ(short_time(9.94), "9.9 s");
+  EXPECT_EQ(short_time(59.4), "59 s");
+  EXPECT_EQ(short_time(59.6), "1 min 0 s");
+  EXPECT_EQ(short_time(190), "3 min 10 s");
+  EXPECT_EQ(short_time(7500), "2 h 5 min");
 }
 
 nlohmann::json info(const std::vector<std::string>& arguments) {

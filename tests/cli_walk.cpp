@@ -142,6 +142,29 @@ TEST(WalkVerb, WandersWhereThereIsNoPath) {
   EXPECT_GT(report["end"]["eye"][2].get<double>(), 1.5);
 }
 
+TEST(WalkVerb, WandersFromWhereItIsTold) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", room_obj());
+  const ProgramResult result = run_program(
+      ROAM_PROGRAM, {"walk", scene, "--wander", "1", "--from", "3,1,0.5", "--json", "--trace", folder.file("t.csv")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  double x = 0, y = 0;
+  const std::string trace = folder.read("t.csv");
+  ASSERT_EQ(std::sscanf(trace.substr(trace.find('\n') + 1).c_str(), "0,0,%lf,%lf", &x, &y), 2) << trace;
+  EXPECT_EQ(x, 3.0);
+  EXPECT_EQ(y, 1.0);
+  EXPECT_EQ(run_program(ROAM_PROGRAM, {"walk", scene, "--path", "p.path", "--from", "3,1,0.5"}).status, 2);
+}
+
+TEST(WalkVerb, IsCancelledInGoodOrder) {
+  const TestFolder folder;
+  const ProgramResult result = run_program(
+      ROAM_PROGRAM, {"walk", folder.write("room.obj", room_obj()), "--wander", "1e9"}, {.interrupt_after = 1});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "roam: cancelled\n");
+}
+
 TEST(WalkVerb, SaysWhenTheBodyFitsNowhere) {
   const TestFolder folder;
   const std::string scene = folder.write("spike.obj", "v 0 0 0\nv 0 1 9\nv 0 2 0\nf 1 2 3\n");
