@@ -11,11 +11,12 @@
 /// memory therefore costs a roam::Error, not the program. docs/importing.md lists the formats and what is kept.
 ///
 /// The reader is looked for at: ImportOptions::reader; the environment variable ROAM_READER; `roam-reader` beside the
-/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to.
+/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to; `../libexec/roam`
+/// from the folders of PATH.
 ///
 /// Coordinates are those of the file. Nothing is shifted, rotated or scaled unless ImportOptions say so, with two
-/// exceptions that the report tells: glTF, whose y axis is up by definition, is turned so that +z is up; and a second
-/// folder of photogrammetry tiles is placed relative to the first by the difference of their SRSOrigins.
+/// exceptions: glTF, whose y axis is up by definition, is turned so that +z is up; and a second folder of photogrammetry
+/// tiles is placed relative to the first by the difference of their SRSOrigins, which a note tells.
 
 #include <cstdint>
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -59,13 +60,24 @@ fs::path find_reader(const fs::path& wanted) {
     places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
   }
   places.emplace_back(ROAM_READER_INSTALLED);
+  // An installation elsewhere, whose command line the user can call.
+  std::istringstream path(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));
+  std::vector<fs::path> installations;
+  for (std::string folder; std::getline(path, folder, ':');) {
+    const fs::path bin(folder);
+    if (bin.is_absolute()) installations.push_back(bin.parent_path() / "libexec" / "roam" / reader_name);
+  }
   std::string tried;
   for (const fs::path& place : places) {
     if (can_run(place)) return place;
     tried += (tried.empty() ? "" : ", ") + place.string();
   }
-  throw Error(std::string("the program ") + reader_name + ", which opens scene files, was not found (looked at " +
-              tried + "). Install roam, or name the program by the environment variable ROAM_READER.");
+  for (const fs::path& place : installations) {
+    if (can_run(place)) return place;
+  }
+  throw Error(
+      std::string("the program ") + reader_name + ", which opens scene files, was not found (looked at " + tried +
+      ", and beside the folders of PATH). Install roam, or name the program by the environment variable ROAM_READER.");
 }
 
 }  // namespace roam::reader
