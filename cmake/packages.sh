@@ -3,9 +3,10 @@
 
 program_packages="g++ cmake ninja-build ccache pkg-config
   libglm-dev libtbb-dev libhwy-dev
-  libopenscenegraph-dev libassimp-dev libtinyobjloader-dev libfast-float-dev libtinyxml2-dev libxxhash-dev
+  libopenscenegraph-dev libassimp-dev libfast-float-dev libtinyxml2-dev libxxhash-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev"
-test_packages="libgtest-dev librapidcheck-dev libboost-dev libmpfr-dev"
+test_packages="libgtest-dev"
+bench_packages="libbenchmark-dev libbullet-dev libembree-dev"
 
 # install_missing PACKAGE...: asks apt only for packages that are not there, and is silent when all of them are.
 install_missing() {
