@@ -164,6 +164,11 @@ void wander(const roam::World& world, const scenes::Judge& judge, const WalkerSe
     tally.moved += r.to != r.from;
     tally.touched += !r.contacts.empty();
     tally.grounded += r.grounded;
+    if (speed * dt < 0.06) {
+      const auto climbs = std::count_if(r.events.begin(), r.events.end(),
+                                        [](const roam::Event& e) { return e.kind == roam::EventKind::stepped_up; });
+      ASSERT_LE(climbs, 3) << "it creeps instead of stepping, at " << r.to.x << " " << r.to.y << " " << r.to.z;
+    }
     const double margin = scenes::margin(judge, r, settings.radius);
     tally.worst = std::min(tally.worst, margin);
     ASSERT_GE(margin, 0.0) << "step " << i << " from " << r.from.x << " " << r.from.y << " " << r.from.z;

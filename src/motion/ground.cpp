@@ -189,6 +189,8 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
   const std::optional<Footing> ground = footing(trial, stance, landing);
   if (!ground || ground->level > stance.level + step + 2.0 * skin) return std::nullopt;
+  // Neither over the obstacle nor higher than before: it was no step, and to creep on like this is none.
+  if (forward.touched && !(ground->level > stance.level + 2.0 * skin)) return std::nullopt;
   const double drop = std::max(0.0, landing.time * reach - skin / landing.normal.z);
 
   move.time += seconds * std::min(1.0, glm::length(onward) / length);

@@ -179,9 +179,13 @@ void Route::judge(const StepReport& report, double distance_before) {
 
 void Route::describe_blockage(const StepReport& report) {
   if (report.contacts.empty()) return;
-  const Contact& c = report.contacts.back();
-  Blockage blockage{c.point, c.normal, c.triangle, std::nullopt};
   const Vec3 way = way_to(waypoints_[next_], *walker_);
+  // Of what is touched, the ground included, what stands most against the way.
+  const Contact* c = report.contacts.begin();
+  for (const Contact& other : report.contacts) {
+    if (glm::dot(other.normal, way) < glm::dot(c->normal, way)) c = &other;
+  }
+  Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint) {
     const double reach = opening_skins * walker_->skin();
