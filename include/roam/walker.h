@@ -132,6 +132,7 @@ class InlineList {
   [[nodiscard]] const T& back() const { return values_[size() - 1]; }
   [[nodiscard]] T& back() { return values_[size() - 1]; }
   void clear() { total_ = 0; }
+  void shorten(std::size_t size) { total_ = size < total_ ? size : total_; }  ///< forgets all but the first `size`
   void push(const T& value) {
     if (total_ < N) values_[total_] = value;
     ++total_;

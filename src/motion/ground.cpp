@@ -25,15 +25,11 @@ constexpr double rim_inset = 0.012;
 /// Contacts that are looked at under one body. More are only met in dense noise, where the nearest decide.
 constexpr std::size_t contacts_looked_at = 24;
 
-double tangent_of_slope(const Move& m) {
-  return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
-}
-
 /// Whether the floor behind the rim at `point`, seen from a body in the direction `normal`, can be walked on.
 bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   const Vec3 outward(normal.x, normal.y, 0.0);
   const Vec3 inside = point - outward * (rim_inset / glm::length(outward));
-  const double rise = rim_inset * tangent_of_slope(m) + rim_ball + 2.0 * m.skin;
+  const double rise = rim_inset * slope_tangent(m) + rim_ball + 2.0 * m.skin;
   const Vec3 above = inside + Vec3(0.0, 0.0, rise + rim_ball);
   const WorldSweep s = m.world.sweep({rim_ball, 0.0}, above, Vec3(0.0, 0.0, -2.0 * rise));
   return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
@@ -63,6 +59,10 @@ bool carried_by(const Move& m, const PlaneSet& planes) {
 }
 
 }  // namespace
+
+double slope_tangent(const Move& m) {
+  return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
+}
 
 std::optional<Footing> footing(const Move& move, const Stance& stance, const WorldSweep& contact) {
   return footing_on(move, stance, as_proximity(contact));
@@ -129,7 +129,7 @@ bool step_off(Move& move, Stance& stance, const WorldSweep& rim) {
 }  // namespace
 
 void keep_ground(Move& move, Stance& stance, double horizontal) {
-  const double slope_drop = horizontal * tangent_of_slope(move);
+  const double slope_drop = horizontal * slope_tangent(move);
   // On a rim the body has sunk below the level that it stands on.
   const double sunk = stance.grounded && !stance.firm ? std::max(0.0, stance.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;

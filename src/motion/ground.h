@@ -28,6 +28,9 @@ struct Footing {
 /// gravity along them leads down at less than the slope limit.
 [[nodiscard]] std::optional<Footing> footing_here(const Move& move, const Stance& stance);
 
+/// Rise by run at the slope limit.
+[[nodiscard]] double slope_tangent(const Move& move);
+
 /// The steepest contact with a rim that still carries, degrees. A crack of width w carries a sphere of radius r when
 /// r >= w / (2 sin 70) = 0.532 w, and lets it through when r < w / 2; in between it is caught between the rims, from
 /// where it can not step up.

@@ -126,6 +126,37 @@ void Move::note(EventKind kind, const Vec3& point) {
   if (seldom || report.events.size() < events_of_motion) report.events.push({kind, point});
 }
 
+Move::Mark Move::mark() const {
+  const Corner last = report.corners.empty() ? Corner{} : report.corners.back();
+  return {place,
+          height,
+          clearance,
+          time,
+          nearest,
+          last_direction_,
+          merged_,
+          last,
+          report.corners.size(),
+          report.events.size(),
+          report.contacts,
+          report.blocked};
+}
+
+void Move::undo(const Mark& m) {
+  place = m.place;
+  height = m.height;
+  clearance = m.clearance;
+  time = m.time;
+  nearest = m.nearest;
+  last_direction_ = m.direction;
+  merged_ = m.merged;
+  report.corners.shorten(m.corners);
+  if (!report.corners.empty()) report.corners.back() = m.corner;
+  report.events.shorten(m.events);
+  report.contacts = m.contacts;
+  report.blocked = m.blocked;
+}
+
 bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }
 
 }  // namespace roam::motion

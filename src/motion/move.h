@@ -48,6 +48,18 @@ struct Advance {
 
 class Move {
  public:
+  /// A place on the way that undo() returns to.
+  struct Mark {
+    Vec3 place;
+    double height, clearance, time, nearest;
+    Vec3 direction;
+    int merged;
+    Corner corner;
+    std::size_t corners, events;
+    InlineList<Contact, 8> contacts;
+    bool blocked;
+  };
+
   const World& world;
   const WalkerSettings& settings;
   StepReport& report;
@@ -90,6 +102,9 @@ class Move {
   void touch(const WorldSweep& contact, double gap);
   void note(EventKind kind, const Vec3& point);
   void note(EventKind kind) { note(kind, place); }
+  [[nodiscard]] Mark mark() const;
+  /// As if nothing had happened since the mark.
+  void undo(const Mark& mark);
   /// Whether another part of a step, which may add a handful of corners, still fits into the report.
   [[nodiscard]] bool has_room() const;
 

@@ -37,6 +37,8 @@ double stride_seconds(const Move& move, const Vec3& velocity) {
   return speed > 0.0 ? 0.5 * move.settings.radius / speed : std::numeric_limits<double>::infinity();
 }
 
+double fine_stride_seconds(const Move& move, const Vec3& velocity) { return stride_seconds(move, velocity) / 6.0; }
+
 bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   const double start = move.time, wish = glm::length(velocity);
   const Vec3 origin = move.place;
@@ -84,8 +86,11 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   }
   const Vec3 gone = move.place - origin;
   keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
-  // What rolls off a rim falls at the speed at which it came down.
-  if (!stance.grounded && seconds > 0.0) stance.rise_speed = std::min(0.0, (move.place.z - origin.z) / seconds);
+  // What rolls off a rim goes on down as it came, at most at the slope limit: neither thrown off level nor flung down.
+  if (!stance.grounded && seconds > 0.0) {
+    const double down = std::max((move.place.z - origin.z) / seconds, -wish * slope_tangent(move));
+    stance.rise_speed = std::min(0.0, down);
+  }
   move.time = start + seconds;
   return true;
 }

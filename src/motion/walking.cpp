@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <optional>
 
 #include "motion/flight.h"
 #include "motion/stride.h"
@@ -26,17 +26,32 @@ void jump(Move& move, Stance& stance) {
 }
 
 Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const LastStand& last) {
-  const double end = move.time + dt;
-  double left = dt;
+  const double end = move.time + dt, longest = stride_seconds(move, velocity);
+  const double finest = fine_stride_seconds(move, velocity);
+  double left = dt, careful = 0.0;  // seconds, the second: for which strides are fine
   for (int count = 0; left > 0.0; ++count) {
     if (count >= stride_limit || !move.has_room()) return Ending::throttled;
     const double begin = move.time;
-    const double seconds =
-        std::min(left, stance.grounded ? stride_seconds(move, velocity) : flight_seconds(move, stance, velocity));
+    const bool striding = stance.grounded;
+    const double most = !striding ? flight_seconds(move, stance, velocity) : (careful > 0.0 ? finest : longest);
+    const double seconds = std::min(left, most);
     const bool whole = seconds == left;
-    const bool fits =
-        stance.grounded ? stride(move, stance, velocity, seconds) : fly_on(move, stance, velocity, seconds);
-    if (!fits) return Ending::embedded;
+    if (striding) {
+      const bool retractable = seconds > finest;
+      std::optional<Move::Mark> mark;
+      if (retractable) mark = move.mark();
+      const Stance before = stance;
+      if (!stride(move, stance, velocity, seconds)) return Ending::embedded;
+      if (retractable && !stance.grounded) {
+        move.undo(*mark);
+        stance = before;
+        careful = seconds;
+        continue;
+      }
+      careful -= seconds;
+    } else if (!fly_on(move, stance, velocity, seconds)) {
+      return Ending::embedded;
+    }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
     if (stance.firm) {
       last.place = move.place;
