@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string_view>
@@ -53,31 +54,20 @@ std::vector<Engine> build_engines(const Options& options, const Scene& scene) {
   return built;
 }
 
-// As many queries as the engine answers in the time that a round may take, by its speed on the first few.
-std::size_t affordable(const Engine& engine, const QuerySet& set, double patience) {
-  constexpr std::size_t first = 20;
-  const std::size_t tried = std::min(first, set.queries.size());
-  const double taken = seconds([&] {
-    for (std::size_t i = 0; i < tried; ++i) engine.sweep(set.queries[i]);
-  });
-  const double each = taken / static_cast<double>(tried);
-  const auto most = static_cast<std::size_t>(std::min(patience / each, 1e9));
-  return std::clamp(most, tried, set.queries.size());
-}
-
+// As many queries as the engine answers in the time that a round may take, at least a few.
 Run judged(const Engine& engine, const QuerySet& set, const std::vector<Answer>& truth, const Reference& reference,
            double patience) {
-  Run run{.engine = &engine,
-          .set = &set,
-          .queries = affordable(engine, set, patience),
-          .verdict = {},
-          .hits = {},
-          .times = {}};
+  constexpr std::size_t fewest = 20;
+  Run run{.engine = &engine, .set = &set, .verdict = {}, .hits = {}, .times = {}};
   std::vector<Answer> answers;
-  for (std::size_t i = 0; i < run.queries; ++i) {
-    answers.push_back(engine.sweep(set.queries[i]));
-    run.hits.push_back(truth[i].hit);
+  const auto start = std::chrono::steady_clock::now();
+  const auto end = start + std::chrono::duration<double>(patience);
+  for (const Query& query : set.queries) {
+    if (answers.size() >= fewest && std::chrono::steady_clock::now() > end) break;
+    run.hits.push_back(truth[answers.size()].hit);
+    answers.push_back(engine.sweep(query));
   }
+  run.queries = answers.size();
   run.verdict = judge(answers, std::span(truth).first(run.queries), std::span(set.queries).first(run.queries),
                       reference, engine.says_when);
   return run;
