@@ -48,9 +48,10 @@ double flight_seconds(const Move& move, const Stance& stance, const Vec3& veloci
 
 bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   const double start = move.time, gravity = move.settings.gravity;
-  const double fall =
-      std::max(stance.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -terminal_speed * seconds);
-  double rise_speed = std::max(stance.rise_speed - gravity * seconds, -terminal_speed);
+  // What came off a rim at more than that keeps its speed.
+  const double fastest = std::max(terminal_speed, -stance.rise_speed);
+  const double fall = std::max(stance.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
+  double rise_speed = std::max(stance.rise_speed - gravity * seconds, -fastest);
   // The top of a jump is met exactly, or it would be divided for ever.
   if (stance.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
   Vec3 whole(velocity.x * seconds, velocity.y * seconds, fall);

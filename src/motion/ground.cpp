@@ -10,10 +10,6 @@
 namespace roam::motion {
 namespace {
 
-/// Of rim_slope_degrees.
-constexpr double rim_cosine = 0.34202014332566873;
-constexpr double rim_sine = 0.93969262078590838;
-
 /// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is walked on.
 constexpr double cosine_rounding = 1e-9;
 
@@ -24,6 +20,10 @@ constexpr double rim_inset = 0.012;
 
 /// Contacts that are looked at under one body. More are only met in dense noise, where the nearest decide.
 constexpr std::size_t contacts_looked_at = 24;
+
+double slope_tangent(const Move& m) {
+  return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
+}
 
 /// Whether the floor behind the rim at `point`, seen from a body in the direction `normal`, can be walked on.
 bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
@@ -59,10 +59,6 @@ bool carried_by(const Move& m, const PlaneSet& planes) {
 }
 
 }  // namespace
-
-double slope_tangent(const Move& m) {
-  return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
-}
 
 std::optional<Footing> footing(const Move& move, const Stance& stance, const WorldSweep& contact) {
   return footing_on(move, stance, as_proximity(contact));

@@ -86,9 +86,10 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   }
   const Vec3 gone = move.place - origin;
   keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
-  // What rolls off a rim goes on down as it came, at most at the slope limit: neither thrown off level nor flung down.
+  // What rolls off a rim goes on down as it came, at most as steeply as a rim carries: thrown off level it would cross
+  // cracks that it does not bridge.
   if (!stance.grounded && seconds > 0.0) {
-    const double down = std::max((move.place.z - origin.z) / seconds, -wish * slope_tangent(move));
+    const double down = std::max((move.place.z - origin.z) / seconds, -wish * rim_tangent);
     stance.rise_speed = std::min(0.0, down);
   }
   move.time = start + seconds;
