@@ -140,6 +140,27 @@ TEST(Route, OverASplitIsReachedByTheBallThatBridgesItAndFallsWithTheOther) {
   }
 }
 
+TEST(Route, ComesDownToTheGroundBeforeItGoes) {
+  for (const double speed : {1.4, 50.0}) {
+    const WalkerSettings ball{.radius = 0.6, .height = 1.2, .eye = 0.6};
+    const RouteResult r = follow(split(), ball, Mode::walk, {{-4.0, 0.0, 2.5}, {4.0, 0.0, 2.5}}, {.speed = speed});
+    EXPECT_EQ(r.outcome, Outcome::fell) << speed;
+    EXPECT_TRUE(has(r, EventKind::landed));
+  }
+}
+
+TEST(Route, OfOneWaypointIsReachedWhereItStarts) {
+  const RouteResult r = follow(floor_mesh(), {}, Mode::walk, {{0.0, 0.0, 0.95}});
+  EXPECT_EQ(r.outcome, Outcome::reached);
+  EXPECT_EQ(r.steps, 0u);
+}
+
+TEST(Route, WithoutGravityDoesNotWaitForTheGround) {
+  const WalkerSettings floating{.gravity = 0.0};
+  const RouteResult r = follow(floor_mesh(), floating, Mode::walk, {{-2.0, 0.0, 3.0}, {2.0, 0.0, 3.0}});
+  EXPECT_EQ(r.outcome, Outcome::reached);
+}
+
 TEST(Route, LeavesTheSceneOverTheSideOfTheFloor) {
   const RouteResult r = follow(floor_mesh(), {}, Mode::walk, {{18.0, 0.0, 0.95}, {30.0, 0.0, 0.95}});
   EXPECT_EQ(r.outcome, Outcome::left_scene);

@@ -78,11 +78,12 @@ struct RouteResult {
 /// One walk along waypoints, step by step, so that the caller can watch, time or draw each.
 class Route {
  public:
-  /// Places the walker at waypoints[0]. In walk mode a waypoint counts as reached when it is within the body's radius
-  /// of the axis, seen from above, and at most the step height above the body's top or below its lowest point; in fly
-  /// mode when it is within the radius of the axis. The body still heads for the waypoint itself and only turns to the
-  /// next one when it is there, or when it counts as reached and something keeps the body from coming nearer: corners
-  /// are not cut.
+  /// Places the walker at waypoints[0]. In walk mode it first comes down to the ground there, on the spot.
+  ///
+  /// In walk mode a waypoint counts as reached when it is within the body's radius of the axis, seen from above, and at
+  /// most the step height above the body's top or below its lowest point; in fly mode when it is within the radius of
+  /// the axis. The body still heads for the waypoint itself and only turns to the next one when it is there, or when it
+  /// counts as reached and something keeps the body from coming nearer: corners are not cut.
   ///
   /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
   /// waypoint that is not finite, options out of range, and a walker in ghost mode.
@@ -109,7 +110,8 @@ class Route {
   std::vector<Vec3> waypoints_;
   RouteOptions options_;
   RouteResult result_;
-  bool inside_ = false;  ///< has been in the box of all triangles
+  bool coming_down_ = false;  ///< to the ground, before it goes anywhere
+  bool inside_ = false;       ///< has been in the box of all triangles
   std::size_t next_ = 1;
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
   double window_time_ = 0.0;  ///< seconds since

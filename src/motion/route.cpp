@@ -102,10 +102,11 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   inside_ = inside(result_.end, grown(walker.world().bounds(), walker.body()));
   note_events(start);
   start_window();
+  coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
   if (walker.held()) {
     finish(Outcome::held);
-  } else {
-    turn_to_next(true);
+  } else if (next_ == waypoints_.size()) {
+    finish(Outcome::reached);
   }
 }
 
@@ -133,7 +134,7 @@ const StepReport& Route::advance() {
   const double distance = glm::length(way);
   double dt = options_.dt;
   WalkerInput input;
-  if (distance > at_waypoint) {
+  if (distance > at_waypoint && !coming_down_) {
     dt = std::min(dt, distance / options_.speed);
     input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
   }
@@ -161,6 +162,12 @@ void Route::judge(const StepReport& report, double distance_before) {
   const bool inside_now = inside(report.to, grown(scene, walker_->body()));
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;
+  if (coming_down_) {
+    // Without ground it may also be caught between slopes, and then goes on from there.
+    coming_down_ = !walker_->stance().stood && walker_->rise_speed() < 0.0;
+    start_window();
+    return;
+  }
   const double distance = glm::length(way_to(waypoints_[next_], *walker_));
   const bool nearer = distance_before - distance > progress_part * options_.speed * report.elapsed;
   turn_to_next(!report.contacts.empty() || !nearer);
