@@ -137,6 +137,13 @@ struct Collector {
   }
 };
 
+/// Offers the collector every triangle within its reach of a piece.
+void collect(const Box& bounds, const index::Piece& piece, Collector& collector) {
+  if (!meets(bounds, piece, collector.reach)) return;
+  collector.piece = &piece;
+  visit_near(collector.index, piece, collector.reach, &Collector::visit, &collector);
+}
+
 }  // namespace
 
 WorldSweep World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
@@ -175,20 +182,26 @@ std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& moti
   const index::Index index = data_->view();
   const Pieces pieces(body, from, motion);
   Collector collector{index, nullptr, reach, contacts};
-  for (int i = 0; i < pieces.count(); ++i) {
-    const index::Piece piece = pieces[i];
-    if (!meets(data_->reach, piece, reach)) continue;
-    collector.piece = &piece;
-    visit_near(index, piece, collector.reach, &Collector::visit, &collector);
-  }
+  for (int i = 0; i < pieces.count(); ++i) collect(data_->reach, pieces[i], collector);
   return collector.count;
 }
 
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  check(body, from, motion);
+  check_length(reach, reach_limit, "the reach");
+  const index::Index index = data_->view();
   Contact nearest;
   Clearance result;
   result.distance = reach;
-  if (contacts(body, from, motion, reach, {&nearest, 1}) > 0) {
+  Collector collector{index, nullptr, reach, {&nearest, 1}};
+  const index::Piece start{body, from, Vec3(0.0)};
+  // Nearest first at the start: on the way, only what comes nearer still is of interest.
+  collect(data_->reach, start, collector);
+  if (motion != Vec3(0.0)) {
+    const Pieces pieces(body, from, motion);
+    for (int i = 0; i < pieces.count(); ++i) collect(data_->reach, pieces[i], collector);
+  }
+  if (collector.count > 0) {
     static_cast<Proximity&>(result) = nearest;
     result.found = true;
     result.triangle = nearest.triangle;
