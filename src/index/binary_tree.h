@@ -34,7 +34,8 @@ struct BinaryTreeOptions {
   std::function<bool(std::span<const std::uint32_t>)> fits_leaf;
 };
 
-/// The depth below which splits are balanced, whatever they cost: it bounds the stack of a traversal.
+/// The depth below which splits are balanced, whatever they cost: it bounds the depth-first part of a traversal's
+/// stack.
 inline constexpr int kSahDepth = 40;
 /// No tree is deeper: at most 2^24 items, halved below kSahDepth.
 inline constexpr int kMaxDepth = kSahDepth + 24;

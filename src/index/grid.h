@@ -19,7 +19,7 @@ inline constexpr std::int64_t kFineSteps = 65536;
 /// sqrt(3)/2 of it: 0.85 mm.
 inline constexpr double kOrdinaryStep = 1.0 / 1024.0;
 /// No grid is finer than 2^-19 m: the start of any query that can reach a tile then fits 31 bits of steps, as
-/// 2 * World::reach_limit + the longest segment < 2^12 m.
+/// 3 * World::reach_limit (radius, half height, reach) + the longest piece of a motion < 4095 m.
 inline constexpr int kFinestExponent = -19;
 
 /// A power-of-two grid: coordinate v lies at origin + step * v, and origin is a multiple of step.

@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -62,7 +63,8 @@ struct Frame {
   Frame(const Vec3& origin, double grid_step, const Vec3& start) : step(static_cast<float>(grid_step)) {
     const double inverse = 1.0 / grid_step;  // a power of two: exact
     for (int k = 0; k < 3; ++k) {
-      const double at = (start[k] - origin[k]) * inverse;
+      // A start too far away for whole steps can not matter: at the limit it is 4095 m away at least, out of any reach.
+      const double at = std::clamp((start[k] - origin[k]) * inverse, -kFarthestSteps, kFarthestSteps);
       const double nearest = std::floor(at + 0.5);
       whole[k] = static_cast<std::int32_t>(nearest);
       rest[k] = static_cast<float>(at - nearest);

@@ -95,11 +95,11 @@ HWY_INLINE void Triangles::prepare() {
   ab2 = dot(ab, ab);
   ac2 = dot(ac, ac);
   abac = dot(ab, ac);
-  const VF floor = set(kShortest * kShortest), one = set(1.0F);
+  const VF floor = set(kShortest * kShortest), face_floor = set(kSmallestFace), one = set(1.0F);
   // Two reciprocals from one division. Where a product overflows, the closest point is not a number, which leaves the
   // triangle to double precision.
   const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor);
-  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), floor);
+  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), face_floor);
   const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
   inv_ab2 = hn::Mul(long_ac, edges);
   inv_ac2 = hn::Mul(long_ab, edges);
@@ -107,7 +107,7 @@ HWY_INLINE void Triangles::prepare() {
   inv_normal2 = hn::Mul(long_bc, rest);
   const VF width = hn::Mul(set(kNarrow), farthest);  // against the height over the longest edge
   const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
-  narrow = hn::Le(long_normal, hn::Mul(hn::Mul(width, width), longest));
+  narrow = hn::Le(long_normal, hn::Max(face_floor, hn::Mul(hn::Mul(width, width), longest)));
 }
 
 /// A supporting plane of a body at `centre`, unscaled: `bound` = distance bound times `length`.

@@ -8,6 +8,10 @@ namespace roam::index {
 /// Unit roundoff of IEEE float, round to nearest.
 inline constexpr float kUnit = 0x1p-24F;
 
+/// Square metres, squared: a smaller |edge x edge|^2 is that of a speck narrower than 0.1 mm, which counts as its
+/// edges. Times the square of an edge it is still far above underflow.
+inline constexpr float kSmallestFace = 1e-16F;
+
 /// Roundings charged to each metre of a node's frame (its extent, the motion, the radius, the half height) when its
 /// child boxes are tested. 28 are counted.
 inline constexpr float kNodeRoundings = 40.0F;
@@ -48,6 +52,9 @@ inline constexpr float kHitLimit = 1.99e-3F;
 
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double kLongestPiece = 64.0;
+
+/// Steps. Differences of coordinates, of up to 2^16 in a tile, and starts within this fit 32 bits.
+inline constexpr double kFarthestSteps = 0x1p31 - 0x1p17;
 
 /// Rounds of advance in single precision; what has not arrived by then is decided in double precision.
 inline constexpr int kRounds = 4;

@@ -50,8 +50,9 @@ double extent_of(const Box& b) {
 
 class Cutter {
  public:
-  Cutter(const std::vector<Item>& items, const std::vector<float>& reach, double cell, std::vector<Partition::Run>& out)
-      : items_(items), reach_(reach), cell_(cell), out_(out) {}
+  Cutter(const std::vector<Item>& items, const std::vector<float>& reach, double cell, double widest,
+         std::vector<Partition::Run>& out)
+      : items_(items), reach_(reach), cell_(cell), widest_(widest), out_(out) {}
 
   /// Cuts items[begin, end), which agree in all key bits above `bit`.
   void cut(std::uint32_t begin, std::uint32_t end, int bit) {
@@ -81,8 +82,9 @@ class Cutter {
 
  private:
   /// The widest side that a tile of the class may have.
-  static double limit(std::uint64_t c) {
-    return std::ldexp(kOrdinaryStep * double(kGridSteps - 4), kClassFactorBits * static_cast<int>(c));
+  [[nodiscard]] double limit(std::uint64_t c) const {
+    return std::min(widest_,
+                    std::ldexp(kOrdinaryStep * double(kGridSteps - 4), kClassFactorBits * static_cast<int>(c)));
   }
 
   /// An upper bound of the widest side of the box of a run.
@@ -120,13 +122,13 @@ class Cutter {
 
   const std::vector<Item>& items_;
   const std::vector<float>& reach_;
-  double cell_;
+  double cell_, widest_;
   std::vector<Partition::Run>& out_;
 };
 
 }  // namespace
 
-Partition partition(const Soup& soup, const std::function<void(double)>& tick) {
+Partition partition(const Soup& soup, bool lossless, const std::function<void(double)>& tick) {
   Partition result;
   const std::uint32_t count = soup.size();
   if (count == 0) return result;
@@ -155,7 +157,7 @@ Partition partition(const Soup& soup, const std::function<void(double)>& tick) {
   tick(0.4);
   tbb::parallel_sort(items.begin(), items.end());
   tick(0.8);
-  Cutter cutter(items, reach, cell, result.tiles);
+  Cutter cutter(items, reach, cell, lossless ? kWidestLossless : kWidest, result.tiles);
   for (std::uint32_t begin = 0; begin < count;) {
     const std::uint64_t c = items[begin].key >> kClassShift;
     const auto end =

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "index/binary_tree.h"
+#include "index/stack.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/traverse.cpp"
@@ -16,38 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// Blocks still to be visited, nearest on top. An entry orders by its key (a float >= 0, whose bits order as it does),
-/// then leaves before nodes, then by number.
-class Stack {
- public:
-  struct Entry {
-    float key;
-    std::uint32_t number;
-    bool leaf;
-  };
-
-  [[nodiscard]] bool empty() const { return count_ == 0; }
-  void clear() { count_ = 0; }
-
-  HWY_INLINE void push(float key, std::uint32_t number, bool leaf) {
-    const std::uint64_t e =
-        std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | (leaf ? 0U : std::uint32_t{1} << 31) | number;
-    int i = count_++;
-    for (; i > 0 && entries_[i - 1] < e; --i) entries_[i] = entries_[i - 1];
-    entries_[i] = e;
-  }
-
-  HWY_INLINE Entry pop() {
-    const std::uint64_t e = entries_[--count_];
-    const auto low = static_cast<std::uint32_t>(e);
-    return {std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32)), low & 0x7fffffffU, (low >> 31) == 0};
-  }
-
- private:
-  int count_ = 0;
-  std::uint64_t entries_[kMaxDepth * (kWidth - 1) + 1];
-};
-
 HWY_INLINE void prefetch(const Block* block) {
   hwy::Prefetch(block);
   hwy::Prefetch(reinterpret_cast<const char*>(block) + 64);
@@ -56,6 +24,7 @@ HWY_INLINE void prefetch(const Block* block) {
 /// Pushes the children that are left of a node. `nodes` and `leaves` are what their numbers count from.
 HWY_INLINE void push_children(const Node& node, const Children& children, const Block* nodes, const Block* leaves,
                               Stack& stack) {
+  stack.begin_children();
   for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
     const bool leaf = i >= node.inner_count;
@@ -78,10 +47,13 @@ class SweepTraversal {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const float grown = grown_for(round_up(piece_.body.radius), kTopSteps, frame);
     Stack stack;
-    stack.push(0.0F, 0, false);
+    stack.start();
     while (!stack.empty()) {
       const auto e = stack.pop();
-      if (e.key >= t_max_) break;
+      if (e.key >= t_max_) {
+        if (stack.ordered()) break;
+        continue;
+      }
       if (e.leaf) {
         tile(e.number);
         continue;
@@ -111,11 +83,13 @@ class SweepTraversal {
                                         (1.0F - kRadiusRoundings * kUnit);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    stack_.clear();
-    stack_.push(0.0F, 0, false);
+    stack_.start();
     while (!stack_.empty()) {
       const auto e = stack_.pop();
-      if (e.key >= t_max_) break;
+      if (e.key >= t_max_) {
+        if (stack_.ordered()) break;
+        continue;
+      }
       if (e.leaf) {
         leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
         continue;
@@ -196,10 +170,13 @@ class NearTraversal {
   void run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     Stack stack;
-    stack.push(0.0F, 0, false);
+    stack.start();
     while (!stack.empty()) {
       const auto e = stack.pop();
-      if (e.key > axis_reach(0.0F)) break;
+      if (e.key > axis_reach(0.0F)) {
+        if (stack.ordered()) break;
+        continue;
+      }
       if (e.leaf) {
         tile(e.number);
         continue;
@@ -225,11 +202,13 @@ class NearTraversal {
     const Frame frame(t.origin, t.step, piece_.start);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    stack_.clear();
-    stack_.push(0.0F, 0, false);
+    stack_.start();
     while (!stack_.empty()) {
       const auto e = stack_.pop();
-      if (e.key > axis_reach(t.error)) break;
+      if (e.key > axis_reach(t.error)) {
+        if (stack_.ordered()) break;
+        continue;
+      }
       Children children;
       if (!e.leaf) {
         const Node& node = nodes[e.number].node;
@@ -268,7 +247,7 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
     return grown_radius(radius, motion.half_height, motion.longest, steps * frame.step, frame.step);
   };
   Stack tiles, stack;
-  tiles.push(0.0F, 0, false);
+  tiles.start();
   while (!tiles.empty()) {
     const auto e = tiles.pop();
     Children children;
@@ -281,7 +260,7 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
     }
     const Tile& t = index.tiles[e.number];
     const Frame frame(t.origin, t.step, piece.start);
-    stack.push(0.0F, 0, false);
+    stack.start();
     while (!stack.empty()) {
       const auto b = stack.pop();
       const float radius = round_up(std::max(0.0, piece.body.radius + reach + double(t.error)));

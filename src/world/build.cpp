@@ -27,7 +27,8 @@ class Progress {
   void tick(double fraction) {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    if (cancelled_ || !report_(fraction)) {
+    told_ = std::max(told_, fraction);  // threads come in any order
+    if (cancelled_ || !report_(told_)) {
       cancelled_ = true;
       throw Cancelled();
     }
@@ -36,6 +37,7 @@ class Progress {
  private:
   const std::function<bool(double)>& report_;
   std::mutex mutex_;
+  double told_ = 0.0;
   bool cancelled_ = false;
 };
 
@@ -144,7 +146,8 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
     tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
     arena.execute([&] {
       auto built = [&] {
-        const auto parts = index::partition(soup, [&](double done) { progress.tick(kPartitionShare * done); });
+        const auto parts =
+            index::partition(soup, options.lossless, [&](double done) { progress.tick(kPartitionShare * done); });
         return build_tiles(soup, parts, options.lossless, progress);
       }();
       assemble(*data, built);

@@ -98,42 +98,51 @@ bool nearer(const Contact& a, const Contact& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
 }
 
-/// Keeps the nearest contacts, ordered, in the caller's memory. A triangle is offered once a piece.
+/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top.
 struct Collector {
   const index::Index& index;
-  const index::Piece* piece;
   double reach;
   std::span<Contact> out;
+  /// The same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
+  bool repeats = false;
+  const index::Piece* piece = nullptr;
   std::size_t count = 0;
 
   static double visit(void* self, const index::Place& place) { return static_cast<Collector*>(self)->offer(place); }
 
   double offer(const index::Place& place) {
     const Contact c = contact_at(index, *piece, place);
-    if (c.distance > reach) return reach;
-    for (std::size_t i = 0; i < count; ++i) {  // met in an earlier piece of the same motion
-      if (out[i].triangle != c.triangle) continue;
-      if (nearer(c, out[i])) {
-        std::move(out.begin() + i + 1, out.begin() + count, out.begin() + i);
-        insert(--count, c);
+    if (c.distance <= reach && !known(c)) {
+      if (count < out.size()) {
+        out[count++] = c;
+        std::push_heap(out.begin(), end(), nearer);
+      } else if (nearer(c, out[0])) {
+        std::pop_heap(out.begin(), end(), nearer);
+        out[count - 1] = c;
+        std::push_heap(out.begin(), end(), nearer);
       }
-      return reach;
-    }
-    if (count < out.size()) {
-      insert(count, c);
-    } else if (nearer(c, out[count - 1])) {
-      insert(--count, c);
     }
     // What is farther than the farthest of a full list need not be looked at.
-    if (count == out.size()) reach = std::min(reach, out[count - 1].distance);
+    if (count == out.size()) reach = std::min(reach, out[0].distance);
     return reach;
   }
 
+  /// Nearest first.
+  void sort() { std::sort_heap(out.begin(), end(), nearer); }
+
  private:
-  void insert(std::size_t at, const Contact& c) {
-    for (; at > 0 && nearer(c, out[at - 1]); --at) out[at] = out[at - 1];
-    out[at] = c;
-    ++count;
+  [[nodiscard]] std::span<Contact>::iterator end() const { return out.begin() + static_cast<std::ptrdiff_t>(count); }
+
+  /// Whether the triangle is in the list; a nearer contact with it replaces that one.
+  bool known(const Contact& c) {
+    if (!repeats) return false;
+    const auto same = std::find_if(out.begin(), end(), [&](const Contact& o) { return o.triangle == c.triangle; });
+    if (same == end()) return false;
+    if (nearer(c, *same)) {
+      *same = c;
+      std::make_heap(out.begin(), end(), nearer);
+    }
+    return true;
   }
 };
 
@@ -181,8 +190,9 @@ std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& moti
   if (contacts.empty()) return 0;
   const index::Index index = data_->view();
   const Pieces pieces(body, from, motion);
-  Collector collector{index, nullptr, reach, contacts};
+  Collector collector{.index = index, .reach = reach, .out = contacts, .repeats = pieces.count() > 1};
   for (int i = 0; i < pieces.count(); ++i) collect(data_->reach, pieces[i], collector);
+  collector.sort();
   return collector.count;
 }
 
@@ -193,7 +203,7 @@ Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motio
   Contact nearest;
   Clearance result;
   result.distance = reach;
-  Collector collector{index, nullptr, reach, {&nearest, 1}};
+  Collector collector{.index = index, .reach = reach, .out = {&nearest, 1}, .repeats = true};
   const index::Piece start{body, from, Vec3(0.0)};
   // Nearest first at the start: on the way, only what comes nearer still is of interest.
   collect(data_->reach, start, collector);

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// What a traversal has still to visit, nearest first, in bounded memory.
+
+#include <bit>
+#include <cassert>
+#include <cstdint>
+
+#include "index/binary_tree.h"
+#include "index/block.h"
+
+namespace roam::index {
+
+/// Blocks ordered by a key (a float >= 0, whose bits order as it does), the least on top; at equal keys leaves come
+/// before nodes, then lower numbers.
+///
+/// The frontier of a best-first search has no useful bound: around a body in the middle of a dome every node is nearer
+/// than every leaf. So beyond kBestFirst entries the search goes on depth-first: children are put on top of everything,
+/// ordered among themselves only, until the stack has shrunk. Depth-first search needs kWidth - 1 entries a level.
+class Stack {
+ public:
+  struct Entry {
+    float key;
+    std::uint32_t number;
+    bool leaf;
+  };
+
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+
+  /// Starts a search at a root.
+  void start() {
+    count_ = 0;
+    begin_children();
+    push(0.0F, 0, false);
+  }
+
+  /// To be called before the children of a node are pushed.
+  void begin_children() { floor_ = ordered() ? 0 : count_; }
+
+  void push(float key, std::uint32_t number, bool leaf) {
+    assert(count_ < kCapacity);
+    const std::uint64_t e =
+        std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | (leaf ? 0U : std::uint32_t{1} << 31) | number;
+    int i = count_++;
+    for (; i > floor_ && entries_[i - 1] < e; --i) entries_[i] = entries_[i - 1];
+    entries_[i] = e;
+  }
+
+  Entry pop() {
+    const std::uint64_t e = entries_[--count_];
+    const auto low = static_cast<std::uint32_t>(e);
+    return {std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32)), low & 0x7fffffffU, (low >> 31) == 0};
+  }
+
+  /// After pop(): no remaining entry has a smaller key than the one that was popped.
+  [[nodiscard]] bool ordered() const { return count_ <= kBestFirst; }
+
+ private:
+  static constexpr int kBestFirst = 256;
+  static constexpr int kCapacity = kBestFirst + kWidth + kMaxDepth * (kWidth - 1) + 1;
+
+  int count_ = 0;
+  int floor_ = 0;  ///< entries below it are left where they are
+  std::uint64_t entries_[kCapacity];
+};
+
+}  // namespace roam::index
