@@ -143,12 +143,6 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
   return route.result();
 }
 
-std::vector<Vec3> waypoints(const std::filesystem::path& file) {
-  std::vector<Vec3> points;
-  for (const Waypoint& waypoint : load_path(file)) points.push_back(waypoint.position);
-  return points;
-}
-
 Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces) {
   Progress progress("verifying", "pieces");
   return verify(scene.meshes, pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
@@ -164,7 +158,7 @@ ExitStatus walk(WalkOptions options) {
     throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
   }
   std::vector<Vec3> path;
-  if (!options.path.empty()) path = waypoints(options.path);
+  if (!options.path.empty()) path = positions(load_path(options.path));
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));

@@ -15,8 +15,7 @@ int main(int argc, char** argv) {
     for (const std::string& note : scene.report.notes) std::fprintf(stderr, "%s\n", note.c_str());
     const roam::World world = roam::World::build(scene.meshes);
 
-    std::vector<roam::Vec3> path;
-    for (const roam::Waypoint& waypoint : roam::load_path(argv[2])) path.push_back(waypoint.position);
+    const std::vector<roam::Vec3> path = roam::positions(roam::load_path(argv[2]));
 
     roam::Walker walker(world, {.radius = 0.3, .height = 1.8}, roam::Mode::walk, path.front());
     const roam::RouteResult result = roam::follow(walker, path, {.speed = 5.0});

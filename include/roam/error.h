@@ -14,7 +14,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Work that its own progress callback asked to stop.
+/// Work that its own progress callback asked to stop. Not an Error: nobody did anything wrong.
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}

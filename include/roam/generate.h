@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
 

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -117,6 +118,9 @@ struct Scene {
 /// crash, or needs more memory or time than allowed; the message names the file, the cause and what to do.
 /// Throws roam::Cancelled when the progress callback says so. No child process is left behind either way.
 [[nodiscard]] Scene import_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options = {});
+
+/// The same for a list that is written out: import_scene({"mine.dae", "shaft.obj"}).
+[[nodiscard]] Scene import_scene(std::initializer_list<std::filesystem::path> paths, const ImportOptions& options = {});
 
 /// The same for one path.
 [[nodiscard]] Scene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});

@@ -3,7 +3,8 @@
 /// Points, boxes and the two conventions everything else relies on.
 ///
 /// Lengths are metres and angles are radians unless a name says otherwise. The up axis is +z. Positions are doubles
-/// in the scene's own frame; no part of roam shifts or rotates what the caller passed.
+/// in the scene's own frame: nothing in roam shifts or rotates what a caller passes, and import.h says what it does to
+/// files.
 
 #include <glm/vec3.hpp>
 
@@ -14,7 +15,8 @@ namespace roam {
 /// A point or a displacement, in metres.
 using Vec3 = glm::dvec3;
 
-/// An axis-aligned box. A default-constructed box is empty and grows from nothing.
+/// An axis-aligned box. A default-constructed box is empty and grows from nothing; the size and centre of an empty box
+/// mean nothing.
 struct Box {
   Vec3 lower{std::numeric_limits<double>::infinity()};
   Vec3 upper{-std::numeric_limits<double>::infinity()};
@@ -30,6 +32,7 @@ struct Box {
     }
   }
   void include(const Box& b) {
+    if (b.empty()) return;
     include(b.lower);
     include(b.upper);
   }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/math.h"
 
 namespace roam {
@@ -37,5 +38,8 @@ struct Waypoint {
 
 /// The same from a file. Throws roam::Error also when it cannot be opened.
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
+
+/// The places alone, as Walker and Route take them.
+[[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);
 
 }  // namespace roam

@@ -2,6 +2,7 @@
 /// \file
 /// Walking or flying along waypoints, and telling how it ended.
 ///
+///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));  // or any other places
 ///     roam::Walker walker(world, {.radius = 0.3}, roam::Mode::walk, path[0]);
 ///     roam::Route route(walker, path, {.speed = 1.4});
 ///     while (!route.done()) route.advance();
@@ -16,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/walker.h"
 
@@ -62,7 +64,7 @@ struct RouteEvent {
 };
 
 struct RouteResult {
-  Outcome outcome = Outcome::reached;
+  Outcome outcome = Outcome::reached;  ///< means nothing before Route::done()
   double length = 0.0;  ///< metres that the centre moved, placing not counted
   std::uint64_t steps = 0;
   double simulated = 0.0;              ///< seconds

@@ -21,6 +21,7 @@
 
 #include <cstdint>
 
+#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
 

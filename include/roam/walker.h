@@ -25,15 +25,16 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/world.h"
 
 namespace roam {
 
-namespace motion {
+namespace walking {
 class Move;
 enum class Ending : std::uint8_t;
-}  // namespace motion
+}  // namespace walking
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
 enum class Mode : std::uint8_t { fly, walk, ghost };
@@ -69,6 +70,16 @@ struct WalkerSettings {
   /// How far around the body's surface clearance is measured after each step, metres, in [0, World::reach_limit].
   /// Reported clearances are capped at radius + clearance_reach. The larger, the slower in wide open scenes.
   double clearance_reach = 1.0;
+
+  /// The settings of the paper's sphere: height 2 * radius, the eye at its centre, a step of at most its radius.
+  static WalkerSettings sphere(double radius) {
+    WalkerSettings s;
+    s.radius = radius;
+    s.height = 2.0 * radius;
+    s.eye = radius;
+    s.step = s.step < radius ? s.step : radius;
+    return s;
+  }
 };
 
 /// Throws roam::Error, naming the setting, its value and its range, when a setting is out of range or not a number.
@@ -199,9 +210,10 @@ struct Stance {
 
 class Walker {
  public:
-  /// Puts a body into `world`, which must outlive it, at `start` (of its centre), as place() does. Throws roam::Error
-  /// for bad settings and for a start that is not finite.
+  /// Puts a body into `world`, which must outlive it and stay where it is, at `start` (of its centre), as place() does.
+  /// Throws roam::Error for bad settings and for a start that is not finite.
   Walker(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& start);
+  Walker(World&& world, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
 
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
   /// input that is not finite.
@@ -250,10 +262,10 @@ class Walker {
   [[nodiscard]] double fall_limit() const { return settings_.radius + settings_.step; }
 
  private:
-  [[nodiscard]] motion::Move under_way();
+  [[nodiscard]] walking::Move under_way();
   void begin();
   void move(const WalkerInput& input, double dt);
-  motion::Ending move_for(const WalkerInput& input, double dt);
+  walking::Ending move_for(const WalkerInput& input, double dt);
   void settle();
   void free_body();
   void come_back();
@@ -271,7 +283,7 @@ class Walker {
   double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
   double clearance_ = 0.0;  ///< certified at position_, metres
-  double nearest_ = 0.0;    ///< upper bound of the gap at position_, metres: see motion::Move
+  double nearest_ = 0.0;    ///< upper bound of the gap at position_, metres: see walking::Move
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;

@@ -9,8 +9,11 @@
 ///     if (s.hit) std::cout << world.object_name(s.triangle) << " at " << s.time << "\n";
 ///
 /// What is promised, with `radius` and triangles as the caller passed them and distances measured in exact arithmetic:
-///   - over [0, time] of a sweep the body is at least radius - 1e-6 m from every triangle;
-///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm (1e-5 m in a lossless world);
+///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle, unless it starts
+///     nearer: then it is a hit at time 0;
+///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis (1e-5 m in a lossless
+///     world). So a body that starts less than that from a wall may be answered a hit at time 0, whichever way it
+///     moves: keep a body that is to move on at least 2 * largest_error_m from what it touches, as Walker does;
 ///   - the same input gives the same bits on every machine, instruction set, thread count and run.
 /// This holds at any distance from the origin up to 6.4e6 m and for triangles from 0.1 mm to 10 km in one world.
 ///
@@ -25,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/sweep.h"
@@ -36,8 +40,10 @@ using TriangleId = std::uint64_t;
 /// The running number of a mesh, in the order in which they were passed to World::build.
 using ObjectId = std::uint32_t;
 
-/// The first impact of a sweep with any triangle of a world. See SweepResult for the other members. `distance` of a
-/// miss is 0: the way is free; World::clearance says by how much.
+/// The first impact of a sweep with any triangle of a world. See SweepResult for the other members, with these
+/// differences: `distance` of a miss is 0 (the way is free; World::clearance says by how much); and because a world
+/// stores to within largest_error_m, a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on the
+/// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct WorldSweep : SweepResult {
   TriangleId triangle = 0;  ///< of a hit: the triangle that is touched first
 };
@@ -47,7 +53,7 @@ struct Contact : Proximity {
   TriangleId triangle = 0;
 };
 
-/// How far a body is from everything. See Proximity for the other members; they are set when `found`.
+/// How far a body's surface is from everything. See Proximity for the other members; they are set when `found`.
 struct Clearance : Proximity {
   bool found = false;  ///< a triangle lies within the reach that was asked for; else distance is that reach
   TriangleId triangle = 0;
@@ -56,7 +62,9 @@ struct Clearance : Proximity {
 /// What a build may be told. The defaults suit everybody.
 struct BuildOptions {
   int threads = 0;  ///< worker threads, at most one per core; 0: one per core. Does not change a bit of the result.
-  bool lossless = false;  ///< answer hits within 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle
+  /// Answer hits within 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle. Triangles wider than 16 km lose some
+  /// of it: WorldStats::largest_error_m says.
+  bool lossless = false;
   /// Called now and then with the fraction done, in [0, 1], from any one thread at a time. Returning false cancels:
   /// build throws roam::Cancelled.
   std::function<bool(double)> progress;
@@ -81,7 +89,7 @@ class World {
   /// Largest absolute coordinate of a vertex, in metres.
   static constexpr double coordinate_limit = 1e9;
 
-  /// An empty world: everything is free.
+  /// An empty world: everything is free. A world that was moved from may only be assigned to or destroyed.
   World();
   ~World();
   World(World&&) noexcept;
@@ -97,6 +105,7 @@ class World {
   /// The triangles that come within `reach` (m) of the body's surface somewhere along the motion (zero motion: at
   /// the place). Each contact is measured where the body comes closest on its way. Writes at most contacts.size() of
   /// them, nearest first (ties by triangle id), and returns how many it wrote: fewer than contacts.size() means all.
+  /// Costs n log n for n contacts; n^2 for motions over 64 m.
   std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                        std::span<Contact> contacts) const;
 

@@ -153,6 +153,10 @@ Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options
   return scene;
 }
 
+Scene import_scene(std::initializer_list<fs::path> paths, const ImportOptions& options) {
+  return import_scene(std::span(paths.begin(), paths.size()), options);
+}
+
 Scene import_scene(const fs::path& path, const ImportOptions& options) {
   return import_scene(std::span(&path, 1), options);
 }

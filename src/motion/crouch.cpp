@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace roam::motion {
+namespace roam::walking {
 
 double crouched_height(const WalkerSettings& settings) {
   return std::min(settings.height, std::max(settings.crouch_height, 2.0 * settings.radius));
@@ -44,4 +44,4 @@ bool stand_up(Move& move) {
   return true;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

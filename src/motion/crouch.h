@@ -4,7 +4,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// The height of the crouched body, metres; the standing height where it can not crouch.
 [[nodiscard]] double crouched_height(const WalkerSettings& settings);
@@ -18,4 +18,4 @@ bool crouch_under(Move& move, const WorldSweep& contact, const Vec3& motion);
 /// Stands up when there is head-room for the whole body and its skin.
 bool stand_up(Move& move);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

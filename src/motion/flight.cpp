@@ -8,7 +8,7 @@
 #include "motion/slide.h"
 #include "motion/walking.h"
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// Seconds. A chord of this length leaves the parabola by g t^2 / 8, 1.4 mm.
@@ -94,4 +94,4 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   return true;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

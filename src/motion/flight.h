@@ -4,7 +4,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// How long a stretch may last, seconds: to the top of a jump, and else so short that chords follow the parabola.
 [[nodiscard]] double flight_seconds(const Move& move, const Stance& stance, const Vec3& velocity);
@@ -13,4 +13,4 @@ namespace roam::motion {
 /// when. False when the body is embedded.
 bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

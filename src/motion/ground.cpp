@@ -7,7 +7,7 @@
 
 #include "motion/planes.h"
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is walked on.
@@ -198,4 +198,4 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   return glm::length(onward) / length;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

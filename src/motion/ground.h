@@ -6,7 +6,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// Ground under a body.
 struct Footing {
@@ -49,4 +49,4 @@ void stand_on(Move& move, Stance& stance, const Footing& ground);
 /// than the motion when that is too short to get onto the rim.
 [[nodiscard]] std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, double seconds);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// The sweep looks this many skins beyond the end, so that a body in slow motion stops at the skin instead of creeping
@@ -159,4 +159,4 @@ void Move::undo(const Mark& m) {
 
 bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -6,7 +6,7 @@
 
 #include "roam/walker.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// World::sweep keeps the body this much less than its radius, at most, from every triangle (world.h), metres.
 constexpr double world_tolerance = 1e-6;
@@ -85,7 +85,7 @@ class Move {
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
-  [[nodiscard]] Advance probe(const Vec3& motion) const { return motion::probe(world, body(), place, motion, skin); }
+  [[nodiscard]] Advance probe(const Vec3& motion) const { return walking::probe(world, body(), place, motion, skin); }
 
   /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
   /// contact.
@@ -113,4 +113,4 @@ class Move {
   int merged_ = 0;
 };
 
-}  // namespace roam::motion
+}  // namespace roam::walking

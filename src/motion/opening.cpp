@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 constexpr std::size_t contacts_looked_at = 48;
@@ -68,4 +68,4 @@ std::optional<double> measure_opening(const World& world, const Body& body, cons
   return least;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -6,7 +6,7 @@
 
 #include "roam/world.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// The width, metres, of the opening ahead of a blocked body, see Blockage::opening: the least distance of two points
 /// that the body touches on either side of its way (or above and below), if a ray between them finds it open.
@@ -14,4 +14,4 @@ namespace roam::motion {
 [[nodiscard]] std::optional<double> measure_opening(const World& world, const Body& body, const Vec3& place,
                                                     const Vec3& ahead, double reach);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

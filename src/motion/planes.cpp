@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// Part of a wish's length by which it may lead into a plane and still count as along it. Far above rounding (1e-16)
@@ -46,4 +46,4 @@ Vec3 along_planes(const Vec3& wish, const PlaneSet& planes) {
   return best;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

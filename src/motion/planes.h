@@ -7,7 +7,7 @@
 
 #include "roam/math.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// The planes that a body touches at one place, as unit normals that point to the body.
 class PlaneSet {
@@ -34,4 +34,4 @@ class PlaneSet {
 /// was tried before, so that many contacts in a row wear nothing off.
 [[nodiscard]] Vec3 along_planes(const Vec3& wish, const PlaneSet& planes);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// Part of the centre's certified distance from everything that the sphere on the way has: it must start free.
@@ -81,4 +81,4 @@ std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec
   return best;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -6,7 +6,7 @@
 
 #include "roam/world.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// Whether the body fits at `place`: its certified gap to every triangle is a micrometre at least.
 [[nodiscard]] bool fits(const World& world, const Body& body, const Vec3& place);
@@ -22,4 +22,4 @@ enum class Way : std::uint8_t { checked, any };
 [[nodiscard]] std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec3& place, double limit,
                                                double skin, Way way);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

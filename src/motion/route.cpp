@@ -197,7 +197,7 @@ void Route::describe_blockage(const StepReport& report) {
   if (length > at_waypoint) {
     const double reach = opening_skins * walker_->skin();
     blockage.opening =
-        motion::measure_opening(walker_->world(), walker_->body(), walker_->position(), way / length, reach);
+        walking::measure_opening(walker_->world(), walker_->body(), walker_->position(), way / length, reach);
   }
   result_.blocked_at = blockage;
 }

@@ -4,7 +4,7 @@
 
 #include "motion/planes.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 Ending slide(Move& move, const Vec3& velocity, double dt) {
   const double start = move.time, wish = glm::length(velocity);
@@ -35,4 +35,4 @@ Ending slide(Move& move, const Vec3& velocity, double dt) {
   return seconds < dt ? Ending::throttled : Ending::done;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -4,7 +4,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// A slide ends after this many contacts, and what is left of its motion is dropped. Corners need 3, a facetted curve
 /// one for each facet that is passed in one step.
@@ -13,4 +13,4 @@ constexpr int slide_limit = 16;
 /// Moves by `velocity` for `dt` seconds and slides along what is met.
 Ending slide(Move& move, const Vec3& velocity, double dt);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -9,7 +9,7 @@
 #include "motion/planes.h"
 #include "motion/slide.h"
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// The rise of all `grounds` together along the horizontal `v`: the steepest decides.
@@ -96,4 +96,4 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   return true;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

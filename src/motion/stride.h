@@ -4,7 +4,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// How long a stride at this velocity may last, seconds: so short that the body looks for ground at least every half
 /// radius, or it would leap cracks that it can not cross. A stride that loses the ground is taken back and made again
@@ -17,4 +17,4 @@ namespace roam::motion {
 /// keeps to the ground below. The speed is that seen from above. False when the body is embedded.
 bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -39,8 +39,8 @@ Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
 
 Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
 
-motion::Move Walker::under_way() {
-  motion::Move m(*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
+walking::Move Walker::under_way() {
+  walking::Move m(*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
   m.time = report_.elapsed;
   return m;
 }
@@ -64,7 +64,7 @@ void Walker::finish() {
     const double reach = std::min(settings_.clearance_reach, nearest_);
     // Where a sweep ended the body fits, whatever rounding says.
     clearance_ =
-        settings_.radius + std::max(world_->clearance(body(), position_, reach).distance, -motion::world_tolerance);
+        settings_.radius + std::max(world_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
   for (const Corner& c : report_.corners) {
@@ -97,18 +97,18 @@ void Walker::hold() {
 
 void Walker::free_body() {
   const std::optional<Vec3> way_out =
-      motion::nearest_free(*world_, body(), position_, height_, skin_, motion::Way::checked);
+      walking::nearest_free(*world_, body(), position_, height_, skin_, walking::Way::checked);
   if (!way_out) return hold();
   // Put exactly in touch, a body is a hair too near: that is set right without a word.
-  const bool worth_saying = glm::length(*way_out - position_) > 2.0 * skin_ + motion::hit_tolerance;
+  const bool worth_saying = glm::length(*way_out - position_) > 2.0 * skin_ + walking::hit_tolerance;
   put(*way_out, report_.elapsed);
   if (worth_saying) report_.events.push({EventKind::freed, position_});
 }
 
 void Walker::settle() {
   if (mode_ != Mode::walk || held_) return;
-  motion::Move m = under_way();
-  motion::keep_ground(m, stance_, 0.0);
+  walking::Move m = under_way();
+  walking::keep_ground(m, stance_, 0.0);
   position_ = m.place;
   if (stance_.grounded || !(safe_height_ > 0.0)) remember_safe();
 }
@@ -122,7 +122,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (mode_ == Mode::ghost) {
     position_ += input.velocity * dt;
     report_.corners.push({position_, height_, dt, 0.0, false});
-    if (motion::fits(*world_, body(), position_)) remember_safe();
+    if (walking::fits(*world_, body(), position_)) remember_safe();
   } else if (held_) {
     hold();
   } else {
@@ -134,13 +134,13 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
 }
 
 void Walker::move(const WalkerInput& input, double dt) {
-  motion::Ending end = move_for(input, dt);
-  if (end == motion::Ending::embedded) {
+  walking::Ending end = move_for(input, dt);
+  if (end == walking::Ending::embedded) {
     free_body();
     if (!held_) end = move_for(input, dt - report_.elapsed);
   }
-  if (end == motion::Ending::throttled) report_.events.push({EventKind::throttled, position_});
-  if (end == motion::Ending::bottomless) {
+  if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, position_});
+  if (end == walking::Ending::bottomless) {
     height_ = safe_height_;
     stance_ = {};
     put(safe_, report_.elapsed);
@@ -151,21 +151,21 @@ void Walker::move(const WalkerInput& input, double dt) {
   if (mode_ == Mode::fly && !held_) remember_safe();
 }
 
-motion::Ending Walker::move_for(const WalkerInput& input, double dt) {
-  motion::Move m = under_way();
+walking::Ending Walker::move_for(const WalkerInput& input, double dt) {
+  walking::Move m = under_way();
   const bool walking = mode_ == Mode::walk;
   if (walking && input.crouch) {
-    motion::crouch(m);
+    walking::crouch(m);
   } else {
-    motion::stand_up(m);
+    walking::stand_up(m);
   }
-  motion::Ending end = motion::Ending::done;
+  walking::Ending end = walking::Ending::done;
   if (walking) {
-    if (input.jump) motion::jump(m, stance_);
+    if (input.jump) walking::jump(m, stance_);
     const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
-    end = motion::walk(m, stance_, horizontal, dt, {safe_, safe_height_});
+    end = walking::walk(m, stance_, horizontal, dt, {safe_, safe_height_});
   } else {
-    end = motion::slide(m, input.velocity, dt);
+    end = walking::slide(m, input.velocity, dt);
   }
   position_ = m.place;
   height_ = m.height;
@@ -183,10 +183,10 @@ const StepReport& Walker::place(const Vec3& centre) {
   safe_height_ = 0.0;
   put(centre, 0.0);
   report_.events.push({EventKind::placed, position_});
-  if (mode_ != Mode::ghost && !motion::fits(*world_, body(), position_)) {
-    const double low = motion::crouched_height(settings_);
+  if (mode_ != Mode::ghost && !walking::fits(*world_, body(), position_)) {
+    const double low = walking::crouched_height(settings_);
     const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
-    if (mode_ == Mode::walk && low < height_ && motion::fits(*world_, Body::capsule(settings_.radius, low), lowered)) {
+    if (mode_ == Mode::walk && low < height_ && walking::fits(*world_, Body::capsule(settings_.radius, low), lowered)) {
       height_ = low;
       put(lowered, 0.0);
       report_.events.push({EventKind::crouched, position_});
@@ -194,7 +194,7 @@ const StepReport& Walker::place(const Vec3& centre) {
       free_body();
     }
   }
-  if (!held_ && motion::fits(*world_, body(), position_)) remember_safe();
+  if (!held_ && walking::fits(*world_, body(), position_)) remember_safe();
   settle();
   finish();
   return report_;
@@ -206,7 +206,7 @@ const StepReport& Walker::set_mode(Mode mode) {
   mode_ = mode;
   if (mode == Mode::ghost) held_ = false;
   if (mode != before) stance_ = {};
-  if (before == Mode::ghost && mode != Mode::ghost && !motion::fits(*world_, body(), position_)) come_back();
+  if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*world_, body(), position_)) come_back();
   if (mode != before) settle();
   finish();
   return report_;
@@ -216,7 +216,7 @@ void Walker::come_back() {
   const bool known = safe_height_ > 0.0;
   const double to_safe = known ? glm::length(safe_ - position_) : height_;
   const std::optional<Vec3> near =
-      motion::nearest_free(*world_, body(), position_, std::min(height_, to_safe), skin_, motion::Way::any);
+      walking::nearest_free(*world_, body(), position_, std::min(height_, to_safe), skin_, walking::Way::any);
   if (near) {
     put(*near, 0.0);
     report_.events.push({EventKind::returned, position_});

@@ -7,7 +7,7 @@
 #include "motion/flight.h"
 #include "motion/stride.h"
 
-namespace roam::motion {
+namespace roam::walking {
 namespace {
 
 /// Strides in one step, at most; a step of minutes ends early instead of running on. 10 s of flight are 300.
@@ -64,4 +64,4 @@ Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const L
   return Ending::done;
 }
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -4,7 +4,7 @@
 
 #include "motion/move.h"
 
-namespace roam::motion {
+namespace roam::walking {
 
 /// Nobody falls faster than this, metres per second: about the terminal speed of a person.
 constexpr double terminal_speed = 55.0;
@@ -21,4 +21,4 @@ Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const L
 /// Takes off, when the body stands and its settings let it jump.
 void jump(Move& move, Stance& stance);
 
-}  // namespace roam::motion
+}  // namespace roam::walking

@@ -104,4 +104,11 @@ std::vector<Waypoint> load_path(const std::filesystem::path& file) {
   return read_path(in, file.string());
 }
 
+std::vector<Vec3> positions(const std::vector<Waypoint>& path) {
+  std::vector<Vec3> places;
+  places.reserve(path.size());
+  for (const Waypoint& waypoint : path) places.push_back(waypoint.position);
+  return places;
+}
+
 }  // namespace roam
