@@ -143,6 +143,19 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
   return route.result();
 }
 
+/// Refuses to write the trace over what is read.
+void check_trace(const WalkOptions& options) {
+  const auto is_trace = [&](const std::filesystem::path& file) {
+    std::error_code none;
+    return !file.empty() && std::filesystem::equivalent(file, options.trace, none);
+  };
+  if (options.trace.empty()) return;
+  for (const auto& scene : options.scene.scenes) {
+    if (is_trace(scene)) throw UsageError("--trace " + options.trace.string() + " would overwrite the scene");
+  }
+  if (is_trace(options.path)) throw UsageError("--trace " + options.trace.string() + " would overwrite the path");
+}
+
 Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces) {
   Progress progress("verifying", "pieces");
   return verify(scene.meshes, pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
@@ -150,6 +163,7 @@ Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces
 
 ExitStatus walk(WalkOptions options) {
   options.settings = walker_settings(options);
+  check_trace(options);
   const Mode mode = options.walker_mode();
   if (options.verify && mode == Mode::ghost) {
     throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
