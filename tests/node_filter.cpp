@@ -1,0 +1,112 @@
+// The node tests lose no child: boxes that a body just touches, judged in higher precision.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clutter.h"
+#include "index/lanes-inl.h"
+
+namespace {
+
+using roam::Vec3;
+using roam::index::kWidth;
+using roam::index::Node;
+namespace lanes = roam::index::HWY_NAMESPACE;
+
+/// Child boxes and the start of a query, far off in a tile or in the tree over tiles.
+struct Scene {
+  Node node{};
+  Vec3 origin, start;
+  double step;
+  float extent;  ///< of the widest node (m)
+
+  Scene(clutter::Random& random, bool top) {
+    step = top ? 1.0 / 65536.0 : 1.0 / 1024.0;
+    extent = static_cast<float>(step * (top ? 0x1p29 : 0x1p16));
+    const double wide = top ? 4000.0 : 60.0;
+    origin = {-13739.0, 253.0, 182.0};
+    node.child_count = kWidth;
+    node.inner_count = kWidth;
+    for (int k = 0; k < 3; ++k) {
+      node.shift[k] = static_cast<std::uint8_t>(random.between(0.0, top ? 18.0 : 8.0));
+      node.origin[k] = static_cast<std::int32_t>(random.between(0.0, 0.5 * wide / step));
+      for (int i = 0; i < kWidth; ++i) {
+        const auto a = static_cast<std::uint8_t>(random.between(0.0, 256.0));
+        const auto b = static_cast<std::uint8_t>(random.between(0.0, 256.0));
+        node.lower[k][i] = std::min(a, b);
+        node.upper[k][i] = std::max(a, b);
+      }
+    }
+    start = origin + Vec3(random.between(0.0, wide), random.between(0.0, wide), random.between(0.0, wide));
+  }
+  [[nodiscard]] long double plane(const std::uint8_t (&bounds)[3][kWidth], int i, int k) const {
+    const auto steps = static_cast<std::int64_t>(node.origin[k]) + (std::int64_t{bounds[k][i]} << node.shift[k]);
+    return (long double)(origin[k]) + (long double)(step)*steps;
+  }
+  /// Distance of the axis at time t to child box i.
+  [[nodiscard]] long double distance(int i, const Vec3& motion, double half_height, long double t) const {
+    long double squared = 0.0L;
+    for (int k = 0; k < 3; ++k) {
+      const long double at = (long double)(start[k]) + t * (long double)(motion[k]);
+      const long double h = k == 2 ? half_height : 0.0;
+      const long double d = std::max({plane(node.lower, i, k) - h - at, at - plane(node.upper, i, k) - h, 0.0L});
+      squared += d * d;
+    }
+    return std::sqrt(squared);
+  }
+  /// When the axis is nearest to child box i; the distance is convex in time.
+  [[nodiscard]] long double nearest_time(int i, const Vec3& motion, double half_height) const {
+    long double a = 0.0L, b = 1.0L;
+    for (int n = 0; n < 200; ++n) {
+      const long double c = a + (b - a) / 3, d = b - (b - a) / 3;
+      if (distance(i, motion, half_height, c) <= distance(i, motion, half_height, d)) {
+        b = d;
+      } else {
+        a = c;
+      }
+    }
+    return 0.5L * (a + b);
+  }
+};
+
+void touch_every_child(bool top) {
+  clutter::Random random(41);
+  int tested = 0;
+  for (int q = 0; q < 3000; ++q) {
+    const Scene scene(random, top);
+    const lanes::Frame frame(scene.origin, scene.step, scene.start);
+    const double h = q % 2 == 0 ? 0.0 : random.between(0.0, 2.0);
+    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
+    if (q % 5 == 0) way[q % 3] = 0.0;  // along a plane
+    const lanes::Motion motion(way, h);
+    for (int i = 0; i < kWidth; ++i) {
+      const long double t = scene.nearest_time(i, way, h), d = scene.distance(i, way, h, t);
+      if (d > 1000.0L) continue;
+      ++tested;
+      const auto radius = std::nextafter(static_cast<float>(d), 2000.0F);
+      const float grown =
+          lanes::grown_radius(radius, motion.half_height, motion.longest, scene.extent, static_cast<float>(scene.step));
+      lanes::Children children;
+      lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
+      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+      ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
+
+      const long double at_rest = scene.distance(i, Vec3(0.0), h, 0.0L);
+      if (at_rest > 1000.0L) continue;
+      const auto reach = std::nextafter(static_cast<float>(at_rest), 2000.0F);
+      const float margin =
+          lanes::grown_radius(0.0F, motion.half_height, reach, scene.extent, static_cast<float>(scene.step));
+      lanes::near_node(scene.node, frame, motion.half_height, margin, reach, children);
+      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+      ASSERT_LE((long double)(children.key[i]), at_rest) << "query " << q << " child " << i;
+    }
+  }
+  EXPECT_GT(tested, 2000);
+}
+
+TEST(NodeFilter, LosesNoChildOfATile) { touch_every_child(false); }
+
+TEST(NodeFilter, LosesNoChildOfTheTreeOverTiles) { touch_every_child(true); }
+
+}  // namespace
