@@ -60,6 +60,17 @@ TEST(WalkVerb, DoesNotWriteItsTraceOverWhatItReads) {
   EXPECT_EQ(folder.read("scene.obj"), room_obj());
 }
 
+TEST(WalkVerb, RefusesWhatWouldNeverEnd) {
+  const Walk far(room_obj(), "2 0 1\n1e300 0 1\n", {"--mode", "fly"});
+  EXPECT_EQ(far.result.status, 1);
+  EXPECT_TRUE(contains(far.result.err, ":2: '1e300' is beyond 1e9")) << far.result.err;
+  for (const char* dt : {"1e-300", "nan", "0", "-1", "inf"}) {
+    const Walk walk(room_obj(), "2 0 1\n3 0 1\n", {std::string("--dt=") + dt});
+    EXPECT_EQ(walk.result.status, 2) << dt;
+    EXPECT_TRUE(contains(walk.result.err, "--dt")) << walk.result.err;
+  }
+}
+
 TEST(WalkVerb, IsASphereWhenNoHeightIsGiven) {
   const Walk walk(room_obj(), "2 0 0.4\n4 0 0.4\n", {"--radius", "0.4", "--json"});
   EXPECT_EQ(walk.json()["height"], 0.8);

@@ -36,9 +36,8 @@ case $what in
     build walk_a_path
     printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
     printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
-    # The package may have been built for another prefix than this.
-    ROAM_READER=$prefix/libexec/roam/roam-reader \
-      expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
+    # The package was configured for another prefix than this: it tells its programs where its reader is.
+    expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
     ;;
   picture)
     build draw_a_walk
@@ -46,8 +45,7 @@ case $what in
     printf '0 0 1\n4 0 1\n' > "$work/ahead.path"
     "$prefix/bin/roam" walk "$work/wall.obj" --path "$work/ahead.path" --mode fly --trace "$work/ahead.csv"
     # The wall as the plane through the start cuts it, 1 m above the ground.
-    ROAM_READER=$prefix/libexec/roam/roam-reader \
-      expect 'M5.00 -8.00L5.00 8.00' "$work/build/draw_a_walk" "$work/wall.obj" "$work/ahead.csv"
+    expect 'M5.00 -8.00L5.00 8.00' "$work/build/draw_a_walk" "$work/wall.obj" "$work/ahead.csv"
     ;;
   readme)
     sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"

@@ -88,7 +88,7 @@ ExitStatus info(const SceneOptions& options, bool json) {
 constexpr const char* help =
     "Reads a scene and says what is in it: triangles, objects and box; what was left out on reading, and why; what\n"
     "the index of it costs and by how much the index moved a vertex at most; and a hash of the triangles, which two\n"
-    "files with the same triangles share whatever their format.\n\n"
+    "files share, whatever their format, when their triangles are the same to the last digit and in the same order.\n\n"
     "Examples:\n"
     "  roam info mine.dae\n"
     "  roam info Terrain/ plant.glb --json\n"

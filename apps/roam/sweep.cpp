@@ -29,6 +29,9 @@ constexpr std::size_t longest_row = 4096;
 // How soon an error is told while the other end of the pipe waits for answers.
 constexpr int poll_milliseconds = 50;
 
+// What spreadsheets put before UTF-8.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Whole rows of the input.
 struct Rows {
   std::string text;
@@ -102,6 +105,7 @@ WorldSweep sweep_and_measure(const World& world, const SweepQuery& query) {
 Answers answer(const World& world, const Rows& rows) {
   Answers answers;
   std::string_view text = rows.text;
+  if (rows.first_line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   for (std::uint64_t line = rows.first_line; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view row = text.substr(0, end);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 
@@ -20,6 +21,14 @@
 
 namespace roam::app {
 namespace {
+
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
+    },
+    "");
 
 struct WalkOptions {
   SceneOptions scene;
@@ -164,6 +173,7 @@ Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces
 ExitStatus walk(WalkOptions options) {
   options.settings = walker_settings(options);
   check_trace(options);
+  if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
   if (options.verify && mode == Mode::ghost) {
     throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
@@ -250,7 +260,7 @@ void add_walk(CLI::App& program, Run& run) {
   ways->add_option("--path", o.path, "Waypoints to go along")->type_name("FILE");
   auto* wander =
       ways->add_option("--wander", o.wander, "Without a path: go where the body has been least, for S seconds")
-          ->check(CLI::PositiveNumber)
+          ->check(positive)
           ->type_name("S");
   ways->require_option(1);
   verb->add_option("--from", o.from, "Where to start wandering (default: where there is most room and walls in sight)")
@@ -270,10 +280,10 @@ void add_walk(CLI::App& program, Run& run) {
   verb->add_option("--slope", o.settings.slope_degrees, "What walking climbs, in degrees (default: 45)")
       ->type_name("DEG");
   verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->type_name("V");
-  verb->add_option("--dt", o.route.dt, "Of one step, in seconds (default: 1/60)")
-      ->check(CLI::PositiveNumber)
+  verb->add_option("--dt", o.route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
+      ->check(positive)
       ->type_name("S");
   verb->add_option("--trace", o.trace, "Write every step to a CSV file")->type_name("FILE");
   verb->add_flag("--verify", o.verify,

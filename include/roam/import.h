@@ -11,7 +11,7 @@
 /// memory therefore costs a roam::Error, not the program. docs/importing.md lists the formats and what is kept.
 ///
 /// The reader is looked for at: ImportOptions::reader; the environment variable ROAM_READER; `roam-reader` beside the
-/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to; `../libexec/roam`
+/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to (as configured, and as the package is now); `../libexec/roam`
 /// from the folders of PATH.
 ///
 /// Coordinates are those of the file. Nothing is shifted, rotated or scaled unless ImportOptions say so, with two
@@ -124,5 +124,13 @@ struct Scene {
 
 /// The same for one path.
 [[nodiscard]] Scene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// Tells the library where the package that the program was built with keeps its reader. Called by this header itself
+/// in programs that find_package(roam) built; nothing to call by hand.
+bool know_package_reader(const char* program) noexcept;
+
+#ifdef ROAM_PACKAGE_READER
+[[maybe_unused]] static const bool package_reader_is_known = know_package_reader(ROAM_PACKAGE_READER);
+#endif
 
 }  // namespace roam

@@ -25,7 +25,7 @@ namespace roam {
 
 struct RouteOptions {
   double speed = 1.4;      ///< metres per second, > 0
-  double dt = 1.0 / 60.0;  ///< seconds a step, > 0. A step that comes to a waypoint ends there, earlier.
+  double dt = 1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier.
   /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it came nearer to its waypoint by less
   /// than a twentieth of what free motion at `speed` would have brought: sliding at less than that, 3 degrees off
   /// head-on, is not getting on.
@@ -80,6 +80,8 @@ struct RouteResult {
 /// One walk along waypoints, step by step, so that the caller can watch, time or draw each.
 class Route {
  public:
+  static constexpr double shortest_step = 1e-6;  ///< seconds
+
   /// Places the walker at waypoints[0]. In walk mode it first comes down to the ground there, on the spot.
   ///
   /// In walk mode a waypoint counts as reached when it is within the body's radius of the axis, seen from above, and at
@@ -88,7 +90,7 @@ class Route {
   /// counts as reached and something keeps the body from coming nearer: corners are not cut.
   ///
   /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
-  /// waypoint that is not finite, options out of range, and a walker in ghost mode.
+  /// waypoint that is not finite or beyond World::coordinate_limit, options out of range, and a walker in ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
   [[nodiscard]] bool done() const { return done_; }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -13,6 +14,21 @@
 #endif
 
 #include "roam/error.h"
+#include "roam/import.h"
+
+namespace roam {
+namespace {
+
+std::atomic<const char*> package_reader{nullptr};
+
+}  // namespace
+
+bool know_package_reader(const char* program) noexcept {
+  package_reader = program;
+  return true;
+}
+
+}  // namespace roam
 
 namespace roam::reader {
 namespace {
@@ -59,6 +75,7 @@ fs::path find_reader(const fs::path& wanted) {
     places.push_back(folder / reader_name);
     places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
   }
+  if (const char* of_package = package_reader) places.emplace_back(of_package);
   places.emplace_back(ROAM_READER_INSTALLED);
   // An installation elsewhere, whose command line the user can call.
   std::istringstream path(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));

@@ -21,7 +21,10 @@ constexpr double at_waypoint = 1e-8;
 /// A contact is what the opening is measured from when it is within this many skins.
 constexpr double opening_skins = 4.0;
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool within_limit(const Vec3& v) {  // false for what is not a number
+  return std::abs(v.x) <= World::coordinate_limit && std::abs(v.y) <= World::coordinate_limit &&
+         std::abs(v.z) <= World::coordinate_limit;
+}
 
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
   const auto positive = [](const char* what, double value, const char* unit) {
@@ -32,10 +35,15 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   };
   positive("speed", options.speed, "m/s");
   positive("time step", options.dt, "s");
+  if (options.dt < Route::shortest_step) {
+    throw Error("the route's time step is shorter than a microsecond; it would take for ever");
+  }
   positive("patience", options.patience, "s");
   if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    if (!finite(waypoints[i])) throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a finite point");
+    if (!within_limit(waypoints[i])) {
+      throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a point within 1e9 m of the origin");
+    }
   }
   if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
 }

@@ -13,6 +13,9 @@
 namespace roam {
 namespace {
 
+// Metres, or seconds of a recording: no scene lies farther out (World::coordinate_limit).
+constexpr double largest_number = 1e9;
+
 constexpr std::size_t waypoint_numbers = 3;
 constexpr std::size_t pose_numbers = 8;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -46,6 +49,9 @@ Numbers parse(std::string_view text, const std::string& name, int line) {
     }
     if (status != std::errc() || !std::isfinite(value)) {
       fail(name, line, fmt::format("'{}' is not a finite number; correct or remove the line", word));
+    }
+    if (std::abs(value) > largest_number) {
+      fail(name, line, fmt::format("'{}' is beyond 1e9; correct or remove the line", word));
     }
     if (numbers.count < pose_numbers) numbers.value[numbers.count] = value;
     ++numbers.count;
