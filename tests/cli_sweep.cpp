@@ -129,6 +129,14 @@ TEST(SweepVerb, NeedsNoHeaderAndAnswersNothingToNothing) {
   EXPECT_EQ(none.result.out, std::string(out_header) + "\n");
 }
 
+TEST(SweepVerb, AcceptsAByteOrderMark) {
+  EXPECT_EQ(Sweep("\xEF\xBB\xBFx,y,z,dx,dy,dz,radius\n10,0,1.5,20,0,0,0.5\n").rows.size(), 2u);
+  EXPECT_EQ(Sweep("\xEF\xBB\xBF"
+                  "10,0,1.5,20,0,0,0.5\n")
+                .rows.size(),
+            2u);
+}
+
 TEST(SweepVerb, NamesTheLineOfAMalformedRowAfterAnsweringThoseBefore) {
   const Sweep sweep("x,y,z,dx,dy,dz,radius\n10,0,1.5,20,0,0,0.5\n\n10,0,1.5,20,0,0\n10,0,1.5,20,0,0,0.5\n");
   EXPECT_EQ(sweep.result.status, 1);
