@@ -34,6 +34,20 @@ HWY_INLINE void push_children(const Node& node, const Children& children, const 
   }
 }
 
+/// Visits what is on the stack, beginning with a root, nearest first, as long as it is not `beyond` what matters.
+template <class Beyond, class VisitEntry>
+HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
+  stack.start();
+  while (!stack.empty()) {
+    const Stack::Entry e = stack.pop();
+    if (!beyond(e.key)) {
+      visit(e);
+    } else if (stack.ordered()) {
+      break;
+    }
+  }
+}
+
 /// The widest node of a tile and of the tree over tiles, in steps.
 constexpr float kTileSteps = 0x1p16F;
 constexpr float kTopSteps = 0x1p29F;
@@ -47,22 +61,15 @@ class SweepTraversal {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const float grown = grown_for(round_up(piece_.body.radius), kTopSteps, frame);
     Stack stack;
-    stack.start();
-    while (!stack.empty()) {
-      const auto e = stack.pop();
-      if (e.key >= t_max_) {
-        if (stack.ordered()) break;
-        continue;
-      }
-      if (e.leaf) {
-        tile(e.number);
-        continue;
-      }
-      const Node& node = index_.blocks[e.number].node;
-      Children children;
-      sweep_node(node, frame, motion_, grown, t_max_, children);
-      push_children(node, children, index_.blocks, nullptr, stack);
-    }
+    search(
+        stack, [this](float key) { return key >= t_max_; },
+        [&](const Stack::Entry& e) {
+          if (e.leaf) return tile(e.number);
+          const Node& node = index_.blocks[e.number].node;
+          Children children;
+          sweep_node(node, frame, motion_, grown, t_max_, children);
+          push_children(node, children, index_.blocks, nullptr, stack);
+        });
     return best_;
   }
 
@@ -83,19 +90,12 @@ class SweepTraversal {
                                         (1.0F - kRadiusRoundings * kUnit);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    stack_.start();
-    while (!stack_.empty()) {
-      const auto e = stack_.pop();
-      if (e.key >= t_max_) {
-        if (stack_.ordered()) break;
-        continue;
-      }
-      if (e.leaf) {
-        leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
-        continue;
-      }
-      descend(nodes, leaves, e.number, frame, grown);
-    }
+    search(
+        stack_, [this](float key) { return key >= t_max_; },
+        [&](const Stack::Entry& e) {
+          if (e.leaf) return leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
+          descend(nodes, leaves, e.number, frame, grown);
+        });
   }
 
   /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency.
@@ -170,22 +170,15 @@ class NearTraversal {
   void run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     Stack stack;
-    stack.start();
-    while (!stack.empty()) {
-      const auto e = stack.pop();
-      if (e.key > axis_reach(0.0F)) {
-        if (stack.ordered()) break;
-        continue;
-      }
-      if (e.leaf) {
-        tile(e.number);
-        continue;
-      }
-      const Node& node = index_.blocks[e.number].node;
-      Children children;
-      near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(0.0F), children);
-      push_children(node, children, index_.blocks, nullptr, stack);
-    }
+    search(
+        stack, [this](float key) { return key > axis_reach(0.0F); },
+        [&](const Stack::Entry& e) {
+          if (e.leaf) return tile(e.number);
+          const Node& node = index_.blocks[e.number].node;
+          Children children;
+          near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(0.0F), children);
+          push_children(node, children, index_.blocks, nullptr, stack);
+        });
   }
 
  private:
@@ -202,32 +195,28 @@ class NearTraversal {
     const Frame frame(t.origin, t.step, piece_.start);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    stack_.start();
-    while (!stack_.empty()) {
-      const auto e = stack_.pop();
-      if (e.key > axis_reach(t.error)) {
-        if (stack_.ordered()) break;
-        continue;
-      }
-      Children children;
-      if (!e.leaf) {
-        const Node& node = nodes[e.number].node;
-        near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(t.error), children);
-        push_children(node, children, nodes, leaves, stack_);
-        continue;
-      }
-      near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(t.error), children);
-      while (children.mask != 0) {
-        auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
-        for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
-          const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-          if (children.key[i] < children.key[nearest]) nearest = i;
-        }
-        if (children.key[nearest] > axis_reach(t.error)) break;
-        children.mask &= ~(1U << nearest);
-        reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
-      }
-    }
+    search(
+        stack_, [&](float key) { return key > axis_reach(t.error); },
+        [&](const Stack::Entry& e) {
+          Children children;
+          if (!e.leaf) {
+            const Node& node = nodes[e.number].node;
+            near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(t.error), children);
+            push_children(node, children, nodes, leaves, stack_);
+            return;
+          }
+          near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(t.error), children);
+          while (children.mask != 0) {
+            auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
+            for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+              const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+              if (children.key[i] < children.key[nearest]) nearest = i;
+            }
+            if (children.key[nearest] > axis_reach(t.error)) break;
+            children.mask &= ~(1U << nearest);
+            reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
+          }
+        });
   }
 
   const Index& index_;
