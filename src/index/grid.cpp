@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "math/largest.h"
+
 namespace roam::index {
 
 Grid Grid::fitting(const Box& box) {
-  const Vec3 size = box.size();
-  const double extent = std::max(size.x, std::max(size.y, size.z));
+  const double extent = largest(box.size());
   int exponent = kFinestExponent;
   for (;; ++exponent) {
     Grid grid;

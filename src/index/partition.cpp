@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "index/grid.h"
+#include "math/largest.h"
 
 namespace roam::index {
 namespace {
@@ -41,11 +42,6 @@ Box box_of(const Triangle& t) {
   Box b;
   for (const Vec3& v : t) b.include(v);
   return b;
-}
-
-double extent_of(const Box& b) {
-  const Vec3 s = b.size();
-  return std::max(s.x, std::max(s.y, s.z));
 }
 
 class Cutter {
@@ -135,14 +131,14 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
   // Half the widest side of each triangle's box, rounded up: how far it may stick out of the cells of its run.
   std::vector<float> reach(count);
   std::vector<Item> items(count);
-  const double side = std::max(extent_of(soup.bounds()), kOrdinaryTriangle);
+  const double side = std::max(largest(soup.bounds().size()), kOrdinaryTriangle);
   const double cell = side / double(1 << kCurveBits);
   for (std::size_t m = 0; m < soup.meshes().size(); ++m) {
     const Mesh& mesh = soup.meshes()[m];
     const auto first = static_cast<std::uint32_t>(soup.first()[m]);
     tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
       const Box box = box_of(mesh.triangle(i));
-      const double extent = extent_of(box);
+      const double extent = largest(box.size());
       const Vec3 place = (box.center() - soup.bounds().lower) / cell;
       std::uint64_t key = size_class(extent) << kClassShift;
       for (int k = 0; k < 3; ++k) {

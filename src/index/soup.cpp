@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "math/largest.h"
 #include "roam/error.h"
 #include "roam/world.h"
 
@@ -29,8 +30,7 @@ Soup::Soup(std::span<const Mesh> meshes) : meshes_(meshes) {
                       std::to_string(mesh.vertices.size()) + " vertices");
         }
         const Vec3& p = mesh.vertices[v];
-        const double largest = std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z)));
-        if (!(largest <= World::coordinate_limit) || std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z)) {
+        if (!(largest(p) <= World::coordinate_limit) || std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z)) {
           throw Error("cannot build a world: vertex " + std::to_string(v) + " of " + title(meshes, m) +
                       " is not finite or farther than 1e9 m from the origin; leave out triangle " + std::to_string(i) +
                       ", or check the unit of the data");

@@ -7,6 +7,7 @@
 
 #include "index/collapse.h"
 #include "index/grid.h"
+#include "math/largest.h"
 
 namespace roam::index {
 namespace {
@@ -78,12 +79,10 @@ class TileBuilder {
         worst_fine = std::max(worst_fine, error_fine);
       }
     }
-    const double largest = std::max(std::max(std::abs(out_.bounds.lower.x), std::abs(out_.bounds.upper.x)),
-                                    std::max(std::max(std::abs(out_.bounds.lower.y), std::abs(out_.bounds.upper.y)),
-                                             std::max(std::abs(out_.bounds.lower.z), std::abs(out_.bounds.upper.z))));
+    const double farthest = std::max(largest(out_.bounds.lower), largest(out_.bounds.upper));
     // The subtraction of the origin rounds by at most 2^-53 of the coordinates, the rest by less than 2^-20 of itself.
     const auto round_up = [&](double squared) {
-      const double e = std::sqrt(squared) * (1.0 + 0x1p-20) + 0x1p-51 * largest;
+      const double e = std::sqrt(squared) * (1.0 + 0x1p-20) + 0x1p-51 * farthest;
       return std::nextafter(static_cast<float>(e), std::numeric_limits<float>::infinity());
     };
     out_.tile = {};

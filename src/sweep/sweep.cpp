@@ -4,14 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "math/largest.h"
 #include "roam/error.h"
 #include "sweep/certified.h"
 #include "sweep/error_bound.h"
 
 namespace roam {
 namespace {
-
-double largest(const Vec3& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
 
 /// Written so that NaN is refused.
 bool within_limit(double length) { return length <= certified::length_limit; }

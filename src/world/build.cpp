@@ -11,6 +11,7 @@
 #include "index/collapse.h"
 #include "index/partition.h"
 #include "index/tile_builder.h"
+#include "math/largest.h"
 #include "roam/error.h"
 #include "world/data.h"
 
@@ -47,8 +48,7 @@ constexpr double kPartitionShare = 0.2;
 /// The grid of the tree over the tiles: 2^29 steps across, so that differences of coordinates fit 31 bits even for
 /// queries that start outside, in reach.
 index::Grid top_grid(const Box& box) {
-  const Vec3 size = box.size() + Vec3(8.0 * World::reach_limit);
-  const double extent = std::max(size.x, std::max(size.y, size.z));
+  const double extent = largest(box.size() + Vec3(8.0 * World::reach_limit));
   index::Grid grid;
   grid.step = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
   for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;

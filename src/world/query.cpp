@@ -4,6 +4,7 @@
 
 #include "index/margin.h"
 #include "index/tile_builder.h"
+#include "math/largest.h"
 #include "roam/error.h"
 #include "world/data.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 /// Metres. The longest motion of one query.
 constexpr double kMotionLimit = 1e6;
-
-double largest(const Vec3& v) { return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))); }
 
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot answer a query: " + what); }
 
