@@ -235,37 +235,32 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
   const auto grown_for = [&](float radius, float steps, const Frame& frame) {
     return grown_radius(radius, motion.half_height, motion.longest, steps * frame.step, frame.step);
   };
-  Stack tiles, stack;
-  tiles.start();
-  while (!tiles.empty()) {
-    const auto e = tiles.pop();
+  const auto reach_of = [&](double error) { return round_up(std::max(0.0, piece.body.radius + reach + error)); };
+  const auto never = [](float) { return false; };  // what is met late may be as near as what is met early
+  Stack tiles, blocks;
+  search(tiles, never, [&](const Stack::Entry& e) {
     Children children;
     if (!e.leaf) {
       const Node& node = index.blocks[e.number].node;
-      const float radius = round_up(std::max(0.0, piece.body.radius + reach));
-      sweep_node(node, top, motion, grown_for(radius, kTopSteps, top), 1.0F, children);
-      push_children(node, children, index.blocks, nullptr, tiles);
-      continue;
+      sweep_node(node, top, motion, grown_for(reach_of(0.0), kTopSteps, top), 1.0F, children);
+      return push_children(node, children, index.blocks, nullptr, tiles);
     }
     const Tile& t = index.tiles[e.number];
     const Frame frame(t.origin, t.step, piece.start);
-    stack.start();
-    while (!stack.empty()) {
-      const auto b = stack.pop();
-      const float radius = round_up(std::max(0.0, piece.body.radius + reach + double(t.error)));
+    search(blocks, never, [&](const Stack::Entry& b) {
+      const float radius = reach_of(double(t.error));
       if (!b.leaf) {
         const Node& node = index.blocks[t.nodes + b.number].node;
         sweep_node(node, frame, motion, grown_for(radius, kTileSteps, frame), 1.0F, children);
-        push_children(node, children, index.blocks + t.nodes, index.blocks + t.leaves, stack);
-        continue;
+        return push_children(node, children, index.blocks + t.nodes, index.blocks + t.leaves, blocks);
       }
       Met met;
       sweep_leaf(index.blocks[t.leaves + b.number].leaf, frame, motion, radius, -1.0F, b.key, 1.0F, met);
       for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
         reach = visit(context, {e.number, t.leaves + b.number, static_cast<std::uint32_t>(std::countr_zero(left))});
       }
-    }
-  }
+    });
+  });
 }
 
 void VisitNear(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
