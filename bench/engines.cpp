@@ -12,6 +12,7 @@
 #include "engine.h"
 #include "judge.h"
 #include "query_sets.h"
+#include "run_options.h"
 #include "scene.h"
 #include "timing.h"
 
@@ -19,13 +20,8 @@ namespace {
 
 using namespace roam::bench;
 
-struct Options {
-  SceneChoice scene;
-  std::vector<double> origin{0.0, 0.0, 0.0};
-  std::vector<std::string> sets = query_set_names();
+struct Options : RunOptions {
   std::vector<std::string> engines;
-  std::size_t queries = 100000;
-  int rounds = 5;
   double patience = 1.0;  // s
 };
 
@@ -206,28 +202,15 @@ int main(int argc, char** argv) {
   app.footer(
       "Google Benchmark's options --benchmark_format=json, --benchmark_out=FILE, --benchmark_filter=REGEX, ... work "
       "too.");
-  app.add_option("--scene", options.scene.scene, "gallery, terrain, or a file")->capture_default_str();
-  app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
-  app.add_option("--origin", options.origin, "where the scene's centre is moved, metres: x,y,z")
-      ->delimiter(',')
-      ->expected(3)
-      ->capture_default_str();
-  app.add_option("--sets", options.sets, "which query sets, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(query_set_names()));
+  options.add_to(app);
   app.add_option("--engines", options.engines, "which engines, separated by commas; all when left out")
       ->delimiter(',')
       ->check(CLI::IsMember(engine_names()));
-  app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--rounds", options.rounds, "each query's time is the median over these")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
   app.add_option("--patience", options.patience,
                  "seconds: an engine that needs longer for a set gets the first part of it")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, static_cast<int>(ours.size()), ours.data());
-  options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
   try {
     run(options, out);
   } catch (const std::exception& error) {

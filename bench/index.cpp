@@ -12,6 +12,7 @@
 #include "query_sets.h"
 #include "roam/error.h"
 #include "roam/world.h"
+#include "run_options.h"
 #include "scene.h"
 #include "timing.h"
 
@@ -19,12 +20,7 @@ namespace {
 
 using namespace roam::bench;
 
-struct Options {
-  SceneChoice scene;
-  std::vector<double> origin{0.0, 0.0, 0.0};
-  std::vector<std::string> sets = query_set_names();
-  std::size_t queries = 100000;
-  int rounds = 5;
+struct Options : RunOptions {
   bool lossless = false;
   bool check = true;
   std::string instructions;
@@ -118,25 +114,12 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Times roam's sweeps in one scene; exit code 1 when an answer is wrong"};
-  app.add_option("--scene", options.scene.scene, "gallery, terrain, or a file")->capture_default_str();
-  app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
-  app.add_option("--origin", options.origin, "where the scene's centre is moved, metres: x,y,z")
-      ->delimiter(',')
-      ->expected(3)
-      ->capture_default_str();
-  app.add_option("--sets", options.sets, "which query sets, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(query_set_names()));
-  app.add_option("--queries", options.queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--rounds", options.rounds, "each query's time is the median over these")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+  options.add_to(app);
   app.add_flag("--lossless", options.lossless, "build with BuildOptions::lossless");
   app.add_flag("!--no-check", options.check, "leave out the comparison with the reference: faster to start");
   app.add_option("--instructions", options.instructions,
                  "the best instruction set to use, by Highway's name: AVX3, AVX2, SSE4, ...");
   CLI11_PARSE(app, argc, argv);
-  options.scene.origin = {options.origin[0], options.origin[1], options.origin[2]};
   try {
     return run(options);
   } catch (const std::exception& error) {

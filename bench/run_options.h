@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// The options that both programs take.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "query_sets.h"
+#include "scene.h"
+
+namespace roam::bench {
+
+struct RunOptions {
+  SceneChoice scene;
+  std::vector<std::string> sets = query_set_names();
+  std::size_t queries = 100000;
+  int rounds = 5;
+
+  void add_to(CLI::App& app) {
+    app.add_option("--scene", scene.scene, "gallery, terrain, or a file")->capture_default_str();
+    app.add_option("--triangles", scene.triangles, "of a made scene")->capture_default_str();
+    app.add_option("--origin", origin_, "where the scene's centre is moved, metres: x,y,z")
+        ->delimiter(',')
+        ->expected(3)
+        ->capture_default_str();
+    app.add_option("--sets", sets, "which query sets, separated by commas")
+        ->delimiter(',')
+        ->check(CLI::IsMember(query_set_names()));
+    app.add_option("--queries", queries, "of each set")->capture_default_str()->check(CLI::PositiveNumber);
+    app.add_option("--rounds", rounds, "each query's time is the median over these")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    app.parse_complete_callback([this] { scene.origin = {origin_[0], origin_[1], origin_[2]}; });
+  }
+
+ private:
+  std::vector<double> origin_{0.0, 0.0, 0.0};
+};
+
+}  // namespace roam::bench
