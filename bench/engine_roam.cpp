@@ -17,7 +17,7 @@ Engine make_roam(const Scene& scene) {
   const std::size_t after = allocated_bytes();
   engine.bytes = after > before ? after - before : world->stats().bytes;
   engine.answer_with([world](const Query& query) {
-    const WorldSweep sweep = world->sweep(query.body, query.from, query.motion);
+    const Impact sweep = world->sweep(query.body, query.from, query.motion);
     return Answer{sweep.hit, sweep.time};
   });
   return engine;

@@ -73,7 +73,7 @@ int run(const Options& options) {
   print_build(scene, options.lossless, world, allocated_bytes() - before);
   const Reference reference(scene.meshes);
   const auto ask = [&world](const Query& q) {
-    const roam::WorldSweep s = world.sweep(q.body, q.from, q.motion);
+    const roam::Impact s = world.sweep(q.body, q.from, q.motion);
     return Answer{s.hit, s.time};
   };
   if (options.check)

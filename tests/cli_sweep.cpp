@@ -60,7 +60,7 @@ TEST(SweepRows, KnowTheirHeaderAndRefuseAnother) {
 }
 
 TEST(SweepRows, WriteDigitsThatReadBackAsTheSameDouble) {
-  roam::WorldSweep hit;
+  roam::Impact hit;
   hit.hit = true;
   hit.time = 0.1 + 0.2;
   hit.point = {1.0 / 3.0, -13739.123456789012, 6.4e6};

@@ -9,7 +9,7 @@
 namespace {
 
 struct Answers {
-  std::vector<roam::WorldSweep> sweeps;
+  std::vector<roam::Impact> sweeps;
   std::vector<roam::Clearance> clearances;
 };
 

@@ -12,6 +12,7 @@
 
 #include "oracle.h"
 #include "roam/walker.h"
+#include "roam/world.h"
 
 namespace scenes {
 

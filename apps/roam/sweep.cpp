@@ -90,8 +90,8 @@ class RowReader {
 constexpr double gap_reaches[] = {1.0, 10.0};
 
 /// The sweep, and for a miss how near the body came to anything: World::sweep only says that it did not touch.
-WorldSweep sweep_and_measure(const World& world, const SweepQuery& query) {
-  WorldSweep answer = world.sweep(query.body, query.from, query.motion);
+Impact sweep_and_measure(const World& world, const SweepQuery& query) {
+  Impact answer = world.sweep(query.body, query.from, query.motion);
   if (answer.hit) return answer;
   for (const double reach : gap_reaches) {
     const Clearance nearest = world.clearance(query.body, query.from, query.motion, reach);

@@ -84,7 +84,7 @@ SweepQuery parse_query(std::string_view row) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7]}};
 }
 
-void append_answer(std::string& rows, const WorldSweep& answer) {
+void append_answer(std::string& rows, const Impact& answer) {
   const auto out = std::back_inserter(rows);
   if (!answer.hit) {
     fmt::format_to(out, FMT_COMPILE("0,{:.17g},0,0,0,0,0,0,-1,none,{:.17g}\n"), answer.time, answer.distance);

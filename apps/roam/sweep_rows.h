@@ -34,6 +34,6 @@ inline constexpr std::string_view answer_header = "hit,t,px,py,pz,nx,ny,nz,trian
 
 /// Appends one row: 17 significant digits, so that every double reads back as it was. Of a miss only t (always 1) and
 /// distance mean something; its point and normal are zeros, its triangle is -1 and its feature `none`.
-void append_answer(std::string& rows, const WorldSweep& answer);
+void append_answer(std::string& rows, const Impact& answer);
 
 }  // namespace roam::app

@@ -42,7 +42,7 @@ Vec3 level(int i, int count) {
 
 /// What a body is that looks ahead.
 struct Prober {
-  const World& world;
+  const Space& space;
   const WalkerSettings& settings;
   Mode mode;
   Body body;
@@ -52,22 +52,22 @@ struct Prober {
 /// flying, its length). Ends at a wall, where the ground ends, at the border of the scene, and after `count`.
 template <class Visit>
 void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int count, const Visit& visit) {
-  const auto& [world, settings, mode, body] = prober;
+  const auto& [space, settings, mode, body] = prober;
   const bool on_foot = mode == Mode::walk;
   // What a stride may climb, on a slope or up a kerb.
   const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
   const double climb = on_foot ? std::min(stride * slope + settings.step, settings.height) : 0.0;
   for (int i = 0; i < count; ++i) {
-    const Vec3 high = place + Vec3(0, 0, climb * world.sweep(body, place, {0, 0, climb}).time);
-    const WorldSweep along = world.sweep(body, high, stride * direction);
+    const Vec3 high = place + Vec3(0, 0, climb * space.sweep(body, place, {0, 0, climb}).time);
+    const Impact along = space.sweep(body, high, stride * direction);
     if (along.hit && along.time < 0.5) return;
     Vec3 next = high + along.time * stride * direction;
     if (on_foot) {
       const double down = high.z - place.z + climb;
-      const WorldSweep ground = world.sweep(body, next, {0, 0, -down});
+      const Impact ground = space.sweep(body, next, {0, 0, -down});
       if (!ground.hit) return;
       next.z -= ground.time * down;
-    } else if (!contains(world.bounds(), next)) {
+    } else if (!contains(space.bounds(), next)) {
       return;
     }
     visit(next, along.time * stride);
@@ -82,28 +82,28 @@ struct Start {
 };
 
 /// A place on the floor at `floor`, or in the air above it, and how much room there is.
-Start start_at(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
+Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
   const Body body = Body::capsule(settings.radius, settings.height);
   Start start;
-  const WorldSweep above = world.ray(floor + Vec3(0, 0, lift), {0, 0, wall_reach});
+  const Impact above = space.ray(floor + Vec3(0, 0, lift), {0, 0, wall_reach});
   const double ceiling = lift + above.time * wall_reach;
   if (mode == Mode::fly) {
     start.place = floor + Vec3(0, 0, above.hit ? 0.5 * ceiling : fly_height + 0.5 * settings.height);
   } else {
     start.place = floor + Vec3(0, 0, 0.5 * settings.height + lift);
   }
-  if (world.clearance(body, start.place, lift).distance <= 0.0) return start;
+  if (space.clearance(body, start.place, lift).distance <= 0.0) return start;
   if (mode == Mode::walk) {
     const Vec3 down{0, 0, -2.0 * lift - settings.radius};
-    const WorldSweep ground = world.sweep(body, start.place, down);
+    const Impact ground = space.sweep(body, start.place, down);
     if (!ground.hit || ground.normal.z < std::cos(settings.slope_degrees * std::numbers::pi / 180.0)) return start;
   }
   start.room = 0.0;
   constexpr int directions = 8;
   int walls = above.hit ? 1 : 0;
   for (int i = 0; i < directions; ++i) {
-    walls += world.ray(start.place, wall_reach * level(i, directions)).hit ? 1 : 0;
-    stride_ahead({world, settings, mode, body}, start.place, level(i, directions), room_strides,
+    walls += space.ray(start.place, wall_reach * level(i, directions)).hit ? 1 : 0;
+    stride_ahead({space, settings, mode, body}, start.place, level(i, directions), room_strides,
                  [&](const Vec3&, double length) { start.room += length; });
   }
   start.room *= 1.0 + walls;
@@ -112,8 +112,8 @@ Start start_at(const World& world, const WalkerSettings& settings, Mode mode, co
 
 }  // namespace
 
-Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode) {
-  const Box& box = world.bounds();
+Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode) {
+  const Box& box = space.bounds();
   const Vec3 size = box.size();
   Start best;
   for (int i = 0; i < columns_a_side; ++i) {
@@ -122,10 +122,10 @@ Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode)
                box.upper.z + 1.0};
       for (int floors = 0; floors < most_floors; ++floors) {
         const double depth = top.z - box.lower.z + 1.0;
-        const WorldSweep down = depth > 0.0 ? world.ray(top, {0, 0, -depth}) : WorldSweep{};
+        const Impact down = depth > 0.0 ? space.ray(top, {0, 0, -depth}) : Impact{};
         if (!down.hit) break;
         top.z -= down.time * depth;
-        const Start start = start_at(world, settings, mode, top);
+        const Start start = start_at(space, settings, mode, top);
         if (start.room > best.room) best = start;
         top.z -= floor_gap;
       }
@@ -150,7 +150,7 @@ Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
 std::uint64_t Wander::cell(const Vec3& place) const {
   constexpr std::uint64_t bits = 21;
   constexpr std::uint64_t mask = (1ull << bits) - 1;
-  const Vec3 local = place - walker_->world().bounds().lower;
+  const Vec3 local = place - walker_->space().bounds().lower;
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
     key =
@@ -161,7 +161,7 @@ std::uint64_t Wander::cell(const Vec3& place) const {
 
 Wander::Look Wander::probe(const Vec3& direction) const {
   Look look;
-  stride_ahead({walker_->world(), walker_->settings(), walker_->mode(), walker_->body()}, walker_->position(),
+  stride_ahead({walker_->space(), walker_->settings(), walker_->mode(), walker_->body()}, walker_->position(),
                direction, most_strides, [&](const Vec3& place, double length) {
                  look.way += length;
                  const auto visits = visits_.find(cell(place));
@@ -258,7 +258,7 @@ void Wander::note(const StepReport& report) {
     result_.outcome = Outcome::held;
     done_ = true;
   }
-  const Box& scene = walker_->world().bounds();
+  const Box& scene = walker_->space().bounds();
   const Vec3 reach(walker_->settings().radius, walker_->settings().radius, 0.5 * report.height);
   const Vec3 low = report.to - reach;
   const Vec3 high = report.to + reach;

@@ -17,7 +17,7 @@ namespace roam::app {
 /// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
 /// stride farthest in eight directions. A floor with a ceiling counts fourfold, so that one starts in a tunnel instead
 /// of on top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere.
-[[nodiscard]] Vec3 wander_start(const World& world, const WalkerSettings& settings, Mode mode);
+[[nodiscard]] Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode);
 
 /// One walk without an aim. The walker must outlive it and be in walk or fly mode.
 class Wander {

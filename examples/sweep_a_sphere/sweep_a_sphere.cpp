@@ -21,7 +21,7 @@ int main() {
 
   const roam::Vec3 from{1, 0, 1.5};
   const roam::Vec3 motion{100, 0, 0};
-  const roam::WorldSweep hit = world.sweep(body, from, motion);
+  const roam::Impact hit = world.sweep(body, from, motion);
   if (!hit.hit) {
     std::printf("nothing in the way\n");
     return 1;

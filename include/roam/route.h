@@ -3,7 +3,7 @@
 /// Walking or flying along waypoints, and telling how it ended.
 ///
 ///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));  // or any other places
-///     roam::Walker walker(world, {.radius = 0.3}, roam::Mode::walk, path[0]);
+///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, path[0]);
 ///     roam::Route route(walker, path, {.speed = 1.4});
 ///     while (!route.done()) route.advance();
 ///     std::cout << roam::name(route.result().outcome) << "\n";
@@ -90,7 +90,7 @@ class Route {
   /// counts as reached and something keeps the body from coming nearer: corners are not cut.
   ///
   /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
-  /// waypoint that is not finite or beyond World::coordinate_limit, options out of range, and a walker in ghost mode.
+  /// waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
   [[nodiscard]] bool done() const { return done_; }

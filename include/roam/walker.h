@@ -1,24 +1,24 @@
 #pragma once
 /// \file
-/// A body that moves through a World at a person's command and never through a wall.
+/// A body that moves through a Space at a person's command and never through a wall.
 ///
-///     roam::Walker walker(world, {.radius = 0.3}, roam::Mode::walk, start);
+///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, start);
 ///     const roam::StepReport& step = walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
 ///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
-///   - the body only moves along straight pieces that World::sweep has certified free, so that at every instant its
+///   - the body only moves along straight pieces that Space::sweep has certified free, so that at every instant its
 ///     axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each with
 ///     its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
 ///     was put and not moved are marked as teleports;
-///   - the same world, settings and calls give the same bits on every run.
+///   - the same space, settings and calls give the same bits on every run.
 ///
 /// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap
 /// between surfaces is clearance - radius. Positions are those of the body's centre. Up is +z.
 ///
-/// A Walker is one body: use it from one thread at a time. Any number of them may share a World. Moving allocates
+/// A Walker is one body: use it from one thread at a time. Any number of them may share a Space. Moving allocates
 /// nothing. docs/walking.md explains the rules and their limits.
 
 #include <array>
@@ -27,7 +27,7 @@
 
 #include "roam/error.h"
 #include "roam/math.h"
-#include "roam/world.h"
+#include "roam/space.h"
 
 namespace roam {
 
@@ -44,10 +44,10 @@ enum class Mode : std::uint8_t { fly, walk, ghost };
 
 /// What the body is and what it can do. The defaults are a grown person on foot.
 struct WalkerSettings {
-  /// Metres, > 0, <= World::reach_limit / 4. Half the least width the body needs. Too large: kept out of rooms that a
+  /// Metres, > 0, <= Space::reach_limit / 4. Half the least width the body needs. Too large: kept out of rooms that a
   /// person enters; too small: falls through cracks that a person steps over.
   double radius = 0.3;
-  /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= World::reach_limit / 4.
+  /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4.
   double height = 1.8;
   /// Camera above the lowest point when standing, metres, in [0, height]. Lowered in proportion when crouched.
   double eye = 1.6;
@@ -67,7 +67,7 @@ struct WalkerSettings {
   /// Whole height when crouched, metres, > 0. Taken as 2 * radius where it is less; a body that is not taller than
   /// that (a sphere never is) does not crouch.
   double crouch_height = 1.1;
-  /// How far around the body's surface clearance is measured after each step, metres, in [0, World::reach_limit].
+  /// How far around the body's surface clearance is measured after each step, metres, in [0, Space::reach_limit].
   /// Reported clearances are capped at radius + clearance_reach. The larger, the slower in wide open scenes.
   double clearance_reach = 1.0;
 
@@ -115,6 +115,7 @@ enum class EventKind : std::uint8_t {
                  ///< back to the last safe place
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
+  waiting,       ///< touched, or is in, what is not known yet (see space.h) and waits for it as before a wall
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -189,6 +190,7 @@ struct StepReport {
   bool grounded = false;         ///< stands on something (walk mode)
   bool blocked = false;          ///< ended this step unable to go on in the wished direction; contacts.back() is why
   bool held = false;             ///< see EventKind::held
+  bool waiting = false;          ///< see EventKind::waiting
 
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)
@@ -210,10 +212,10 @@ struct Stance {
 
 class Walker {
  public:
-  /// Puts a body into `world`, which must outlive it and stay where it is, at `start` (of its centre), as place() does.
+  /// Puts a body into `space`, which must outlive it and stay where it is, at `start` (of its centre), as place() does.
   /// Throws roam::Error for bad settings and for a start that is not finite.
-  Walker(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& start);
-  Walker(World&& world, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
+  Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start);
+  Walker(Space&& space, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
 
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
   /// input that is not finite.
@@ -227,14 +229,15 @@ class Walker {
   /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
   /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
   /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost
-  /// mode get it away.
+  /// mode get it away. A body that is held by what is not known yet is also `waiting`: as soon as it is known there,
+  /// the next step goes on as if it had been put there then.
   const StepReport& place(const Vec3& centre);
 
   /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is
   /// found around it, or the last place of its way as a ghost where it fitted, whichever is nearer.
   const StepReport& set_mode(Mode mode);
 
-  [[nodiscard]] const World& world() const { return *world_; }
+  [[nodiscard]] const Space& space() const { return *space_; }
   [[nodiscard]] const WalkerSettings& settings() const { return settings_; }
   [[nodiscard]] Mode mode() const { return mode_; }
   [[nodiscard]] const Vec3& position() const { return position_; }  ///< of the centre, metres
@@ -251,7 +254,7 @@ class Walker {
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const { return report_; }
 
-  /// The gap, metres, that the body keeps from what it slides along. Twice the world's largest error, the height of the
+  /// The gap, metres, that the body keeps from what it slides along. Twice the space's largest error, the height of the
   /// bumps that storing a flat wall may make in it, plus 0.1 mm. A soft target: passages that leave less than this on
   /// either side are passed all the same, so that the skin never counts twice.
   [[nodiscard]] double skin() const { return skin_; }
@@ -271,10 +274,13 @@ class Walker {
   void come_back();
   void put(const Vec3& place, double time);
   void hold();
+  void release();
+  [[nodiscard]] bool in_unknown() const;
+  void look_again();
   void remember_safe();
   void finish();
 
-  const World* world_;
+  const Space* space_;
   WalkerSettings settings_;
   StepReport report_;
   Stance stance_;
@@ -288,6 +294,7 @@ class Walker {
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
   bool held_ = false;
+  bool waits_ = false;  ///< held by what is not known yet
 };
 
 }  // namespace roam

@@ -17,7 +17,7 @@ void crouch(Move& move) {
   move.note(EventKind::crouched);
 }
 
-bool crouch_under(Move& move, const WorldSweep& contact, const Vec3& motion) {
+bool crouch_under(Move& move, const Impact& contact, const Vec3& motion) {
   const double low = crouched_height(move.settings);
   // Below the upper cap of the crouched body it is no narrower than the standing one.
   if (!(low < move.height) || contact.point.z < move.feet() + low - move.settings.radius) return false;

@@ -13,7 +13,7 @@ namespace roam::walking {
 void crouch(Move& move);
 
 /// Crouches when that lets the body go on along `motion`, under `contact` that stands in its way.
-bool crouch_under(Move& move, const WorldSweep& contact, const Vec3& motion);
+bool crouch_under(Move& move, const Impact& contact, const Vec3& motion);
 
 /// Stands up when there is head-room for the whole body and its skin.
 bool stand_up(Move& move);

@@ -31,7 +31,7 @@ bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   const Vec3 inside = point - outward * (rim_inset / glm::length(outward));
   const double rise = rim_inset * slope_tangent(m) + rim_ball + 2.0 * m.skin;
   const Vec3 above = inside + Vec3(0.0, 0.0, rise + rim_ball);
-  const WorldSweep s = m.world.sweep({rim_ball, 0.0}, above, Vec3(0.0, 0.0, -2.0 * rise));
+  const Impact s = m.space.sweep({rim_ball, 0.0}, above, Vec3(0.0, 0.0, -2.0 * rise));
   return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
 }
 
@@ -49,7 +49,7 @@ std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Pro
   return Footing{contact.normal, contact.point.z, gentle, true};
 }
 
-Proximity as_proximity(const WorldSweep& s) { return {s.point, s.normal, s.feature, s.distance}; }
+Proximity as_proximity(const Impact& s) { return {s.point, s.normal, s.feature, s.distance}; }
 
 /// Gravity along planes that leads down at less than the slope limit, so that they carry together. On a slope of angle
 /// a it leads down by sin(a)^2 of itself.
@@ -60,14 +60,14 @@ bool carried_by(const Move& m, const PlaneSet& planes) {
 
 }  // namespace
 
-std::optional<Footing> footing(const Move& move, const Stance& stance, const WorldSweep& contact) {
+std::optional<Footing> footing(const Move& move, const Stance& stance, const Impact& contact) {
   return footing_on(move, stance, as_proximity(contact));
 }
 
 std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
   std::array<Contact, contacts_looked_at> contacts;
   const std::size_t found =
-      move.world.contacts(move.body(), move.place, Vec3(0.0), (1.0 + 2.0 * rest_part) * move.skin, contacts);
+      move.space.contacts(move.body(), move.place, Vec3(0.0), (1.0 + 2.0 * rest_part) * move.skin, contacts);
   PlaneSet planes;
   std::optional<Footing> best;
   double highest = move.feet();
@@ -100,7 +100,7 @@ namespace {
 
 /// Off a rim that has become too steep to stand on, onto ground at most a step below it: outward until the body is
 /// clear of the rim, and down.
-bool step_off(Move& move, Stance& stance, const WorldSweep& rim) {
+bool step_off(Move& move, Stance& stance, const Impact& rim) {
   const Vec3 flat(rim.normal.x, rim.normal.y, 0.0);
   const double radius = move.settings.radius, lateral = glm::length(flat);
   if (rim.feature == Feature::face || !(lateral > 0.0)) return false;
@@ -111,7 +111,7 @@ bool step_off(Move& move, Stance& stance, const WorldSweep& rim) {
   trial.place += outward * off.fraction;
   const double reach = move.feet() - (stance.level - move.settings.step) + 3.0 * move.skin;
   if (!(reach > 0.0)) return false;
-  const WorldSweep landing = move.world.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  const Impact landing = move.space.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return false;
   const std::optional<Footing> ground = footing(trial, stance, landing);
   if (!ground) return false;
@@ -130,7 +130,7 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
   const double sunk = stance.grounded && !stance.firm ? std::max(0.0, stance.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
   const Vec3 down(0.0, 0.0, -1.0);
-  const WorldSweep s = move.world.sweep(move.body(), move.place, down * reach);
+  const Impact s = move.space.sweep(move.body(), move.place, down * reach);
   std::optional<Footing> ground;
   if (s.hit) ground = footing(move, stance, s);
   if (s.hit && !ground) {
@@ -181,7 +181,7 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   if (!(glm::length(onward) > skin)) return std::nullopt;
   trial.place += onward;
   const double reach = rise.z + step;
-  const WorldSweep landing = move.world.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  const Impact landing = move.space.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
   const std::optional<Footing> ground = footing(trial, stance, landing);
   if (!ground || ground->level > stance.level + step + 2.0 * skin) return std::nullopt;

@@ -22,7 +22,7 @@ struct Footing {
 ///     long as it is not steeper than rim_slope_degrees: that is how a round body climbs stairs and crosses cracks.
 /// Where the body has stood, an edge or corner also must not lie higher than one step above that level: without this a
 /// big round body rolls up what it could not step onto.
-[[nodiscard]] std::optional<Footing> footing(const Move& move, const Stance& stance, const WorldSweep& contact);
+[[nodiscard]] std::optional<Footing> footing(const Move& move, const Stance& stance, const Impact& contact);
 
 /// The same for everything that the body touches where it is. A body wedged between steep planes stands too, when
 /// gravity along them leads down at less than the slope limit.

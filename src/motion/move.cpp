@@ -23,13 +23,13 @@ constexpr std::size_t events_of_motion = 16;
 
 }  // namespace
 
-Advance probe(const World& world, const Body& body, const Vec3& from, const Vec3& motion, double skin) {
+Advance probe(const Space& space, const Body& body, const Vec3& from, const Vec3& motion, double skin) {
   Advance a;
   const double length = glm::length(motion);
   if (!(length > 0.0)) return a;
   const Vec3 direction = motion / length;
   const double looked = length + look_ahead * skin;
-  const WorldSweep s = world.sweep(body, from, direction * looked);
+  const Impact s = space.sweep(body, from, direction * looked);
   if (!s.hit) return a;
   a.contact = s;
   // The plane of the contact bounds the gap from below on the whole way: it shrinks by `approach` a metre.
@@ -60,7 +60,7 @@ Advance Move::advance(const Vec3& motion, double seconds) {
 double Move::clearance_over(const Vec3& motion) const {
   // Nothing beyond what bounds the way so far can bound it now.
   const double known = std::clamp(clearance - settings.radius, 0.0, settings.clearance_reach);
-  return settings.radius + std::max(world.clearance(body(), place, motion, known).distance, -world_tolerance);
+  return settings.radius + std::max(space.clearance(body(), place, motion, known).distance, -world_tolerance);
 }
 
 void Move::go(const Vec3& motion) {
@@ -97,13 +97,14 @@ void Move::resize(double new_height, const Vec3& new_place) {
   last_direction_ = Vec3(0.0);
 }
 
-void Move::touch(const WorldSweep& contact, double gap) {
+void Move::touch(const Impact& contact, double gap) {
   Contact c;
   c.point = contact.point;
   c.normal = contact.normal;
   c.feature = contact.feature;
   c.distance = gap;
   c.triangle = contact.triangle;
+  c.unknown = contact.unknown;
   // The last touched stands last, and once.
   InlineList<Contact, 8>& list = report.contacts;
   for (std::size_t i = 0; i < list.size(); ++i) {

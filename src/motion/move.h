@@ -8,10 +8,10 @@
 
 namespace roam::walking {
 
-/// World::sweep keeps the body this much less than its radius, at most, from every triangle (world.h), metres.
+/// Space::sweep keeps the body this much less than its radius, at most, from every triangle (space.h), metres.
 constexpr double world_tolerance = 1e-6;
 
-/// A hit is answered when a triangle is at most this much farther than the radius (world.h), metres.
+/// A hit is answered when a triangle is at most this much farther than the radius (space.h), metres.
 constexpr double hit_tolerance = 2e-3;
 
 /// Part of the skin within which a body that touches something counts as being at rest there. Moving it back and forth
@@ -21,7 +21,7 @@ constexpr double rest_part = 0.125;
 /// Part of the wish's length below which what is left of it along the planes is no motion but a standstill.
 constexpr double standstill_part = 1e-3;
 
-/// The longest way that one sweep is asked for, metres; the world takes 1e6 m.
+/// The longest way that one sweep is asked for, metres; a space takes 1e6 m.
 constexpr double longest_way = 5e5;
 
 /// How a step, or a part of it, ended.
@@ -37,14 +37,14 @@ struct Advance {
   double fraction = 1.0;  ///< of the motion that is certified free, kept a skin away from what it touches
   bool touched = false;   ///< something is in the way of the rest
   bool embedded = false;  ///< it was already at the start: the body does not fit where it is
-  WorldSweep contact;     ///< what it touches, when touched
+  Impact contact;         ///< what it touches, when touched
   double gap = 0.0;       ///< metres from its surface to the plane of the contact, at the end of the advance
 };
 
 /// How far `body` gets from `from` along `motion`. It stops where the gap to the plane of the contact is `skin`: the
 /// skin is measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near.
 /// A body that is nearer than the skin already does not advance towards that plane; along it and away it does.
-[[nodiscard]] Advance probe(const World& world, const Body& body, const Vec3& from, const Vec3& motion, double skin);
+[[nodiscard]] Advance probe(const Space& space, const Body& body, const Vec3& from, const Vec3& motion, double skin);
 
 class Move {
  public:
@@ -60,7 +60,7 @@ class Move {
     bool blocked;
   };
 
-  const World& world;
+  const Space& space;
   const WalkerSettings& settings;
   StepReport& report;
   const double skin;
@@ -72,9 +72,9 @@ class Move {
   /// An upper bound of the gap at the present place, metres: to look for the nearest triangle farther off is in vain.
   double nearest = std::numeric_limits<double>::infinity();
 
-  Move(const World& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
+  Move(const Space& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
        double whole_height, double certified)
-      : world(in),
+      : space(in),
         settings(of),
         report(into),
         skin(skin_width),
@@ -85,7 +85,7 @@ class Move {
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
-  [[nodiscard]] Advance probe(const Vec3& motion) const { return walking::probe(world, body(), place, motion, skin); }
+  [[nodiscard]] Advance probe(const Vec3& motion) const { return walking::probe(space, body(), place, motion, skin); }
 
   /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
   /// contact.
@@ -99,7 +99,7 @@ class Move {
   /// A new height about the same feet or head; the caller has seen to it that the body fits.
   void resize(double new_height, const Vec3& new_place);
 
-  void touch(const WorldSweep& contact, double gap);
+  void touch(const Impact& contact, double gap);
   void note(EventKind kind, const Vec3& point);
   void note(EventKind kind) { note(kind, place); }
   [[nodiscard]] Mark mark() const;

@@ -23,11 +23,11 @@ struct Frame {
 };
 
 /// Whether a ray along the way passes between two points of contact.
-bool open_between(const World& world, const Vec3& a, const Vec3& b, const Vec3& place, double depth, const Frame& f) {
+bool open_between(const Space& space, const Vec3& a, const Vec3& b, const Vec3& place, double depth, const Frame& f) {
   const Vec3 middle = 0.5 * (a + b);
   const Vec3 from = middle - f.ahead * glm::dot(middle - place, f.ahead);
   const double farther = std::max(glm::dot(a - place, f.ahead), glm::dot(b - place, f.ahead));
-  return !world.ray(from, f.ahead * (std::max(farther, 0.0) + depth)).hit;
+  return !space.ray(from, f.ahead * (std::max(farther, 0.0) + depth)).hit;
 }
 
 bool on_either_side(const Vec3& a, const Vec3& b, const Vec3& place, const Vec3& across) {
@@ -36,10 +36,10 @@ bool on_either_side(const Vec3& a, const Vec3& b, const Vec3& place, const Vec3&
 
 }  // namespace
 
-std::optional<double> measure_opening(const World& world, const Body& body, const Vec3& place, const Vec3& ahead,
+std::optional<double> measure_opening(const Space& space, const Body& body, const Vec3& place, const Vec3& ahead,
                                       double reach) {
   std::array<Contact, contacts_looked_at> contacts;
-  const std::size_t found = world.contacts(body, place, Vec3(0.0), reach, contacts);
+  const std::size_t found = space.contacts(body, place, Vec3(0.0), reach, contacts);
   const Vec3 flat(ahead.x, ahead.y, 0.0);
   const double length = glm::length(flat);
   if (!(length > 0.0)) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<double> measure_opening(const World& world, const Body& body, cons
   std::optional<double> least;
   const auto consider = [&](const Contact& a, const Contact& b, double width) {
     if (least && width >= *least) return;
-    if (open_between(world, a.point, b.point, place, depth_part * body.radius, frame)) least = width;
+    if (open_between(space, a.point, b.point, place, depth_part * body.radius, frame)) least = width;
   };
   for (std::size_t i = 0; i < found; ++i) {
     for (std::size_t j = i + 1; j < found; ++j) {

@@ -4,14 +4,14 @@
 
 #include <optional>
 
-#include "roam/world.h"
+#include "roam/space.h"
 
 namespace roam::walking {
 
 /// The width, metres, of the opening ahead of a blocked body, see Blockage::opening: the least distance of two points
 /// that the body touches on either side of its way (or above and below), if a ray between them finds it open.
 /// `ahead`: unit vector of the way that is blocked. `reach`: how near a triangle must be to count as touched, metres.
-[[nodiscard]] std::optional<double> measure_opening(const World& world, const Body& body, const Vec3& place,
+[[nodiscard]] std::optional<double> measure_opening(const Space& space, const Body& body, const Vec3& place,
                                                     const Vec3& ahead, double reach);
 
 }  // namespace roam::walking

@@ -19,14 +19,14 @@ constexpr int march_limit = 256;
 /// Metres. A body nearer than this to a triangle is as good as embedded: rounding decides whether a sweep starts free.
 constexpr double least_gap = 1e-6;
 
-double gap(const World& world, const Body& body, const Vec3& place, double reach) {
-  return world.clearance(body, place, reach).distance;
+double gap(const Space& space, const Body& body, const Vec3& place, double reach) {
+  return space.clearance(body, place, reach).distance;
 }
 
-std::optional<Vec3> push_out(const World& world, const Body& body, const Vec3& place, double limit, double skin) {
+std::optional<Vec3> push_out(const Space& space, const Body& body, const Vec3& place, double limit, double skin) {
   Vec3 at = place;
   for (int push = 0; push < push_limit; ++push) {
-    const Clearance c = world.clearance(body, at, skin);
+    const Clearance c = space.clearance(body, at, skin);
     if (!c.found || c.distance >= 0.5 * skin) return at;
     at += c.normal * (skin - c.distance);
     if (!(glm::length(at - place) <= limit)) return std::nullopt;
@@ -36,12 +36,12 @@ std::optional<Vec3> push_out(const World& world, const Body& body, const Vec3& p
 
 /// The first free place along `direction`. A gap grows by at most the way gone, so a body `depth` deep is not free
 /// before it has gone that far.
-std::optional<Vec3> march(const World& world, const Body& body, const Vec3& place, const Vec3& direction, double limit,
+std::optional<Vec3> march(const Space& space, const Body& body, const Vec3& place, const Vec3& direction, double limit,
                           double skin) {
   double gone = 0.0;
   for (int count = 0; count < march_limit && gone <= limit; ++count) {
     const Vec3 at = place + direction * gone;
-    const double g = gap(world, body, at, skin);
+    const double g = gap(space, body, at, skin);
     if (g >= 0.5 * skin) return at;
     gone += std::max(skin - g, skin);
   }
@@ -50,13 +50,13 @@ std::optional<Vec3> march(const World& world, const Body& body, const Vec3& plac
 
 }  // namespace
 
-bool fits(const World& world, const Body& body, const Vec3& place) {
-  return gap(world, body, place, least_gap) >= least_gap;
+bool fits(const Space& space, const Body& body, const Vec3& place) {
+  return gap(space, body, place, least_gap) >= least_gap;
 }
 
-std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec3& place, double limit, double skin,
+std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit, double skin,
                                  Way way) {
-  const double inner = inner_part * gap(world, {0.0, 0.0}, place, body.radius + body.half_height);
+  const double inner = inner_part * gap(space, {0.0, 0.0}, place, body.radius + body.half_height);
   if (way == Way::checked && !(inner > 0.0)) return std::nullopt;
   std::optional<Vec3> best;
   double best_length = limit;
@@ -64,17 +64,17 @@ std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec
     if (!at) return;
     const double length = glm::length(*at - place);
     if (length > best_length || (best && length == best_length)) return;
-    if (way == Way::checked && world.sweep({inner, 0.0}, place, *at - place).hit) return;
+    if (way == Way::checked && space.sweep({inner, 0.0}, place, *at - place).hit) return;
     best = at;
     best_length = length;
   };
-  consider(push_out(world, body, place, limit, skin));
+  consider(push_out(space, body, place, limit, skin));
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
         if (x == 0 && y == 0 && z == 0) continue;
         const Vec3 direction = glm::normalize(Vec3(x, y, z));
-        consider(march(world, body, place, direction, best_length, skin));
+        consider(march(space, body, place, direction, best_length, skin));
       }
     }
   }

@@ -4,12 +4,12 @@
 
 #include <optional>
 
-#include "roam/world.h"
+#include "roam/space.h"
 
 namespace roam::walking {
 
 /// Whether the body fits at `place`: its certified gap to every triangle is a micrometre at least.
-[[nodiscard]] bool fits(const World& world, const Body& body, const Vec3& place);
+[[nodiscard]] bool fits(const Space& space, const Body& body, const Vec3& place);
 
 /// `checked`: only ways on which a sphere about the body's centre, of nine tenths of the centre's own distance from
 /// everything, meets nothing, so that the centre stays on its side of every wall. A body whose centre lies on a
@@ -19,7 +19,7 @@ enum class Way : std::uint8_t { checked, any };
 /// The nearest place found, at most `limit` metres away, where the body fits with its skin. Looked for by pushing the
 /// body out of what it touches, and along the 26 directions to the neighbours of a cube's centre, on each of which no
 /// free place is skipped.
-[[nodiscard]] std::optional<Vec3> nearest_free(const World& world, const Body& body, const Vec3& place, double limit,
+[[nodiscard]] std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit,
                                                double skin, Way way);
 
 }  // namespace roam::walking

@@ -22,8 +22,8 @@ constexpr double at_waypoint = 1e-8;
 constexpr double opening_skins = 4.0;
 
 bool within_limit(const Vec3& v) {  // false for what is not a number
-  return std::abs(v.x) <= World::coordinate_limit && std::abs(v.y) <= World::coordinate_limit &&
-         std::abs(v.z) <= World::coordinate_limit;
+  return std::abs(v.x) <= Space::coordinate_limit && std::abs(v.y) <= Space::coordinate_limit &&
+         std::abs(v.z) <= Space::coordinate_limit;
 }
 
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
@@ -107,7 +107,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   result_.least_clearance = start.least_clearance;
   result_.waypoints = 1;
   result_.end = walker.position();
-  inside_ = inside(result_.end, grown(walker.world().bounds(), walker.body()));
+  inside_ = inside(result_.end, grown(walker.space().bounds(), walker.body()));
   note_events(start);
   start_window();
   coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
@@ -163,7 +163,7 @@ const StepReport& Route::advance() {
 }
 
 void Route::judge(const StepReport& report, double distance_before) {
-  const Box& scene = walker_->world().bounds();
+  const Box scene = walker_->space().bounds();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(walker_->stance().stood && !walker_->held() ? Outcome::fell : Outcome::held);
@@ -205,7 +205,7 @@ void Route::describe_blockage(const StepReport& report) {
   if (length > at_waypoint) {
     const double reach = opening_skins * walker_->skin();
     blockage.opening =
-        walking::measure_opening(walker_->world(), walker_->body(), walker_->position(), way / length, reach);
+        walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
   }
   result_.blocked_at = blockage;
 }

@@ -9,7 +9,7 @@ namespace roam {
 namespace {
 
 /// Far above every use, and low enough that nothing overflows.
-constexpr double length_limit = World::reach_limit / 4.0;
+constexpr double length_limit = Space::reach_limit / 4.0;
 constexpr double speed_limit = 1e4;
 constexpr double factor_limit = 1e3;
 constexpr double gravity_limit = 1e3;
@@ -45,7 +45,7 @@ void check(const WalkerSettings& s) {
   demand("gravity", s.gravity, "m/s^2", {0.0, gravity_limit, false}, "");
   demand("jump height", s.jump_height, "m", {0.0, jump_limit, false}, "");
   demand("crouched height", s.crouch_height, "m", {0.0, length_limit, true}, "");
-  demand("clearance reach", s.clearance_reach, "m", {0.0, World::reach_limit, false}, "");
+  demand("clearance reach", s.clearance_reach, "m", {0.0, Space::reach_limit, false}, "");
 }
 
 Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {
@@ -99,6 +99,8 @@ const char* name(EventKind kind) {
       return "returned";
     case EventKind::throttled:
       return "throttled";
+    case EventKind::waiting:
+      return "waiting";
   }
   return "unknown";
 }

@@ -25,10 +25,10 @@ bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && 
 
 }  // namespace
 
-Walker::Walker(const World& world, const WalkerSettings& settings, Mode mode, const Vec3& start)
-    : world_(&world), settings_(settings), mode_(mode) {
+Walker::Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start)
+    : space_(&space), settings_(settings), mode_(mode) {
   check(settings);
-  skin_ = least_skin + 2.0 * world.stats().largest_error_m;
+  skin_ = least_skin + 2.0 * space.largest_error();
   slope_cosine_ = std::cos(settings.slope_degrees * (std::numbers::pi / 180.0));
   place(start);
 }
@@ -40,7 +40,7 @@ Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
 Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
 
 walking::Move Walker::under_way() {
-  walking::Move m(*world_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
+  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
   m.time = report_.elapsed;
   return m;
 }
@@ -52,7 +52,7 @@ void Walker::begin() {
   report_.from = position_;
   report_.elapsed = 0.0;
   nearest_ = std::numeric_limits<double>::infinity();
-  report_.blocked = report_.held = false;
+  report_.blocked = report_.held = report_.waiting = false;
 }
 
 void Walker::finish() {
@@ -64,9 +64,12 @@ void Walker::finish() {
     const double reach = std::min(settings_.clearance_reach, nearest_);
     // Where a sweep ended the body fits, whatever rounding says.
     clearance_ =
-        settings_.radius + std::max(world_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
+        settings_.radius + std::max(space_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
+  for (const Contact& c : report_.contacts) report_.waiting |= c.unknown;
+  report_.waiting |= waits_;
+  if (report_.waiting) report_.events.push({EventKind::waiting, position_});
   for (const Corner& c : report_.corners) {
     if (!c.teleport) report_.least_clearance = std::min(report_.least_clearance, c.clearance);
   }
@@ -91,13 +94,24 @@ void Walker::put(const Vec3& place, double time) {
 
 void Walker::hold() {
   held_ = report_.held = true;
+  waits_ = in_unknown();
   stance_ = {};
   report_.events.push({EventKind::held, position_});
 }
 
+void Walker::release() { held_ = waits_ = false; }
+
+bool Walker::in_unknown() const { return space_->clearance(body(), position_, 0.0).unknown; }
+
+void Walker::look_again() {
+  if (!waits_ || in_unknown()) return hold();
+  release();
+  if (!walking::fits(*space_, body(), position_)) free_body();
+}
+
 void Walker::free_body() {
   const std::optional<Vec3> way_out =
-      walking::nearest_free(*world_, body(), position_, height_, skin_, walking::Way::checked);
+      walking::nearest_free(*space_, body(), position_, height_, skin_, walking::Way::checked);
   if (!way_out) return hold();
   // Put exactly in touch, a body is a hair too near: that is set right without a word.
   const bool worth_saying = glm::length(*way_out - position_) > 2.0 * skin_ + walking::hit_tolerance;
@@ -122,11 +136,10 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (mode_ == Mode::ghost) {
     position_ += input.velocity * dt;
     report_.corners.push({position_, height_, dt, 0.0, false});
-    if (walking::fits(*world_, body(), position_)) remember_safe();
-  } else if (held_) {
-    hold();
+    if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
-    move(input, dt);
+    if (held_) look_again();
+    if (!held_) move(input, dt);
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   finish();
@@ -179,14 +192,14 @@ const StepReport& Walker::place(const Vec3& centre) {
   height_ = settings_.height;
   begin();
   stance_ = {};
-  held_ = false;
+  release();
   safe_height_ = 0.0;
   put(centre, 0.0);
   report_.events.push({EventKind::placed, position_});
-  if (mode_ != Mode::ghost && !walking::fits(*world_, body(), position_)) {
+  if (mode_ != Mode::ghost && !walking::fits(*space_, body(), position_)) {
     const double low = walking::crouched_height(settings_);
     const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
-    if (mode_ == Mode::walk && low < height_ && walking::fits(*world_, Body::capsule(settings_.radius, low), lowered)) {
+    if (mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), lowered)) {
       height_ = low;
       put(lowered, 0.0);
       report_.events.push({EventKind::crouched, position_});
@@ -194,7 +207,7 @@ const StepReport& Walker::place(const Vec3& centre) {
       free_body();
     }
   }
-  if (!held_ && walking::fits(*world_, body(), position_)) remember_safe();
+  if (!held_ && walking::fits(*space_, body(), position_)) remember_safe();
   settle();
   finish();
   return report_;
@@ -204,9 +217,9 @@ const StepReport& Walker::set_mode(Mode mode) {
   begin();
   const Mode before = mode_;
   mode_ = mode;
-  if (mode == Mode::ghost) held_ = false;
+  if (mode == Mode::ghost) release();
   if (mode != before) stance_ = {};
-  if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*world_, body(), position_)) come_back();
+  if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*space_, body(), position_)) come_back();
   if (mode != before) settle();
   finish();
   return report_;
@@ -216,7 +229,7 @@ void Walker::come_back() {
   const bool known = safe_height_ > 0.0;
   const double to_safe = known ? glm::length(safe_ - position_) : height_;
   const std::optional<Vec3> near =
-      walking::nearest_free(*world_, body(), position_, std::min(height_, to_safe), skin_, walking::Way::any);
+      walking::nearest_free(*space_, body(), position_, std::min(height_, to_safe), skin_, walking::Way::any);
   if (near) {
     put(*near, 0.0);
     report_.events.push({EventKind::returned, position_});

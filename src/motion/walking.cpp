@@ -13,7 +13,7 @@ namespace {
 /// Strides in one step, at most; a step of minutes ends early instead of running on. 10 s of flight are 300.
 constexpr int stride_limit = 4096;
 
-bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.world.bounds().lower.z; }
+bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.space.bounds().lower.z; }
 
 }  // namespace
 

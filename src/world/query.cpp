@@ -154,11 +154,11 @@ void collect(const Box& bounds, const index::Piece& piece, Collector& collector)
 
 }  // namespace
 
-WorldSweep World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
   check(body, from, motion);
   const index::Index index = data_->view();
   const Pieces pieces(body, from, motion);
-  WorldSweep result;
+  Impact result;
   for (int i = 0; i < pieces.count(); ++i) {
     const index::Piece piece = pieces[i];
     if (!meets(data_->reach, piece, 0.0)) continue;

@@ -15,7 +15,7 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-const Box& World::bounds() const { return data_->bounds; }
+Box World::bounds() const { return data_->bounds; }
 
 const WorldStats& World::stats() const { return data_->stats; }
 
@@ -24,6 +24,6 @@ ObjectId World::object(TriangleId triangle) const {
   return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;
 }
 
-const std::string& World::object_name(TriangleId triangle) const { return data_->names[object(triangle)]; }
+std::string World::object_name(TriangleId triangle) const { return data_->names[object(triangle)]; }
 
 }  // namespace roam

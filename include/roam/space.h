@@ -1,0 +1,110 @@
+#pragma once
+/// \file
+/// What a body moves in, whoever holds it: a World in memory, a Patchwork that grows while one walks in it, a scene
+/// graph that is asked as it is.
+///
+///     double headroom(const roam::Space& space, const roam::Vec3& place) {
+///       const roam::Impact up = space.sweep({.radius = 0.3}, place, {0.0, 0.0, 100.0});
+///       return up.hit ? 100.0 * up.time : 100.0;
+///     }
+///
+/// Space is *hit*, *free* or *unknown*. Free is only what is certified free: with `radius` and triangles as the caller
+/// passed them and distances measured in exact arithmetic,
+///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle, unless it starts
+///     nearer: then it is a hit at time 0;
+///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. So a body that starts
+///     less than that from a wall may be answered a hit at time 0, whichever way it moves: keep a body that is to move
+///     on at least 2 * largest_error() from what it touches, as Walker does;
+///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
+///     `unknown`.
+///
+/// Queries are const, never allocate, never wait, and may run at the same time, unless an implementation's own header
+/// says otherwise. They throw roam::Error for non-finite input and for bodies or distances beyond Space::reach_limit.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "roam/error.h"
+#include "roam/math.h"
+#include "roam/sweep.h"
+
+namespace roam {
+
+/// The number of a triangle in a space. A World numbers all meshes' triangles in the order in which they were passed;
+/// other spaces say what they number.
+using TriangleId = std::uint64_t;
+
+/// The first impact of a sweep, or none (`hit` is false). See SweepResult for the other members, with these
+/// differences: `distance` of a miss is 0 (the way is free; Space::clearance says by how much); and because a space
+/// stores to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on the
+/// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
+struct Impact : SweepResult {
+  TriangleId triangle = 0;  ///< of a hit: the triangle that is touched first; means nothing where `unknown`
+  bool unknown = false;     ///< of a hit: what is touched is the border of what is not known yet, or the body is in it
+};
+
+/// A triangle near a body. See Proximity for the other members.
+struct Contact : Proximity {
+  TriangleId triangle = 0;
+  bool unknown = false;  ///< no triangle: the border of what is not known yet
+};
+
+/// How far a body's surface is from everything. See Proximity for the other members; they are set when `found`.
+struct Clearance : Proximity {
+  bool found = false;  ///< something lies within the reach that was asked for; else distance is that reach
+  TriangleId triangle = 0;
+  bool unknown = false;  ///< what is nearest is not known yet
+};
+
+class Space {
+ public:
+  /// Largest radius, half height and contact or clearance reach of a query, in metres.
+  static constexpr double reach_limit = 1000.0;
+  /// Largest absolute coordinate of a vertex, in metres.
+  static constexpr double coordinate_limit = 1e9;
+
+  virtual ~Space() = default;
+
+  /// First impact of `body`, its centre moved from `from` by `motion` (metres, up to 1e6 m).
+  [[nodiscard]] virtual Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const = 0;
+
+  /// The triangles that come within `reach` (m) of the body's surface somewhere along the motion (zero motion: at
+  /// the place). Each contact is measured where the body comes closest on its way. Writes at most contacts.size() of
+  /// them, nearest first (ties by triangle id), and returns how many it wrote: fewer than contacts.size() means all.
+  /// Costs n log n for n contacts; n^2 for motions over 64 m.
+  virtual std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                               std::span<Contact> contacts) const = 0;
+
+  /// The triangle that `body` comes nearest to on its way along `motion` (zero motion: at the place), looking no
+  /// farther than `reach` (m) from its surface. `distance` is a certified lower bound of the gap to every triangle
+  /// over the whole way, at most 2 mm less than the true one.
+  [[nodiscard]] virtual Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
+                                            double reach) const = 0;
+  /// The same for a body at rest.
+  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& place, double reach) const {
+    return clearance(body, place, Vec3(0.0), reach);
+  }
+
+  /// First triangle that the ray from + t * motion, t in [0, 1], meets: the sweep of a point, which slips through no
+  /// crack between triangles that share an edge.
+  [[nodiscard]] Impact ray(const Vec3& from, const Vec3& motion) const { return sweep({0.0, 0.0}, from, motion); }
+
+  /// The box of all that is there, known or not; empty for an empty space.
+  [[nodiscard]] virtual Box bounds() const = 0;
+  /// The farthest that any stored vertex lies from where the caller put it, metres. Does not grow in the life of a
+  /// space.
+  [[nodiscard]] virtual double largest_error() const = 0;
+  /// The name of the object that a triangle belongs to; may be empty. `triangle` must come from this space.
+  [[nodiscard]] virtual std::string object_name(TriangleId triangle) const = 0;
+
+ protected:
+  Space() = default;
+  Space(const Space&) = default;
+  Space(Space&&) noexcept = default;
+  Space& operator=(const Space&) = default;
+  Space& operator=(Space&&) noexcept = default;
+};
+
+}  // namespace roam
