@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// A scene graph as a space to move in, asked anew with every query: for scenes that change, or that nobody wants to
+/// index.
+///
+///     osgRoam::SceneSpace space(scene);
+///     roam::Walker walker(space, {.radius = 0.3, .height = 1.8}, roam::Mode::walk, start);
+///
+/// What roam/space.h promises holds for the graph as it is at each query, in doubles and to 1e-5 m, with these
+/// differences: queries allocate, read files where a read callback is set, and belong to one thread at a time, which
+/// must not be one beside which the graph changes: ask in the viewer's update, or before frame(). And they are slow: a
+/// query looks at every triangle of each geometry that it comes near, unless the geometry has a KdTree
+/// (BoxIntersector.h). Where the scene stands still, osgRoam::buildWorld is a thousand times faster.
+///
+/// Taken are the triangles of collectMeshes (Triangles.h), at the finest level: nearest for ranges of distance, largest
+/// for ranges of size on screen. A PagedLOD whose finest child is not loaded is read with the read callback; where that
+/// does not help, its finest loaded child counts; where there is none, the box of its bounding sphere is unknown.
+
+#include <memory>
+#include <osg/Node>
+#include <osg/Vec3d>
+#include <osgUtil/IntersectionVisitor>
+
+#include "roam/space.h"
+
+namespace osgRoam {
+
+class SceneSpace final : public roam::Space {
+ public:
+  /// The graph below `scene`, its coordinates moved by `origin` (metres): where the graph that is drawn is the scene
+  /// minus an origin, pass that origin. The graph is kept alive. Measures boundsMargin (BoxIntersector.h).
+  explicit SceneSpace(osg::Node* scene, const osg::Vec3d& origin = osg::Vec3d());
+  ~SceneSpace() override;
+  SceneSpace(const SceneSpace&) = delete;
+  SceneSpace& operator=(const SceneSpace&) = delete;
+
+  /// Reads pages that are not loaded: osgSim::DatabaseCacheReadCallback, for one.
+  void setReadCallback(osgUtil::IntersectionVisitor::ReadCallback* callback);
+  /// Use KdTrees where geometries have them; true at first. Turn it off where vertices change.
+  void setUseKdTreeWhenAvailable(bool use);
+  /// Metres by which bounding volumes are taken larger than they say. Set it, to boundsMargin or to what is known, when
+  /// the graph gets coordinates, or uneven scales, that are larger than those that it had.
+  void setBoundsMargin(double margin);
+
+  roam::Impact sweep(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion) const override;
+  std::size_t contacts(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, double reach,
+                       std::span<roam::Contact> contacts) const override;
+  using roam::Space::clearance;
+  roam::Clearance clearance(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion,
+                            double reach) const override;
+  /// Of the bounding sphere of the graph.
+  roam::Box bounds() const override;
+  double largest_error() const override { return 0.0; }
+  /// Triangles are numbered by the node paths of their drawables, in the order in which queries came upon them, and
+  /// within those by twice the primitive index. The innermost name on that path.
+  std::string object_name(roam::TriangleId triangle) const override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> _state;
+};
+
+}  // namespace osgRoam
