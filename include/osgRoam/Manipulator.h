@@ -1,0 +1,214 @@
+#pragma once
+/// \file
+/// A camera that is a body: it walks and flies through the scene and never passes through a wall. In a program that
+/// has an osgViewer::Viewer, one line:
+///
+///     viewer.setCameraManipulator(new osgRoam::Manipulator(scene));
+///
+/// or, with a roam::Space of one's own (a World, a Patchwork, a SceneSpace):
+///
+///     osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
+///     roamer->setSettings({.radius = 0.25});
+///     roamer->setMode(roam::Mode::walk);
+///     roamer->setSpace(space);
+///     viewer.setCameraManipulator(roamer);
+///
+/// Two frames. Everything that is a roam::Vec3 is in the scene's own frame, in double metres, z up; everything that is
+/// OpenSceneGraph's (matrices, osg::Vec3d, home positions) is in the frame of the graph, which is the scene minus
+/// origin(). The frame that a CoordinateFrameCallback names is not used, because up is +z for every body of roam: a
+/// scene with another up has to be turned first. home() says so, once, with OSG_WARN.
+///
+/// Angles are radians. Yaw is 0 along +x and grows to the left, seen from above; pitch is 0 at the horizon and grows
+/// upwards, in [-pi/2, pi/2]. There is no roll.
+///
+/// The body moves on FRAME events, by the time between two of them, and never by key repeat: for how long each key was
+/// down counts, not how many frames there were. Frames longer than longest_frame are cut short, and every frame is cut
+/// into steps of at most longest_step. Time that stands still or runs backwards moves nothing.
+///
+/// Keys are those of controls(). The mouse looks while a button is dragged, or, with setMouseGrab(), whenever it moves;
+/// the wheel changes the speed; a double click goes to what was clicked. Events that another handler has taken
+/// (osgViewer::StatsHandler takes S) are left to it; keys that are let go are noticed all the same.
+///
+/// Keys that were down when the window lost the keyboard are let go: OpenSceneGraph's X11 windows say KEYUP then,
+/// except where a window manager holds the keyboard to switch windows; Alt, Meta and Super therefore let go of all
+/// keys, and of the mouse.
+///
+/// Never throws from what a viewer calls (handle, home, setByMatrix, updateCamera, ...): see problem(). All of it
+/// belongs to the thread that calls Viewer::frame(), in every threading model.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <osg/Vec3d>
+#include <osgGA/CameraManipulator>
+#include <string>
+
+#include "osgRoam/Controls.h"
+#include "roam/patchwork.h"
+#include "roam/space.h"
+#include "roam/walker.h"
+#include "roam/world.h"
+
+namespace osgRoam {
+
+class Manipulator : public osgGA::CameraManipulator {
+ public:
+  static constexpr double longest_frame = 0.25;       ///< seconds
+  static constexpr double longest_step = 1.0 / 60.0;  ///< seconds
+  static constexpr double slow_factor = 0.25;         ///< on the speed, with Ctrl
+  static constexpr double least_speed = 0.01;         ///< metres per second: setSpeed and the wheel stop here
+  static constexpr double greatest_speed = 1000.0;    ///< metres per second
+
+  /// A body without a space: one can look around, and it is held until setSpace.
+  Manipulator();
+  /// A body in the triangles of `scene`, as they are now and in the graph's own frame: taken from it here, in this
+  /// thread, and indexed in another while the viewer runs; until that is done the body is held. Takes the finest level
+  /// of detail that is in memory. Throws roam::Error for bad settings.
+  explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly);
+  /// Settings, controls, space, pose and home; not the callbacks, the pilot, keys that are down, a world that is being
+  /// built.
+  Manipulator(const Manipulator& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
+  META_Object(osgRoam, Manipulator);
+
+  // --- the body and what it moves in
+
+  /// Puts the body, where it is, into another space (null: into none, it is held). Where it does not fit it is put to
+  /// the nearest safe place. Call between two frames.
+  void setSpace(std::shared_ptr<const roam::Space> space);
+  /// The same, and takes into use what was delivered, before the steps of each frame.
+  void setSpace(std::shared_ptr<roam::Patchwork> space);
+  [[nodiscard]] const std::shared_ptr<const roam::Space>& space() const;
+  /// What a space needs before the steps of each frame: called with the body and its centre.
+  void setSpaceUpdate(std::function<bool(const roam::Body&, const roam::Vec3&)> update);
+  /// Builds a world of the triangles of `scene` as the constructor does, and takes it as the space when it is ready.
+  void buildSpace(osg::Node& scene);
+  /// The fraction done of buildSpace, in [0, 1]; 1 when nothing is being built.
+  [[nodiscard]] double buildProgress() const;
+
+  /// The graph is the scene minus `origin`. The body stays where it is in the scene. Set it before buildSpace.
+  void setOrigin(const osg::Vec3d& origin);
+  [[nodiscard]] const osg::Vec3d& origin() const;
+
+  /// The feet stay where they are; where the new body does not fit it is put to the nearest safe place. Throws
+  /// roam::Error for settings out of range.
+  void setSettings(const roam::WalkerSettings& settings);
+  [[nodiscard]] const roam::WalkerSettings& settings() const;  ///< with the speed as it is now
+
+  void setMode(roam::Mode mode);
+  [[nodiscard]] roam::Mode mode() const;
+  /// Metres per second without Shift and Ctrl; brought into [least_speed, greatest_speed]. Throws roam::Error when it
+  /// is not a number.
+  void setSpeed(double speed);
+  [[nodiscard]] double speed() const;
+
+  /// Null until there is a space. Whoever moves it outside a pilot calls placed() after.
+  [[nodiscard]] roam::Walker* walker();
+  [[nodiscard]] const roam::Walker* walker() const;
+  /// Tells the manipulator, and the step callback, that walker() has been put somewhere.
+  void placed();
+  /// Of the last step or placement; an empty one before.
+  [[nodiscard]] const roam::StepReport& report() const;
+  /// Cannot move: there is no space yet, or the body is held in it.
+  [[nodiscard]] bool held() const;
+  /// What went wrong inside the viewer's loop, for people; empty when nothing did. The body is held from then on until
+  /// it is placed, or gets another space.
+  [[nodiscard]] const std::string& problem() const;
+
+  // --- the pose
+
+  /// Puts the eye of the standing body to `eye`, metres, and looks. Throws roam::Error when anything is not finite.
+  /// Where the body does not fit it is put to the nearest safe place: by a way that is checked, where there is one
+  /// (Walker::place), else to the nearest place found in any direction.
+  void setPose(const roam::Vec3& eye, double yaw, double pitch);
+  /// The same for the lowest point of the body.
+  void setFeet(const roam::Vec3& feet, double yaw, double pitch);
+  void look(double yaw, double pitch);
+  [[nodiscard]] double yaw() const;
+  [[nodiscard]] double pitch() const;
+  /// The camera, metres. Follows steps and stairs softly, and stays at least leastEyeDistance() from everything.
+  [[nodiscard]] roam::Vec3 eye() const;
+  /// What the body guarantees, metres, > 0: no triangle is nearer to eye() than this, but for 1e-6 m and for the
+  /// space's own error, in fly and walk mode and not held. A near plane that cuts nothing is at most this divided by
+  /// sqrt(1 + tan^2(half width) + tan^2(half height)).
+  [[nodiscard]] double leastEyeDistance() const;
+  /// home() goes there; see setHomePosition for the same in the graph's frame.
+  void setHomePose(const roam::Vec3& eye, double yaw, double pitch);
+
+  // --- going without keys
+
+  /// Goes to `point`, metres, as a double click on it does: straight, with collision, hurrying. Ends when it is there,
+  /// when it no longer comes nearer, and at the first key that moves.
+  void goTo(const roam::Vec3& point, const roam::Vec3& normal);
+  [[nodiscard]] bool going() const;
+  void stopGoing();
+
+  /// Something else than the person moves the body; the person may still look. Called for each step instead of
+  /// Walker::step: it moves the walker for about `seconds` and returns its report, or null when it is at its end and
+  /// the person takes over. What it simulated counts (StepReport::elapsed), so that it keeps real time with steps of
+  /// its own. An empty function ends it.
+  using Pilot = std::function<const roam::StepReport*(roam::Walker& walker, double seconds)>;
+  void setPilot(Pilot pilot);
+  [[nodiscard]] bool piloted() const;
+
+  // --- keys and mouse
+
+  [[nodiscard]] Controls& controls();
+  [[nodiscard]] const Controls& controls() const;
+  /// Called with the name of each command of controls() of Kind::pressed, when its key goes down, that is not the
+  /// manipulator's own.
+  void setCommandCallback(std::function<void(const std::string& name)> callback);
+  /// Whether a key of the command is down.
+  [[nodiscard]] bool down(std::string_view command) const;
+  void releaseKeys();
+
+  /// On: the mouse looks whenever it moves, its pointer is hidden and stays in the window. Escape (the command
+  /// "release") leaves that, and does not close the viewer meanwhile.
+  void setMouseGrab(bool on);
+  [[nodiscard]] bool mouseGrab() const;
+  /// How far a movement of the mouse by the height of the window turns the eye, radians; default pi / 2.
+  void setLookSpeed(double angle);
+  [[nodiscard]] double lookSpeed() const;
+
+  // --- watching
+
+  /// Called after every step with its report and the seconds that were asked of it, and after every placement with 0.
+  void setStepCallback(std::function<void(const roam::StepReport& report, double seconds)> callback);
+  /// Time that the steps of the last frame took, nanoseconds; callbacks not counted, pilots counted.
+  [[nodiscard]] std::int64_t collisionNanoseconds() const;
+  /// Steps of the last frame.
+  [[nodiscard]] int steps() const;
+
+  // --- osgGA::CameraManipulator
+
+  /// The eye becomes the camera, roll is dropped. See setPose. A matrix that is no camera (not finite) changes nothing.
+  void setByMatrix(const osg::Matrixd& matrix) override;
+  void setByInverseMatrix(const osg::Matrixd& matrix) override;
+  [[nodiscard]] osg::Matrixd getMatrix() const override;
+  [[nodiscard]] osg::Matrixd getInverseMatrix() const override;
+  void updateCamera(osg::Camera& camera) override;
+
+  /// Only home() asks it, for its size.
+  void setNode(osg::Node* node) override;
+  [[nodiscard]] const osg::Node* getNode() const override;
+  [[nodiscard]] osg::Node* getNode() override;
+
+  /// Goes to the home position. Computed (setAutoComputeHomePosition), that is outside, from where all of the node is
+  /// seen, as with every manipulator of osgGA; in walk mode it is a place to stand near the middle of the space.
+  void home(double time) override;
+  void home(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer) override;
+  void init(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer) override;
+  /// Ends goTo() where the body is.
+  void finishAnimation() override;
+  using osgGA::CameraManipulator::handle;
+  bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer) override;
+  void getUsage(osg::ApplicationUsage& usage) const override;
+
+ protected:
+  ~Manipulator() override;
+
+ private:
+  struct State;
+  const std::unique_ptr<State> _state;
+};
+
+}  // namespace osgRoam
