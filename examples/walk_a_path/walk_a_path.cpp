@@ -2,6 +2,7 @@
 #include <roam/import.h>
 #include <roam/path_file.h>
 #include <roam/route.h>
+#include <roam/world.h>
 
 #include <cstdio>
 
