@@ -1,0 +1,110 @@
+#include "osg_triangles/graph_walk.h"
+
+#include <cstring>
+#include <osg/Billboard>
+
+#include "osg_triangles/level_of_detail.h"
+#include "roam/error.h"
+
+namespace roam::osg_triangles {
+namespace {
+
+bool is_of(const osg::Object& object, const char* library) { return std::strcmp(object.libraryName(), library) == 0; }
+
+bool made_while_drawn(const osg::Object& object) { return is_of(object, "osgTerrain") || is_of(object, "osgVolume"); }
+
+}  // namespace
+
+bool has_no_surface(const osg::Object& object) {
+  return is_of(object, "osgText") || is_of(object, "osgParticle") || made_while_drawn(object);
+}
+
+bool draws_elsewhere(const osg::Camera& camera) { return camera.getReferenceFrame() != osg::Transform::RELATIVE_RF; }
+
+osg::Node* shown_child(osg::Sequence& sequence) {
+  const auto count = static_cast<int>(sequence.getNumChildren());
+  if (count == 0) return nullptr;
+  const int shown = sequence.getValue();
+  return sequence.getChild(shown >= 0 && shown < count ? static_cast<unsigned>(shown) : 0);
+}
+
+/// Keeps the names of the nodes that the walk is in.
+class GraphWalk::Entered {
+ public:
+  Entered(GraphWalk& walk, const osg::Object& object) : walk_(walk) {
+    if (walk_.names_.size() >= depth_limit) walk_.refuse_depth();
+    walk_.names_.push_back(object.getName());
+  }
+  ~Entered() { walk_.names_.pop_back(); }
+  Entered(const Entered&) = delete;
+  Entered& operator=(const Entered&) = delete;
+
+ private:
+  GraphWalk& walk_;
+};
+
+void GraphWalk::refuse_depth() {
+  throw Error("a scene graph is nested more than " + std::to_string(depth_limit) +
+              " nodes deep; it contains itself, or is damaged.");
+}
+
+void GraphWalk::apply(osg::Node& node) {
+  const Entered entered(*this, node);
+  traverse(node);
+}
+
+void GraphWalk::apply(osg::Group& group) {
+  if (has_no_surface(group)) {
+    if (made_while_drawn(group)) leave_out(group);
+    return;
+  }
+  const Entered entered(*this, group);
+  // Nodes that choose among their children (Switch, MultiSwitch, ProxyNode) do so themselves in this mode.
+  traverse(group);
+}
+
+void GraphWalk::apply(osg::Billboard&) {}
+
+void GraphWalk::apply(osg::Camera& camera) {
+  if (!draws_elsewhere(camera)) apply(static_cast<osg::Transform&>(camera));
+}
+
+void GraphWalk::apply(osg::Transform& transform) {
+  const Entered entered(*this, transform);
+  const osg::Matrixd before = to_world_;
+  transform.computeLocalToWorldMatrix(to_world_, this);
+  traverse(transform);
+  to_world_ = before;
+}
+
+void GraphWalk::apply(osg::Sequence& sequence) {
+  const Entered entered(*this, sequence);
+  if (osg::Node* child = shown_child(sequence)) child->accept(*this);
+}
+
+void GraphWalk::apply(osg::Drawable& drawable) {
+  if (!has_no_surface(drawable) || made_while_drawn(drawable)) leave_out(drawable);
+}
+
+void GraphWalk::apply(osg::Geometry& geometry) {
+  const Entered entered(*this, geometry);
+  meet(geometry);
+}
+
+void GraphWalk::apply(osg::LOD& lod) {
+  const Entered entered(*this, lod);
+  const auto& path = getNodePath();
+  const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
+  if (parent != nullptr && continues_a_finer_sibling(lod, *parent)) return;
+  meet(lod, nullptr);
+}
+
+void GraphWalk::apply(osg::PagedLOD& lod) {
+  const Entered entered(*this, lod);
+  const auto& path = getNodePath();
+  const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
+  if (parent != nullptr && continues_a_finer_sibling(lod, *parent)) return;
+  meet(lod, &lod);
+}
+
+}  // namespace roam::osg_triangles

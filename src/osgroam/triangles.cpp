@@ -1,0 +1,48 @@
+#include "osgRoam/Triangles.h"
+
+#include "osg_triangles/graph_walk.h"
+#include "osg_triangles/level_of_detail.h"
+#include "osg_triangles/mesh_of.h"
+
+namespace osgRoam {
+namespace {
+
+namespace triangles = roam::osg_triangles;
+
+class MeshCollector : public triangles::GraphWalk {
+ public:
+  MeshCollector(const osg::Vec3d& origin, bool finest) : GraphWalk(osg::Matrixd::translate(origin)), finest_(finest) {}
+
+  std::vector<roam::Mesh> take() { return std::move(meshes_); }
+
+ private:
+  void meet(osg::Geometry& geometry) override {
+    std::uint64_t left_out = 0;
+    roam::Mesh mesh = triangles::mesh_of(geometry, to_world(), left_out);
+    if (mesh.triangles.empty()) return;
+    mesh.name = triangles::innermost(names());
+    meshes_.push_back(std::move(mesh));
+  }
+
+  void meet(osg::LOD& lod, osg::PagedLOD*) override {
+    for (const unsigned i : triangles::loaded_children(lod, finest_)) lod.getChild(i)->accept(*this);
+  }
+
+  bool finest_;
+  std::vector<roam::Mesh> meshes_;
+};
+
+}  // namespace
+
+std::vector<roam::Mesh> collectMeshes(osg::Node& node, const osg::Vec3d& origin, LevelOfDetail level) {
+  MeshCollector collector(origin, level == FINEST_LEVEL);
+  node.accept(collector);
+  return collector.take();
+}
+
+roam::World buildWorld(osg::Node& node, const osg::Vec3d& origin, const roam::BuildOptions& options,
+                       LevelOfDetail level) {
+  return roam::World::build(collectMeshes(node, origin, level), options);
+}
+
+}  // namespace osgRoam
