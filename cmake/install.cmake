@@ -5,9 +5,13 @@
 include(CMakePackageConfigHelpers)
 set(roam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roam)
 
-# roam_install(TARGET COMPONENT): installs a library as roam::COMPONENT.
+# roam_install(TARGET COMPONENT [NAME]): installs a library as roam::NAME, which is roam::COMPONENT if nothing is said.
 function(roam_install target component)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  set(name ${component})
+  if(ARGC GREATER 2)
+    set(name ${ARGV2})
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT roam-${component} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(EXPORT roam-${component} NAMESPACE roam:: DESTINATION ${roam_package_dir})
@@ -19,6 +23,8 @@ if(ROAM_TOOLS)
   foreach(component IN ITEMS path import generate)
     roam_install(roam_${component} ${component})
   endforeach()
+  roam_install(roam_osg osg osgRoam)
+  install(DIRECTORY include/osgRoam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(TARGETS roam_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   # Where the program looks for it from bin: not a command for people.
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
