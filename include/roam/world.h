@@ -80,6 +80,8 @@ class World final : public Space {
   [[nodiscard]] ObjectId object(TriangleId triangle) const;
 
  private:
+  friend class Patchwork;  // asks many worlds as one
+
   std::unique_ptr<const WorldData> data_;
 };
 

@@ -1,3 +1,5 @@
+#include "world/query.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -6,9 +8,9 @@
 #include "index/tile_builder.h"
 #include "math/largest.h"
 #include "roam/error.h"
-#include "world/data.h"
 
 namespace roam {
+namespace query {
 namespace {
 
 /// Metres. The longest motion of one query.
@@ -23,41 +25,38 @@ void check_length(double value, double limit, const char* name) {
   }
 }
 
-void check(const Body& body, const Vec3& from, const Vec3& motion) {
-  check_length(body.radius, World::reach_limit, "the radius");
-  check_length(body.half_height, World::reach_limit, "the half height");
-  if (!std::isfinite(from.x) || !std::isfinite(from.y) || !std::isfinite(from.z)) refuse("the place is not finite");
-  if (!std::isfinite(motion.x) || !std::isfinite(motion.y) || !std::isfinite(motion.z)) {
-    refuse("the motion is not finite");
-  }
-  check_length(largest(motion), kMotionLimit, "the motion's largest component");
-}
-
-/// The motion cut into pieces that are short enough for the frame of one traversal.
+/// The way cut into pieces that are short enough for the frame of one traversal.
 class Pieces {
  public:
-  Pieces(const Body& body, const Vec3& from, const Vec3& motion)
-      : body_(body),
-        from_(from),
-        motion_(motion),
-        count_(std::max(1, static_cast<int>(std::ceil(largest(motion) / index::kLongestPiece)))) {
-    // Starts of later pieces are rounded: three roundings of coordinates no larger than this.
-    if (count_ > 1) body_.radius += 0x1p-50 * (largest(from) + largest(motion));
+  explicit Pieces(const Way& way)
+      : way_(way),
+        span_(way.end - way.begin),
+        count_(std::max(1, static_cast<int>(std::ceil(span_ * largest(way.motion) / index::kLongestPiece)))) {
+    // Starts of later pieces are rounded: three roundings of coordinates no larger than this. Where the pieces cover
+    // only a part of the way, ten.
+    const double reach = largest(way.from) + largest(way.motion);
+    if (span_ != 1.0) {
+      way_.body.radius += 0x1p-48 * reach;
+    } else if (count_ > 1) {
+      way_.body.radius += 0x1p-50 * reach;
+    }
   }
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] index::Piece operator[](int i) const {
-    if (count_ == 1) return {body_, from_, motion_};
-    return {body_, from_ + motion_ * (double(i) / count_), motion_ / double(count_)};
+    if (count_ == 1 && span_ == 1.0) return {way_.body, way_.from, way_.motion};
+    return {way_.body, way_.from + way_.motion * (way_.begin + span_ * (double(i) / count_)),
+            way_.motion * span_ / double(count_)};
   }
   /// The time of the whole motion, rounded down.
   [[nodiscard]] double time(int i, double piece_time) const {
+    if (span_ != 1.0) return std::max(0.0, (way_.begin + span_ * ((i + piece_time) / count_)) * (1.0 - 0x1p-49));
     return count_ == 1 ? piece_time : std::max(0.0, (i + piece_time) / count_ * (1.0 - 0x1p-51));
   }
 
  private:
-  Body body_;
-  Vec3 from_, motion_;
+  Way way_;
+  double span_;
   int count_;
 };
 
@@ -97,78 +96,91 @@ bool nearer(const Contact& a, const Contact& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
 }
 
-/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top.
-struct Collector {
+/// What a traversal needs to hand a triangle on to the collector.
+struct Visitor {
   const index::Index& index;
-  double reach;
-  std::span<Contact> out;
-  /// The same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
-  bool repeats = false;
-  const index::Piece* piece = nullptr;
-  std::size_t count = 0;
+  const index::Piece& piece;
+  TriangleId base;
+  Collector& collector;
 
-  static double visit(void* self, const index::Place& place) { return static_cast<Collector*>(self)->offer(place); }
-
-  double offer(const index::Place& place) {
-    const Contact c = contact_at(index, *piece, place);
-    if (c.distance <= reach && !known(c)) {
-      if (count < out.size()) {
-        out[count++] = c;
-        std::push_heap(out.begin(), end(), nearer);
-      } else if (nearer(c, out[0])) {
-        std::pop_heap(out.begin(), end(), nearer);
-        out[count - 1] = c;
-        std::push_heap(out.begin(), end(), nearer);
-      }
-    }
-    // What is farther than the farthest of a full list need not be looked at.
-    if (count == out.size()) reach = std::min(reach, out[0].distance);
-    return reach;
-  }
-
-  /// Nearest first.
-  void sort() { std::sort_heap(out.begin(), end(), nearer); }
-
- private:
-  [[nodiscard]] std::span<Contact>::iterator end() const { return out.begin() + static_cast<std::ptrdiff_t>(count); }
-
-  /// Whether the triangle is in the list; a nearer contact with it replaces that one.
-  bool known(const Contact& c) {
-    if (!repeats) return false;
-    const auto same = std::find_if(out.begin(), end(), [&](const Contact& o) { return o.triangle == c.triangle; });
-    if (same == end()) return false;
-    if (nearer(c, *same)) {
-      *same = c;
-      std::make_heap(out.begin(), end(), nearer);
-    }
-    return true;
+  static double visit(void* self, const index::Place& place) {
+    const Visitor& v = *static_cast<Visitor*>(self);
+    Contact c = contact_at(v.index, v.piece, place);
+    c.triangle += v.base;
+    return v.collector.offer(c);
   }
 };
 
-/// Offers the collector every triangle within its reach of a piece.
-void collect(const Box& bounds, const index::Piece& piece, Collector& collector) {
-  if (!meets(bounds, piece, collector.reach)) return;
-  collector.piece = &piece;
-  visit_near(collector.index, piece, collector.reach, &Collector::visit, &collector);
-}
-
 }  // namespace
 
-Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
-  check(body, from, motion);
-  const index::Index index = data_->view();
-  const Pieces pieces(body, from, motion);
+void check(const Body& body, const Vec3& from, const Vec3& motion) {
+  check_length(body.radius, World::reach_limit, "the radius");
+  check_length(body.half_height, World::reach_limit, "the half height");
+  if (!std::isfinite(from.x) || !std::isfinite(from.y) || !std::isfinite(from.z)) refuse("the place is not finite");
+  if (!std::isfinite(motion.x) || !std::isfinite(motion.y) || !std::isfinite(motion.z)) {
+    refuse("the motion is not finite");
+  }
+  check_length(largest(motion), kMotionLimit, "the motion's largest component");
+}
+
+void check_reach(double reach) { check_length(reach, World::reach_limit, "the reach"); }
+
+double Collector::offer(const Contact& c) {
+  if (c.distance <= reach_ && !known(c)) {
+    if (count_ < out_.size()) {
+      out_[count_++] = c;
+      std::push_heap(out_.begin(), end(), nearer);
+    } else if (nearer(c, out_[0])) {
+      std::pop_heap(out_.begin(), end(), nearer);
+      out_[count_ - 1] = c;
+      std::push_heap(out_.begin(), end(), nearer);
+    }
+  }
+  // What is farther than the farthest of a full list need not be looked at.
+  if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
+  return reach_;
+}
+
+void Collector::sort() { std::sort_heap(out_.begin(), end(), nearer); }
+
+bool Collector::known(const Contact& c) {
+  if (!repeats_) return false;
+  const auto same = std::find_if(out_.begin(), end(), [&](const Contact& o) { return o.triangle == c.triangle; });
+  if (same == end()) return false;
+  if (nearer(c, *same)) {
+    *same = c;
+    std::make_heap(out_.begin(), end(), nearer);
+  }
+  return true;
+}
+
+void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector) {
+  const index::Index index = world.view();
+  const Pieces pieces(way);
+  for (int i = 0; i < pieces.count(); ++i) {
+    const index::Piece piece = pieces[i];
+    if (!meets(world.reach, piece, collector.reach())) continue;
+    Visitor visitor{index, piece, base, collector};
+    visit_near(index, piece, collector.reach(), &Visitor::visit, &visitor);
+  }
+}
+
+Impact first_impact(const WorldData& world, const Way& way) {
+  const index::Index index = world.view();
+  const Pieces pieces(way);
   Impact result;
   for (int i = 0; i < pieces.count(); ++i) {
     const index::Piece piece = pieces[i];
-    if (!meets(data_->reach, piece, 0.0)) continue;
+    if (!meets(world.reach, piece, 0.0)) continue;
     const index::Impact impact = first_impact(index, piece);
     if (!impact.hit) continue;
     result.hit = true;
     result.time = pieces.time(i, impact.time);
-    Contact touched = contact_at(index, {body, from + motion * result.time, Vec3(0.0)}, impact.place);
+    const Way at_rest{way.body, way.from + way.motion * result.time, Vec3(0.0)};
+    Contact touched = contact_at(index, {at_rest.body, at_rest.from, Vec3(0.0)}, impact.place);
     if (result.time == 0.0) {  // touching or embedded: name the deepest
-      contacts(body, from, Vec3(0.0), std::max(0.0, touched.distance), {&touched, 1});
+      Collector deepest(std::max(0.0, touched.distance), {&touched, 1}, false);
+      collect(world, at_rest, 0, deepest);
     } else {
       touched.distance = std::max(0.0, touched.distance);  // `time` is certified free: only rounding can say less
     }
@@ -182,40 +194,44 @@ Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) cons
   return result;
 }
 
+Clearance clearance_of(const Contact* nearest, double reach) {
+  Clearance result;
+  result.distance = reach;
+  if (!nearest) return result;
+  static_cast<Proximity&>(result) = *nearest;
+  result.found = true;
+  result.triangle = nearest->triangle;
+  result.unknown = nearest->unknown;
+  return result;
+}
+
+}  // namespace query
+
+Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  query::check(body, from, motion);
+  return query::first_impact(*data_, {body, from, motion});
+}
+
 std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                             std::span<Contact> contacts) const {
-  check(body, from, motion);
-  check_length(reach, reach_limit, "the reach");
+  query::check(body, from, motion);
+  query::check_reach(reach);
   if (contacts.empty()) return 0;
-  const index::Index index = data_->view();
-  const Pieces pieces(body, from, motion);
-  Collector collector{.index = index, .reach = reach, .out = contacts, .repeats = pieces.count() > 1};
-  for (int i = 0; i < pieces.count(); ++i) collect(data_->reach, pieces[i], collector);
+  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
+  query::collect(*data_, {body, from, motion}, 0, collector);
   collector.sort();
-  return collector.count;
+  return collector.count();
 }
 
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  check(body, from, motion);
-  check_length(reach, reach_limit, "the reach");
-  const index::Index index = data_->view();
+  query::check(body, from, motion);
+  query::check_reach(reach);
   Contact nearest;
-  Clearance result;
-  result.distance = reach;
-  Collector collector{.index = index, .reach = reach, .out = {&nearest, 1}, .repeats = true};
-  const index::Piece start{body, from, Vec3(0.0)};
+  query::Collector collector(reach, {&nearest, 1}, true);
   // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  collect(data_->reach, start, collector);
-  if (motion != Vec3(0.0)) {
-    const Pieces pieces(body, from, motion);
-    for (int i = 0; i < pieces.count(); ++i) collect(data_->reach, pieces[i], collector);
-  }
-  if (collector.count > 0) {
-    static_cast<Proximity&>(result) = nearest;
-    result.found = true;
-    result.triangle = nearest.triangle;
-  }
-  return result;
+  query::collect(*data_, {body, from, Vec3(0.0)}, 0, collector);
+  if (motion != Vec3(0.0)) query::collect(*data_, {body, from, motion}, 0, collector);
+  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
 }
 
 }  // namespace roam

@@ -1,0 +1,141 @@
+#pragma once
+/// \file
+/// A tree over the boxes of many worlds: which of them can concern a query, nearest first.
+///
+/// It only leaves out what is certainly out of reach, by a millimetre (box_slack), which is far more than the rounding
+/// of anything here: coordinates are at most 1e9 m, and motions 1e6 m.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "roam/math.h"
+
+namespace roam {
+
+/// Metres. Boxes are this much larger than they need be.
+inline constexpr double box_slack = 1e-3;
+
+/// The times, of a motion, between which something may be within reach; nothing when begin > end.
+struct Interval {
+  double begin = 0.0, end = 1.0;
+  [[nodiscard]] bool empty() const { return begin > end; }
+};
+
+/// A point moved from `from` by `motion`, with all that is at most `reach` from it along each axis (m).
+struct Sweep {
+  Vec3 from, motion, reach;
+
+  /// When it may meet the box (Kay and Kajiya, "Ray tracing complex scenes", 1986). A time that is off by rounding
+  /// moves the point by less than box_slack.
+  [[nodiscard]] Interval meets(const Box& box) const {
+    Interval when;
+    for (int k = 0; k < 3; ++k) {
+      const double lower = box.lower[k] - reach[k] - box_slack - from[k];
+      const double upper = box.upper[k] + reach[k] + box_slack - from[k];
+      if (motion[k] == 0.0) {
+        if (lower > 0.0 || upper < 0.0) return {1.0, 0.0};
+        continue;
+      }
+      const double a = lower / motion[k], b = upper / motion[k];
+      when.begin = std::max(when.begin, std::min(a, b));
+      when.end = std::min(when.end, std::max(a, b));
+    }
+    return when;
+  }
+
+  /// Squared distance of its start from the box, m^2.
+  [[nodiscard]] double distance_squared(const Box& box) const {
+    double squared = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double apart = std::max({box.lower[k] - from[k], from[k] - box.upper[k], 0.0});
+      squared += apart * apart;
+    }
+    return squared;
+  }
+};
+
+class BoxTree {
+ public:
+  /// A box, and what it is of.
+  struct Item {
+    Box box;
+    std::uint32_t number;
+  };
+
+  /// Halves the items at the median along their longest extent, again and again. The same set of items makes the same
+  /// tree, whatever their order.
+  void build(std::vector<Item> items);
+
+  /// Visits the items that the sweep may meet, earliest first, as far as `until` (a time, which the visitor may
+  /// lessen): visit(number, when).
+  template <class Visit>
+  void along(const Sweep& sweep, const double& until, Visit&& visit) const {
+    traverse(
+        [&](const Box& box) {
+          const Interval when = sweep.meets(box);
+          return Key{when.begin <= until ? when : Interval{1.0, 0.0}, when.begin};
+        },
+        [&](const Interval& when) { return when.begin <= until; }, visit);
+  }
+
+  /// Visits the items that the sweep may meet, those nearest to its start first. `sweep` is looked at again for each,
+  /// and the visitor may lessen its reach: visit(number, when).
+  template <class Visit>
+  void near(const Sweep& sweep, Visit&& visit) const {
+    traverse(
+        [&](const Box& box) {
+          return Key{sweep.meets(box), sweep.distance_squared(box)};
+        },
+        [](const Interval&) { return true; }, visit);
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t right = 0;   ///< the second child; the first follows its parent. 0: a leaf
+    std::uint32_t number = 0;  ///< of a leaf
+  };
+  struct Key {
+    Interval when;
+    double order;
+  };
+  /// Halving 2^32 items ends in less.
+  static constexpr std::size_t kDeepest = 40;
+
+  template <class Look, class Still, class Visit>
+  void traverse(const Look& look, const Still& still, Visit& visit) const {
+    struct Entry {
+      std::uint32_t node;
+      Interval when;
+    };
+    if (nodes_.empty()) return;
+    std::array<Entry, kDeepest> stack;
+    std::size_t size = 0;
+    if (const Key root = look(nodes_[0].box); !root.when.empty()) stack[size++] = {0, root.when};
+    while (size > 0) {
+      const Entry entry = stack[--size];
+      const Node& node = nodes_[entry.node];
+      if (!still(entry.when)) continue;
+      if (node.right == 0) {
+        // The visitor may have learned more since the box was looked at.
+        if (const Key again = look(node.box); !again.when.empty()) visit(node.number, again.when);
+        continue;
+      }
+      const std::uint32_t left = entry.node + 1;
+      const Key a = look(nodes_[left].box), b = look(nodes_[node.right].box);
+      const bool left_first = a.order <= b.order;
+      const Entry first = left_first ? Entry{left, a.when} : Entry{node.right, b.when};
+      const Entry second = left_first ? Entry{node.right, b.when} : Entry{left, a.when};
+      if (!second.when.empty()) stack[size++] = second;
+      if (!first.when.empty()) stack[size++] = first;
+    }
+  }
+
+  void split(std::vector<Item>& items, std::size_t begin, std::size_t end);
+
+  std::vector<Node> nodes_;
+};
+
+}  // namespace roam

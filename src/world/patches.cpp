@@ -1,0 +1,157 @@
+#include "world/patches.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace roam {
+namespace {
+
+std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch) - 1; }
+
+}  // namespace
+
+void Patches::expect(const Box& where, PatchId refines) {
+  const std::uint32_t self = size();
+  Patch patch;
+  patch.where = where;
+  patch.parent = refines == PatchId::none ? no_parent : index_of(refines);
+  // What has been replaced already can not be refined any more.
+  if (patch.parent != no_parent && patches_[patch.parent].role == Patch::Role::replaced) patch.parent = no_parent;
+  if (patch.parent != no_parent) {
+    patch.role = Patch::Role::finer;
+    patches_[patch.parent].finer.push_back(self);
+  }
+  patches_.push_back(std::move(patch));
+  ++coming_;
+  if (patches_[self].role == Patch::Role::shown) show(self);
+}
+
+void Patches::deliver(PatchId id, World world) {
+  const std::uint32_t self = index_of(id);
+  Patch& patch = patches_[self];
+  if (patch.failed) {
+    --failed_;
+    patch.failed = false;
+    patch.reason.clear();
+  } else {
+    --coming_;
+  }
+  bytes_ += world.stats().bytes;
+  patch.world = std::move(world);
+  switch (patch.role) {
+    case Patch::Role::replaced:
+      retire(self);
+      break;
+    case Patch::Role::shown:
+      changed_ = true;
+      break;
+    case Patch::Role::finer:
+      touch(self);
+      break;
+  }
+}
+
+void Patches::fail(PatchId id, std::string reason) {
+  Patch& patch = patches_[index_of(id)];
+  if (!patch.failed) {
+    ++failed_;
+    --coming_;
+  }
+  patch.failed = true;
+  patch.reason = std::move(reason);
+}
+
+void Patches::touch(std::uint32_t index) {
+  while (patches_[index].role == Patch::Role::finer) index = patches_[index].parent;
+  touched_.push_back(index);
+}
+
+bool Patches::complete(std::uint32_t index) const { return patches_[index].world || refinable(index); }
+
+bool Patches::refinable(std::uint32_t index) const {
+  const Patch& patch = patches_[index];
+  return !patch.finer.empty() &&
+         std::all_of(patch.finer.begin(), patch.finer.end(), [this](std::uint32_t i) { return complete(i); });
+}
+
+bool Patches::find_cut(std::uint32_t index, const Fits& fits, Cut& cut) const {
+  if (find_finer(index, fits, cut)) return true;
+  const std::optional<World>& world = patches_[index].world;
+  if (!world || (fits && !fits(*world))) return false;
+  cut.push_back(index);
+  return true;
+}
+
+bool Patches::find_finer(std::uint32_t index, const Fits& fits, Cut& cut) const {
+  if (!refinable(index)) return false;
+  const std::size_t before = cut.size();
+  for (const std::uint32_t finer : patches_[index].finer) {
+    if (find_cut(finer, fits, cut)) continue;
+    cut.resize(before);
+    return false;
+  }
+  return true;
+}
+
+bool Patches::settle(const Fits& fits) {
+  Cut touched = std::exchange(touched_, {});
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  while (!touched.empty()) {
+    const std::uint32_t index = touched.back();
+    touched.pop_back();
+    if (!refinable(index)) continue;
+    Cut cut;
+    if (find_finer(index, fits, cut) || (!patches_[index].world && find_finer(index, {}, cut))) {
+      replace(index, cut);
+      // What is not the finest waits for the body.
+      touched.insert(touched.end(), cut.begin(), cut.end());
+    } else {
+      touched_.push_back(index);
+    }
+  }
+  return std::exchange(changed_, false);
+}
+
+void Patches::replace(std::uint32_t index, const Cut& cut) {
+  retire(index);
+  for (const std::uint32_t i : cut) {
+    for (std::uint32_t above = patches_[i].parent; patches_[above].role == Patch::Role::finer;
+         above = patches_[above].parent) {
+      retire(above);
+    }
+    show(i);
+  }
+}
+
+void Patches::retire(std::uint32_t index) {
+  Patch& patch = patches_[index];
+  if (patch.role == Patch::Role::shown) {
+    patches_[shown_.back()].place = patch.place;
+    shown_[patch.place] = shown_.back();
+    shown_.pop_back();
+    changed_ = true;
+  }
+  patch.role = Patch::Role::replaced;
+  if (!patch.world) return;
+  bytes_ -= patch.world->stats().bytes;
+  replaced_.push_back(std::move(*patch.world));
+  patch.world.reset();
+}
+
+void Patches::show(std::uint32_t index) {
+  patches_[index].role = Patch::Role::shown;
+  patches_[index].place = static_cast<std::uint32_t>(shown_.size());
+  shown_.push_back(index);
+  changed_ = true;
+}
+
+std::vector<World> Patches::take_replaced() { return std::exchange(replaced_, {}); }
+
+std::uint64_t Patches::waiting() const {
+  Cut cut;
+  for (const std::uint32_t index : touched_) find_finer(index, {}, cut);
+  return cut.size();
+}
+
+}  // namespace roam

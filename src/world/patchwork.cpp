@@ -1,0 +1,277 @@
+#include "roam/patchwork.h"
+
+#include <cmath>
+#include <mutex>
+#include <utility>
+#include <variant>
+
+#include "index/margin.h"
+#include "math/largest.h"
+#include "world/box_tree.h"
+#include "world/patches.h"
+#include "world/query.h"
+#include "world/unknown.h"
+
+namespace roam {
+namespace {
+
+/// Metres that a finer patch must leave between the body and its triangles. Two storings of one floor differ by less
+/// than 2 * error_limit; a Walker stands its skin above the one, which is 0.1 mm more, and so half of that above the
+/// other. More room would let nobody who stands still see the floor become exact.
+constexpr double kRoom = 5e-5;
+
+/// Numbers of the sides of an unknown box, where a triangle's number in its world would be.
+constexpr TriangleId kFirstSide = 0xFFFFFFF0;
+static_assert(kFirstSide + unknown::sides <= TriangleId{1} << 32);
+
+TriangleId first_id(std::uint32_t index) { return (TriangleId{index} + 1) << 32; }
+
+std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
+
+/// What was said since the last update, in order.
+struct Expected {
+  Box where;
+  PatchId refines;
+};
+struct Delivered {
+  PatchId patch;
+  World world;
+};
+struct Failed {
+  PatchId patch;
+  std::string reason;
+};
+using Message = std::variant<Expected, Delivered, Failed>;
+
+Sweep swept(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
+  const double around = body.radius + reach + Patchwork::margin;
+  return {from, motion, {around, around, around + body.half_height}};
+}
+
+/// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
+query::Way part(const Body& body, const Vec3& from, const Vec3& motion, const Interval& when) {
+  if (largest(motion) <= index::kLongestPiece) return {body, from, motion};
+  return {body, from, motion, when.begin, when.end};
+}
+
+/// Whether `a` is met before `b`. At the start the deepest counts: that is what to get out of.
+bool earlier(const Impact& a, const Impact& b) {
+  if (a.time != b.time) return a.time < b.time;
+  if (a.time == 0.0 && a.distance != b.distance) return a.distance < b.distance;
+  return a.triangle < b.triangle;
+}
+
+}  // namespace
+
+struct Patchwork::State {
+  // Shared by all threads.
+  mutable std::mutex mutex;
+  std::vector<bool> delivered;  ///< of all numbers that were given
+  std::vector<Message> inbox;
+  std::vector<World> replaced;  ///< to be freed by another thread than that of the body
+  PatchworkStats stats;
+
+  // Of the thread that moves the body.
+  Patches patches;
+  BoxTree tree;
+  Box bounds;
+  std::uint64_t revision = 0;
+
+  /// Takes a message, and what is to be freed. The caller holds the lock, and frees it when it has let it go.
+  [[nodiscard]] std::vector<World> post(Message message) {
+    inbox.push_back(std::move(message));
+    return std::exchange(replaced, {});
+  }
+  void check_open(PatchId patch, const char* what) const {
+    const auto index = static_cast<std::uint64_t>(patch) - 1;
+    if (index >= delivered.size()) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": not expected");
+    if (delivered[index]) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": delivered already");
+  }
+
+  void take(std::vector<Message> messages) {
+    for (Message& m : messages) {
+      if (auto* expected = std::get_if<Expected>(&m)) {
+        patches.expect(expected->where, expected->refines);
+      } else if (auto* come = std::get_if<Delivered>(&m)) {
+        patches.deliver(come->patch, std::move(come->world));
+      } else if (auto* failed = std::get_if<Failed>(&m)) {
+        patches.fail(failed->patch, std::move(failed->reason));
+      }
+    }
+  }
+
+  /// The tree and the counts of what is shown.
+  void rebuild(PatchworkStats& counts) {
+    bounds = {};
+    std::vector<BoxTree::Item> items;
+    items.reserve(patches.shown().size());
+    for (const std::uint32_t index : patches.shown()) {
+      const Patch& patch = patches[index];
+      counts.patches += patch.world ? 1U : 0U;
+      counts.unknown += patch.world ? 0U : 1U;
+      bounds.include(patch.world ? patch.world->bounds() : patch.where);
+      const Box reach = patch.world ? patch.world->data_->reach : patch.where;
+      if (patch.world) counts.triangles += patch.world->stats().triangles;
+      if (!reach.empty()) items.push_back({reach, index});
+    }
+    tree.build(std::move(items));
+  }
+
+  bool update(const Patchwork& self, const Body* body, const Vec3& place) {
+    std::vector<Message> messages;
+    PatchworkStats counts;
+    {
+      const std::lock_guard lock(mutex);
+      messages.swap(inbox);
+      counts = stats;
+    }
+    if (messages.empty() && !patches.unsettled()) return false;
+    // A body that does not fit where it is has nothing to lose.
+    const bool guarded = body && self.clearance(*body, place, kRoom).distance > 0.0;
+    take(std::move(messages));
+    Patches::Fits fits;
+    if (guarded) {
+      fits = [&](const World& world) { return world.clearance(*body, place, kRoom).distance >= kRoom; };
+    }
+    const bool changed = patches.settle(fits);
+    if (changed) {
+      counts.patches = counts.unknown = counts.triangles = 0;
+      rebuild(counts);
+      ++revision;
+    }
+    counts.failed = patches.failed();
+    counts.coming = patches.coming();
+    counts.waiting = patches.waiting();
+    std::vector<World> gone = patches.take_replaced();
+    const std::lock_guard lock(mutex);
+    for (World& world : gone) replaced.push_back(std::move(world));
+    counts.bytes = patches.bytes();
+    for (const World& world : replaced) counts.bytes += world.stats().bytes;
+    stats = counts;
+    return changed;
+  }
+
+  /// Offers the collector everything within its reach of the way.
+  void collect(const Body& body, const Vec3& from, const Vec3& motion, query::Collector& collector) const {
+    Sweep look = swept(body, from, motion, collector.reach());
+    tree.near(look, [&](std::uint32_t index, const Interval& when) {
+      const Patch& patch = patches[index];
+      if (patch.world) {
+        query::collect(*patch.world->data_, part(body, from, motion, when), first_id(index), collector);
+      } else {
+        Contact c = unknown::nearest(patch.where, margin, body, from, motion);
+        c.triangle += first_id(index) + kFirstSide;
+        collector.offer(c);
+      }
+      look = swept(body, from, motion, collector.reach());
+    });
+  }
+};
+
+Patchwork::Patchwork() : state_(std::make_unique<State>()) {}
+Patchwork::~Patchwork() = default;
+
+PatchId Patchwork::expect(const Box& where, PatchId refines) {
+  const bool finite = std::isfinite(largest(where.lower)) && std::isfinite(largest(where.upper));
+  if (where.empty() || !finite || largest(where.lower) > coordinate_limit || largest(where.upper) > coordinate_limit) {
+    throw Error("cannot expect a patch: its box is empty, not finite, or beyond 1e9 m");
+  }
+  State& s = *state_;
+  std::vector<World> replaced;  // freed when the lock is gone
+  const std::lock_guard lock(s.mutex);
+  if (static_cast<std::uint64_t>(refines) > s.delivered.size()) {
+    throw Error("cannot expect a patch that refines " + number(refines) + ": that one is not expected");
+  }
+  s.delivered.push_back(false);
+  replaced = s.post(Expected{where, refines});
+  return PatchId{s.delivered.size()};
+}
+
+void Patchwork::deliver(PatchId patch, World world) {
+  if (world.largest_error() > error_limit) {
+    throw Error("cannot deliver " + number(patch) + ": its world is stored to " +
+                std::to_string(world.largest_error()) + " m, which is more than 1 mm; build it in smaller parts");
+  }
+  if (world.stats().triangles > kFirstSide) {
+    throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");
+  }
+  State& s = *state_;
+  std::vector<World> replaced;  // freed when the lock is gone
+  const std::lock_guard lock(s.mutex);
+  s.check_open(patch, "deliver");
+  s.delivered[static_cast<std::uint64_t>(patch) - 1] = true;
+  replaced = s.post(Delivered{patch, std::move(world)});
+}
+
+void Patchwork::fail(PatchId patch, const std::string& reason) {
+  State& s = *state_;
+  std::vector<World> replaced;  // freed when the lock is gone
+  const std::lock_guard lock(s.mutex);
+  s.check_open(patch, "fail");
+  replaced = s.post(Failed{patch, reason});
+}
+
+bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }
+
+bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
+
+Impact Patchwork::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  query::check(body, from, motion);
+  const State& s = *state_;
+  Impact first;
+  double until = 1.0;
+  s.tree.along(swept(body, from, motion, 0.0), until, [&](std::uint32_t index, const Interval& when) {
+    const Patch& patch = s.patches[index];
+    Impact impact = patch.world ? query::first_impact(*patch.world->data_, part(body, from, motion, when))
+                                : unknown::sweep(patch.where, margin, body, from, motion);
+    impact.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
+    if (!impact.hit || (first.hit && !earlier(impact, first))) return;
+    first = impact;
+    until = first.time;
+  });
+  return first;
+}
+
+std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                                std::span<Contact> contacts) const {
+  query::check(body, from, motion);
+  query::check_reach(reach);
+  if (contacts.empty()) return 0;
+  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
+  state_->collect(body, from, motion, collector);
+  collector.sort();
+  return collector.count();
+}
+
+Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  query::check(body, from, motion);
+  query::check_reach(reach);
+  Contact nearest;
+  query::Collector collector(reach, {&nearest, 1}, true);
+  // Nearest first at the start: on the way, only what comes nearer still is of interest.
+  state_->collect(body, from, Vec3(0.0), collector);
+  if (motion != Vec3(0.0)) state_->collect(body, from, motion, collector);
+  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+}
+
+Box Patchwork::bounds() const { return state_->bounds; }
+
+std::uint64_t Patchwork::revision() const { return state_->revision; }
+
+std::string Patchwork::object_name(TriangleId triangle) const {
+  const Patches& patches = state_->patches;
+  const auto number = static_cast<std::uint64_t>(patch(triangle));
+  if (number == 0 || number > patches.size()) return "";
+  const Patch& it = patches[static_cast<std::uint32_t>(number - 1)];
+  const TriangleId local = triangle_in_patch(triangle);
+  if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return "";
+  if (it.world) return local < it.world->stats().triangles ? it.world->object_name(local) : "";
+  return it.failed ? it.reason : "not loaded yet";
+}
+
+PatchworkStats Patchwork::stats() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->stats;
+}
+
+}  // namespace roam

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// What a query asks of one world, so that one world and many are asked by the same code. Nothing here allocates.
+
+#include <cstddef>
+#include <span>
+
+#include "world/data.h"
+
+namespace roam::query {
+
+/// A body's straight way from `from` by `motion` (m); or of that the part between two times, which is all that can
+/// concern one of many worlds.
+struct Way {
+  Body body;
+  Vec3 from;
+  Vec3 motion;
+  double begin = 0.0;  ///< in [0, 1]
+  double end = 1.0;    ///< in [begin, 1]
+};
+
+/// Throws roam::Error for what is not finite or beyond the limits that space.h names.
+void check(const Body& body, const Vec3& from, const Vec3& motion);
+void check_reach(double reach);
+
+/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top.
+class Collector {
+ public:
+  /// `repeats`: the same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
+  Collector(double reach, std::span<Contact> out, bool repeats) : out_(out), reach_(reach), repeats_(repeats) {}
+
+  /// Takes a contact or not. Returns how near others must be to matter, from now on.
+  double offer(const Contact& contact);
+  /// Nearest first.
+  void sort();
+
+  [[nodiscard]] double reach() const { return reach_; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  [[nodiscard]] std::span<Contact>::iterator end() const { return out_.begin() + static_cast<std::ptrdiff_t>(count_); }
+  /// Whether the triangle is in the list; a nearer contact with it replaces that one.
+  [[nodiscard]] bool known(const Contact& contact);
+
+  std::span<Contact> out_;
+  double reach_;
+  bool repeats_;
+  std::size_t count_ = 0;
+};
+
+/// The first impact with the world on the way; `time` is that of the whole motion.
+[[nodiscard]] Impact first_impact(const WorldData& world, const Way& way);
+
+/// Offers the collector every triangle within its reach of the way, its number raised by `base`.
+void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector);
+
+/// The nearest contact, or none, as a clearance.
+[[nodiscard]] Clearance clearance_of(const Contact* nearest, double reach);
+
+}  // namespace roam::query

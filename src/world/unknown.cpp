@@ -1,0 +1,167 @@
+#include "world/unknown.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "math/largest.h"
+
+namespace roam::unknown {
+namespace {
+
+/// Unit roundoffs charged to each metre that takes part: distance at the start, motion, half height, radius. At a
+/// distance d and a way w, the parts of the distance along the axes carry at most 3 roundings of d + w and one of the
+/// half height, their length 3 of itself, the slope 4 of w, their sum with the radius 3; sqrt(3) for three axes.
+constexpr double roundings = 32.0;
+
+/// Metres. A body this near has arrived: what is left of the 2 mm that a hit may be early when the margin is taken.
+constexpr double arrival = 2e-6;
+
+/// Metres. How tight the least distance on the way is.
+constexpr double tightness = 1e-6;
+
+/// Each advance at least halves the way to a grazing touch, and so quarters the gap: from 1e6 m to arrival 20 of them
+/// are enough. Beyond the limit the sweep stops where it is: too early, never too late.
+constexpr int advance_limit = 128;
+
+/// Signed distance at one time, and its growth over the whole motion by the plane that bounds it from below.
+struct Sample {
+  double time;
+  double distance;
+  double slope;
+  Vec3 normal;  ///< unit, out of the box
+  int side;
+  Feature feature;
+};
+
+class Approach {
+ public:
+  Approach(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion)
+      : motion_(motion), lower_(box.lower - from), upper_(box.upper - from), kept_(body.radius + margin) {
+    lower_.z -= body.half_height;
+    upper_.z += body.half_height;
+    const double length = std::abs(motion.x) + std::abs(motion.y) + std::abs(motion.z);
+    error_ = roundings * 0x1p-53 * (std::abs(at(0.0).distance) + length + body.half_height + kept_);
+  }
+
+  [[nodiscard]] Sample at(double time) const {
+    const Vec3 place = time * motion_;
+    Vec3 apart(0.0);
+    double deepest = 0.0, squared = 0.0;
+    int side = -1, outside = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double below = lower_[k] - place[k], above = place[k] - upper_[k];
+      const double beyond = std::max(below, above);
+      if (side < 0 || beyond > deepest) {
+        deepest = beyond;
+        side = 2 * k + (above >= below ? 1 : 0);
+      }
+      if (!(beyond > 0.0)) continue;
+      ++outside;
+      apart[k] = above >= below ? beyond : -beyond;
+      squared += beyond * beyond;
+    }
+    Sample s{time, deepest, 0.0, Vec3(0.0), side, Feature::face};
+    // One side decides inside, beside it, and where the squares are lost to underflow.
+    if (outside > 1 && squared > shortest_squared) {
+      s.distance = std::sqrt(squared);
+      s.normal = apart / s.distance;
+      s.feature = outside == 2 ? Feature::edge : Feature::vertex;
+    } else {
+      s.normal[side / 2] = side % 2 == 1 ? 1.0 : -1.0;
+    }
+    s.slope = glm::dot(s.normal, motion_);
+    return s;
+  }
+
+  /// Certified gap between the body's surface, with the margin, and the box.
+  [[nodiscard]] double gap(double distance) const { return distance - kept_ - error_; }
+  [[nodiscard]] double error() const { return error_; }
+
+ private:
+  /// Square metres. The square of a shorter vector has lost digits.
+  static constexpr double shortest_squared = 1e-260;
+
+  Vec3 motion_, lower_, upper_;  // the box is seen from the start
+  double kept_, error_ = 0.0;
+};
+
+Vec3 point_on(const Box& box, const Sample& s, const Vec3& centre) {
+  Vec3 point = glm::clamp(centre, box.lower, box.upper);
+  if (s.feature == Feature::face) point[s.side / 2] = (s.side % 2 == 1 ? box.upper : box.lower)[s.side / 2];
+  return point;
+}
+
+/// Where the planes of two samples cross, the left falling and the right not: nothing on the way is nearer.
+struct Crossing {
+  Crossing(const Sample& left, const Sample& right) {
+    const double fall = -left.slope, rise = right.slope, width = right.time - left.time;
+    time = left.time + (left.distance - right.distance + rise * width) / (fall + rise);
+    distance = (left.distance * rise + right.distance * fall - fall * rise * width) / (fall + rise);
+  }
+  double time, distance;
+};
+
+}  // namespace
+
+// At each time the plane's bound, distance + (t - time) * slope, holds for all t; error_ pays for its rounding. Before
+// its root the body is free, and since the distance is convex, one that does not come nearer now never will.
+Impact sweep(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion) {
+  const Approach way(box, margin, body, from, motion);
+  Impact miss;
+  double time = 0.0;
+  Sample s = way.at(time);
+  for (int advance = 0; advance < advance_limit; ++advance) {
+    const double gap = way.gap(s.distance);
+    if (time == 0.0 && gap <= 0.0) break;
+    if (s.slope >= 0.0) return miss;
+    if (gap <= arrival) break;
+    const double next = time + gap / -s.slope;
+    if (next >= 1.0) return miss;
+    if (!(next > time)) break;
+    time = next;
+    s = way.at(time);
+  }
+  Impact hit;
+  hit.hit = hit.unknown = true;
+  hit.time = time;
+  hit.point = point_on(box, s, from + time * motion);
+  hit.normal = s.normal;
+  hit.feature = s.feature;
+  hit.distance = time == 0.0 ? way.gap(s.distance) : std::max(0.0, way.gap(s.distance));
+  hit.triangle = static_cast<TriangleId>(s.side);
+  return hit;
+}
+
+Contact nearest(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion) {
+  const Approach way(box, margin, body, from, motion);
+  const auto answer = [&](const Sample& s, double gap) {
+    Contact c;
+    c.point = point_on(box, s, from + s.time * motion);
+    c.normal = s.normal;
+    c.feature = s.feature;
+    c.distance = gap;
+    c.triangle = static_cast<TriangleId>(s.side);
+    c.unknown = true;
+    return c;
+  };
+  Sample left = way.at(0.0);
+  if (left.slope >= 0.0) return answer(left, way.gap(left.distance));
+  Sample right = way.at(1.0);
+  if (right.slope <= 0.0) return answer(right, way.gap(right.distance));
+  Crossing lower(left, right);
+  for (int step = 0; step < advance_limit; ++step) {
+    if (std::min(left.distance, right.distance) - lower.distance <= tightness) break;
+    // The middle makes sure that no side of the bracket stands still for long.
+    const double time = step % 2 == 0 ? lower.time : 0.5 * (left.time + right.time);
+    if (!(left.time < time && time < right.time)) continue;
+    const Sample s = way.at(time);
+    (s.slope < 0.0 ? left : right) = s;
+    lower = Crossing(left, right);
+  }
+  const Sample& least = left.distance <= right.distance ? left : right;
+  // One bound for the planes, one for the arithmetic between them.
+  return answer(least, way.gap(std::min(lower.distance, least.distance)) - way.error());
+}
+
+}  // namespace roam::unknown
