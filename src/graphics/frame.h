@@ -86,7 +86,7 @@ class Frame {
   class Pipeline;
   void project();
 
-  osg::ref_ptr<osgViewer::Viewer> viewer_;
+  osg::ref_ptr<osg::Camera> camera_;
   Context context_;
   FrameSettings settings_;
   osg::ref_ptr<Pipeline> pipeline_;

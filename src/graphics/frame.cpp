@@ -1,0 +1,187 @@
+#include "graphics/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <osg/ClipControl>
+#include <osg/Depth>
+#include <osg/StateSet>
+
+#include "graphics/pipeline.h"
+
+namespace roam::graphics {
+namespace {
+
+/// Where OpenSceneGraph believes the picture to end, metres. Reversed depth has no end; an ordinary one has this.
+constexpr double believed_far = 1e7;
+constexpr double largest_near = 1e3;
+constexpr double radians = 3.14159265358979323846 / 180.0;
+/// Behind everything, where there is no sky.
+const osg::Vec4 background(0.45f, 0.49f, 0.53f, 1.0f);
+
+void check_near(double near) {
+  if (near > 0.0 && near <= largest_near) return;
+  throw Error("a near plane of " + std::to_string(near) + " m cannot be used: it must be in (0, 1000]");
+}
+
+void check_vertical_fov(double degrees) {
+  if (degrees >= 10.0 && degrees <= 150.0) return;
+  throw Error("a vertical field of view of " + std::to_string(degrees) +
+              " degrees cannot be used: it must be in [10, 150]");
+}
+
+/// Keeps a flat camera as large as the picture.
+class FollowPicture : public osg::NodeCallback {
+ public:
+  explicit FollowPicture(osg::ref_ptr<osg::Camera> picture) : picture_(std::move(picture)) {}
+  void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+    osg::Camera& flat = *node->asCamera();
+    const osg::Viewport& now = *picture_->getViewport();
+    if (flat.getViewport()->width() != now.width() || flat.getViewport()->height() != now.height()) {
+      // Replaced, not changed: a thread may still be drawing by the old one.
+      flat.setViewport(new osg::Viewport(0, 0, now.width(), now.height()));
+      flat.setProjectionMatrixAsOrtho2D(0, now.width(), 0, now.height());
+    }
+    traverse(node, visitor);
+  }
+
+ private:
+  osg::ref_ptr<osg::Camera> picture_;
+};
+
+osg::ref_ptr<osg::Group> make_space(bool reversed_depth) {
+  osg::ref_ptr<osg::Group> space = new osg::Group;
+  space->setName("space");
+  osg::StateSet& state = *space->getOrCreateStateSet();
+  state.setAttributeAndModes(new osg::Depth(reversed_depth ? osg::Depth::GEQUAL : osg::Depth::LEQUAL));
+  if (reversed_depth) {
+    state.setAttribute(new osg::ClipControl(osg::ClipControl::LOWER_LEFT, osg::ClipControl::ZERO_TO_ONE));
+    state.setDefine("ROAM_REVERSED_DEPTH");
+  }
+  return space;
+}
+
+osg::ref_ptr<osg::Camera> make_flat(osg::Camera& picture) {
+  osg::ref_ptr<osg::Camera> flat = new osg::Camera;
+  flat->setName("flat");
+  flat->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  flat->setRenderOrder(osg::Camera::POST_RENDER);
+  flat->setClearMask(0);
+  flat->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  flat->setCullingMode(osg::CullSettings::NO_CULLING);
+  flat->setAllowEventFocus(false);
+  flat->setViewMatrix(osg::Matrix::identity());
+  flat->setViewport(new osg::Viewport(0, 0, picture.getViewport()->width(), picture.getViewport()->height()));
+  flat->setProjectionMatrixAsOrtho2D(0, picture.getViewport()->width(), 0, picture.getViewport()->height());
+  flat->addUpdateCallback(new FollowPicture(&picture));
+  osg::StateSet& state = *flat->getOrCreateStateSet();
+  state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+  state.setMode(GL_BLEND, osg::StateAttribute::ON);
+  return flat;
+}
+
+}  // namespace
+
+double near_limit(double radius, double vertical_fov, double aspect) {
+  const double up = std::tan(0.5 * vertical_fov * radians);
+  return radius / std::sqrt(1.0 + up * up * (1.0 + aspect * aspect));
+}
+
+Frame::Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSettings& settings)
+    : camera_(viewer.getCamera()), context_(context), settings_(settings) {
+  check_near(settings.near);
+  check_vertical_fov(settings.vertical_fov);
+  if (settings.samples < 0) throw Error("a pixel cannot have " + std::to_string(settings.samples) + " samples");
+  pipeline_ = new Pipeline(settings.reversed_depth && context.abilities.reversed_depth,
+                           std::min(settings.samples, context.abilities.samples));
+
+  camera_->setGraphicsContext(context.window);
+  camera_->setViewport(0, 0, context.width(), context.height());
+  camera_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  camera_->setProjectionResizePolicy(osg::Camera::HORIZONTAL);
+  camera_->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  camera_->setClearColor(background);
+  camera_->setClearDepth(pipeline_->reversed_depth() ? 0.0 : 1.0);
+  pipeline_->attach(*camera_);
+  project();
+
+  root_ = new osg::Group;
+  space_ = make_space(pipeline_->reversed_depth());
+  flat_ = make_flat(*camera_);
+  root_->addChild(space_);
+  root_->addChild(flat_);
+  viewer.setLightingMode(osg::View::NO_LIGHT);
+  viewer.setSceneData(root_);
+}
+
+Frame::~Frame() = default;
+
+osg::Group* Frame::root() const { return root_.get(); }
+osg::Group* Frame::space() const { return space_.get(); }
+osg::Camera* Frame::flat() const { return flat_.get(); }
+const Context& Frame::context() const { return context_; }
+int Frame::width() const { return static_cast<int>(camera_->getViewport()->width()); }
+int Frame::height() const { return static_cast<int>(camera_->getViewport()->height()); }
+double Frame::near() const { return settings_.near; }
+double Frame::vertical_fov() const { return settings_.vertical_fov; }
+bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
+
+void Frame::project() {
+  const double aspect = camera_->getViewport()->width() / camera_->getViewport()->height();
+  camera_->setProjectionMatrixAsPerspective(settings_.vertical_fov, aspect, settings_.near, believed_far);
+}
+
+void Frame::set_near(double near) {
+  check_near(near);
+  settings_.near = near;
+  project();
+}
+
+void Frame::set_vertical_fov(double degrees) {
+  check_vertical_fov(degrees);
+  settings_.vertical_fov = degrees;
+  project();
+}
+
+std::string Frame::describe() const {
+  const bool wished = settings_.reversed_depth;
+  std::string depth = "reversed 32-bit float depth";
+  if (!reversed_depth()) {
+    depth = "ordinary 24-bit depth, so that far things flicker";
+    if (wished) depth += " (the driver lacks GL_ARB_clip_control or float depth buffers)";
+  }
+  return context_.describe() + ", " + depth + ", " +
+         (pipeline_->samples() > 1 ? std::to_string(pipeline_->samples()) + " samples a pixel" : "1 sample a pixel");
+}
+
+Ray Frame::ray(double x, double y) const {
+  const osg::Viewport& viewport = *camera_->getViewport();
+  const osg::Matrixd& projection = camera_->getProjectionMatrix();
+  const double right = 2.0 * (x - viewport.x()) / viewport.width() - 1.0;
+  const double up = 2.0 * (y - viewport.y()) / viewport.height() - 1.0;
+  const osg::Matrixd from_eye = osg::Matrixd::inverse(camera_->getViewMatrix());
+  const osg::Vec3d in_eye(right / projection(0, 0), up / projection(1, 1), -1.0);
+  osg::Vec3d direction = osg::Matrixd::transform3x3(in_eye, from_eye);
+  direction.normalize();
+  const osg::Vec3d origin = from_eye.getTrans();
+  return {{origin.x(), origin.y(), origin.z()}, {direction.x(), direction.y(), direction.z()}};
+}
+
+void Frame::request_picture(bool with_display, std::function<void(osg::ref_ptr<osg::Image>)> done) {
+  pipeline_->request(with_display, std::move(done));
+}
+
+const char* depth_glsl() {
+  // With reversed depth, z / w = near / distance. near is what the perspective matrix was made with.
+  return R"(#version 120
+#pragma import_defines(ROAM_REVERSED_DEPTH)
+vec4 roam_clip(vec4 eye) {
+  vec4 clip = gl_ProjectionMatrix * eye;
+#ifdef ROAM_REVERSED_DEPTH
+  clip.z = gl_ProjectionMatrix[3][2] / (gl_ProjectionMatrix[2][2] - 1.0);
+#endif
+  return clip;
+}
+)";
+}
+
+}  // namespace roam::graphics

@@ -1,0 +1,162 @@
+#include "graphics/shading.h"
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/Program>
+#include <osg/StateSet>
+#include <osg/Uniform>
+#include <string>
+
+#include "graphics/frame.h"
+
+namespace roam::graphics {
+namespace {
+
+constexpr const char* scene_vertex = R"(
+varying vec3 roam_position;
+varying vec3 roam_normal;
+varying vec4 roam_surface;
+void main() {
+  vec4 eye = gl_ModelViewMatrix * gl_Vertex;
+  roam_position = eye.xyz;
+  roam_normal = gl_NormalMatrix * gl_Normal;
+  roam_surface = gl_Color * gl_FrontMaterial.diffuse;
+  gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0;
+  gl_Position = roam_clip(eye);
+}
+)";
+
+// The shares of the light add up to 1 on a floor before the feet: white stays white and nothing is clipped. Walls get
+// about 0.7, a ceiling 0.6, and what lies in the dark of a long corridor 0.4.
+constexpr const char* scene_fragment = R"(#version 120
+#pragma import_defines(ROAM_TEXTURED)
+varying vec3 roam_position;
+varying vec3 roam_normal;
+varying vec4 roam_surface;
+uniform mat4 osg_ViewMatrix;
+uniform sampler2D roam_picture;
+
+const vec3 sun = vec3(0.48, -0.36, 0.80);
+const vec3 ambient = vec3(0.32, 0.33, 0.35);
+const vec3 sky = vec3(0.19, 0.20, 0.22);
+const vec3 sunlight = vec3(0.20, 0.19, 0.17);
+const vec3 lamp = vec3(0.30, 0.29, 0.27);
+const float lamp_reach = 14.0;
+
+const vec3 haze = vec3(0.63, 0.67, 0.71);
+const float haze_reach = 12000.0;
+const float most_haze = 0.6;
+
+vec3 lit(vec3 normal, vec3 view, float distance) {
+  vec3 up = osg_ViewMatrix[2].xyz;
+  vec3 to_sun = mat3(osg_ViewMatrix) * sun;
+  float fall_off = 1.0 / (1.0 + distance * distance / (lamp_reach * lamp_reach));
+  return ambient + sky * (0.5 + 0.5 * dot(normal, up)) + sunlight * (0.5 + 0.5 * dot(normal, to_sun)) +
+         lamp * dot(normal, view) * fall_off;
+}
+
+void main() {
+  vec4 color = roam_surface;
+  vec3 glow = gl_FrontMaterial.emission.rgb;
+#ifdef ROAM_TEXTURED
+  vec4 texel = texture2D(roam_picture, gl_TexCoord[0].st);
+  color *= texel;
+  glow *= texel.rgb;
+#endif
+  float distance = length(roam_position);
+  vec3 view = -roam_position / max(distance, 1e-6);
+  // A normal of length 0 says that the geometry has none.
+  bool has_normal = dot(roam_normal, roam_normal) > 1e-6;
+  vec3 normal = has_normal ? roam_normal : cross(dFdx(roam_position), dFdy(roam_position));
+  float size = length(normal);
+  normal = size > 0.0 ? normal / size : view;
+  if (dot(normal, view) < 0.0) normal = -normal;
+  vec3 light = lit(normal, view, distance);
+#ifdef ROAM_TEXTURED
+  if (!has_normal) light = vec3(1.0);
+#endif
+  vec3 seen = color.rgb * light + glow;
+  float hazed = most_haze * (1.0 - exp(-distance * distance / (haze_reach * haze_reach)));
+  gl_FragColor = vec4(mix(seen, haze, hazed), color.a);
+}
+)";
+
+constexpr const char* sky_vertex = R"(#version 120
+varying vec3 roam_direction;
+void main() {
+  gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
+  roam_direction = vec3(gl_Vertex.x / gl_ProjectionMatrix[0][0], gl_Vertex.y / gl_ProjectionMatrix[1][1], -1.0);
+}
+)";
+
+// Grey enough that white and black both stand out. The noise, of half a step of 8 bit, hides the bands.
+constexpr const char* sky_fragment = R"(#version 120
+varying vec3 roam_direction;
+uniform mat4 osg_ViewMatrix;
+const vec3 zenith = vec3(0.30, 0.38, 0.48);
+const vec3 horizon = vec3(0.63, 0.67, 0.71);
+const vec3 edge = vec3(0.44, 0.45, 0.46);
+const vec3 nadir = vec3(0.23, 0.23, 0.24);
+void main() {
+  float height = dot(normalize(roam_direction), osg_ViewMatrix[2].xyz);
+  vec3 above = mix(horizon, zenith, pow(clamp(height, 0.0, 1.0), 0.55));
+  vec3 below = mix(edge, nadir, pow(clamp(-height, 0.0, 1.0), 0.6));
+  vec3 color = mix(below, above, smoothstep(-0.02, 0.005, height));
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  gl_FragColor = vec4(color + (noise - 0.5) / 255.0, 1.0);
+}
+)";
+
+osg::ref_ptr<osg::Program> make_program(const char* name, const std::string& vertex, const std::string& fragment) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName(name);
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+  return program;
+}
+
+/// Says that something is nowhere, so that it moves no bounds.
+struct Nowhere : osg::Drawable::ComputeBoundingBoxCallback {
+  osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
+};
+
+}  // namespace
+
+osg::ref_ptr<osg::Group> make_scene_group() {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  group->setName("scene");
+  osg::StateSet& state = *group->getOrCreateStateSet();
+  state.setAttribute(make_program("roam scene", std::string(depth_glsl()) + scene_vertex, scene_fragment));
+  state.addUniform(new osg::Uniform("roam_picture", 0));
+  osg::ref_ptr<osg::Material> white = new osg::Material;
+  white->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 1, 1, 1));
+  state.setAttribute(white);
+  state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
+  return group;
+}
+
+osg::ref_ptr<osg::Node> make_sky() {
+  osg::ref_ptr<osg::Geometry> all = new osg::Geometry;
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  for (const auto& [x, y] : {std::pair{-1, -1}, std::pair{3, -1}, std::pair{-1, 3}}) {
+    corners->push_back(osg::Vec3(static_cast<float>(x), static_cast<float>(y), 0));
+  }
+  all->setVertexArray(corners);
+  all->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+  all->setUseDisplayList(false);
+  all->setUseVertexBufferObjects(true);
+  all->setComputeBoundingBoxCallback(new Nowhere);
+  all->setCullingActive(false);
+  osg::StateSet& state = *all->getOrCreateStateSet();
+  state.setAttribute(make_program("roam sky", sky_vertex, sky_fragment));
+  state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+  state.setRenderBinDetails(-100, "RenderBin");
+  osg::ref_ptr<osg::Geode> sky = new osg::Geode;
+  sky->setName("sky");
+  sky->addDrawable(all);
+  sky->setCullingActive(false);
+  return sky;
+}
+
+}  // namespace roam::graphics

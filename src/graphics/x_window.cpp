@@ -1,0 +1,100 @@
+#include "graphics/x_window.h"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+
+#include <algorithm>
+#include <charconv>
+#include <osgViewer/api/X11/GraphicsWindowX11>
+
+#include "roam/error.h"
+
+namespace roam::graphics {
+namespace {
+
+/// OpenSceneGraph's window, which may be realized twice and knows the server it lives on.
+class XWindow : public osgViewer::GraphicsWindowX11 {
+ public:
+  XWindow(osg::GraphicsContext::Traits* traits, osg::ref_ptr<osg::Referenced> server)
+      : osgViewer::GraphicsWindowX11(traits), server_(std::move(server)) {}
+
+  /// Viewer::realize realizes every window once more, and the base class would complain.
+  bool realizeImplementation() override { return _realized || osgViewer::GraphicsWindowX11::realizeImplementation(); }
+
+  /// What desktops group windows and find icons by.
+  void set_class() {
+    XClassHint hint;
+    hint.res_name = const_cast<char*>("roam");
+    hint.res_class = const_cast<char*>("roam");
+    XSetClassHint(_display, _window, &hint);
+  }
+
+ protected:
+  /// Closed here: the server goes before the base class does, and X ends programs whose server has gone.
+  ~XWindow() override { close(true); }
+
+ private:
+  osg::ref_ptr<osg::Referenced> server_;
+};
+
+/// Where the display's name says which screen: ":1.2" -> 2.
+void name_display(osg::GraphicsContext::Traits& traits, const std::string& display) {
+  const std::size_t colon = display.rfind(':');
+  traits.hostName = display.substr(0, colon);
+  traits.displayNum = 0;
+  traits.screenNum = 0;
+  if (colon == std::string::npos) return;
+  const char* end = display.data() + display.size();
+  const auto number = std::from_chars(display.data() + colon + 1, end, traits.displayNum);
+  if (number.ptr != end && *number.ptr == '.') std::from_chars(number.ptr + 1, end, traits.screenNum);
+}
+
+struct Screen {
+  int width = 0;
+  int height = 0;
+};
+
+/// Looks before OpenSceneGraph does, which says less.
+Screen look_at(const std::string& name) {
+  Display* display = XOpenDisplay(name.c_str());
+  if (!display) {
+    throw Error("cannot open the display \"" + name + "\": no X server answers there, or it does not let this user in");
+  }
+  const Screen screen{DisplayWidth(display, DefaultScreen(display)), DisplayHeight(display, DefaultScreen(display))};
+  int unused = 0;
+  const bool has_glx = XQueryExtension(display, "GLX", &unused, &unused, &unused) != 0;
+  XCloseDisplay(display);
+  if (!has_glx) {
+    throw Error("the display \"" + name +
+                "\" has no OpenGL: its X server lacks the extension GLX. Start the server with GLX");
+  }
+  return screen;
+}
+
+}  // namespace
+
+osg::ref_ptr<osgViewer::GraphicsWindow> open_x_window(const XWindowWish& wish, osg::ref_ptr<osg::Referenced> server) {
+  // The system interface starts Xlib's locks, which must be there before the first connection.
+  if (!osg::GraphicsContext::getWindowingSystemInterface()) throw Error("OpenSceneGraph was built without X11");
+  const Screen screen = look_at(wish.display);
+  osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+  name_display(*traits, wish.display);
+  traits->windowName = wish.title;
+  traits->width = wish.width;
+  traits->height = wish.height;
+  traits->x = wish.decorated ? std::max(0, (screen.width - wish.width) / 2) : 0;
+  traits->y = wish.decorated ? std::max(0, (screen.height - wish.height) / 2) : 0;
+  traits->windowDecoration = wish.decorated;
+  traits->doubleBuffer = true;
+  traits->depth = 0;  // Frame draws to buffers of its own
+  osg::ref_ptr<XWindow> window = new XWindow(traits, std::move(server));
+  if (!window->valid() || !window->realize()) {
+    throw Error("the display \"" + wish.display +
+                "\" gives no window with OpenGL. Install the driver of the graphics " +
+                "card, or Mesa's (Debian: libgl1-mesa-dri)");
+  }
+  window->set_class();
+  return window;
+}
+
+}  // namespace roam::graphics
