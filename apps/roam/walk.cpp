@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "interrupt.h"
+#include "picture/picture.h"
 #include "progress.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
@@ -42,6 +43,7 @@ struct WalkOptions {
   std::optional<double> step;
   RouteOptions route;
   std::filesystem::path trace;
+  std::filesystem::path picture;
   bool verify = false;
   bool json = false;
 
@@ -100,11 +102,13 @@ class Recorder {
   }
   [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  [[nodiscard]] const picture::Record& record() const { return record_; }
 
  private:
   void take(const StepReport& report) {
     if (trace_) trace_->add(steps_, time_, options_.settings.radius, report);
     if (options_.verify) append_pieces(pieces_, steps_, options_.settings.radius, report);
+    if (!options_.picture.empty()) append(record_, report, steps_ == 0);
   }
 
   const WalkOptions& options_;
@@ -113,6 +117,7 @@ class Recorder {
   std::optional<TraceFile> trace_;
   std::vector<std::uint32_t> nanoseconds_;
   std::vector<Piece> pieces_;
+  picture::Record record_;
   std::uint64_t steps_ = 0;
   double time_ = 0.0;
 };
@@ -152,17 +157,44 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
   return route.result();
 }
 
-/// Refuses to write the trace over what is read.
-void check_trace(const WalkOptions& options) {
-  const auto is_trace = [&](const std::filesystem::path& file) {
+/// Refuses to write an output over what is read.
+void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {
+  const auto is_output = [&](const std::filesystem::path& file) {
     std::error_code none;
-    return !file.empty() && std::filesystem::equivalent(file, options.trace, none);
+    return !file.empty() && std::filesystem::equivalent(file, output, none);
   };
-  if (options.trace.empty()) return;
+  if (output.empty()) return;
+  const std::string what = std::string(option) + " " + output.string();
   for (const auto& scene : options.scene.scenes) {
-    if (is_trace(scene)) throw UsageError("--trace " + options.trace.string() + " would overwrite the scene");
+    if (is_output(scene)) throw UsageError(what + " would overwrite the scene");
   }
-  if (is_trace(options.path)) throw UsageError("--trace " + options.trace.string() + " would overwrite the path");
+  if (is_output(options.path)) throw UsageError(what + " would overwrite the path");
+}
+
+void check_outputs(const WalkOptions& options) {
+  check_output(options, "--trace", options.trace);
+  check_output(options, "--picture", options.picture);
+  if (options.picture.empty()) return;
+  if (!picture::is_picture(options.picture)) {
+    throw UsageError("--picture " + options.picture.string() + ": a picture is an .svg or a .png, by its extension");
+  }
+  std::error_code none;
+  if (std::filesystem::weakly_canonical(options.picture, none) ==
+      std::filesystem::weakly_canonical(options.trace, none)) {
+    throw UsageError("--picture " + options.picture.string() + " would overwrite the trace");
+  }
+}
+
+/// What a picture is called.
+std::string title(const WalkOptions& options) {
+  std::string text;
+  for (const auto& scene : options.scene.scenes) {
+    // A folder may be given with a slash behind it.
+    const auto name = scene.has_filename() ? scene.filename() : scene.parent_path().filename();
+    text += (text.empty() ? "" : ", ") + name.string();
+  }
+  return options.wander ? text + fmt::format(", wandering for {:g} s", *options.wander)
+                        : text + " along " + options.path.filename().string();
 }
 
 Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces) {
@@ -172,7 +204,7 @@ Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces
 
 ExitStatus walk(WalkOptions options) {
   options.settings = walker_settings(options);
-  check_trace(options);
+  check_outputs(options);
   if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
   if (options.verify && mode == Mode::ghost) {
@@ -187,7 +219,10 @@ ExitStatus walk(WalkOptions options) {
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
-  const LoadedScene scene = load(options.scene, options.verify ? Source::keep : Source::release);
+  std::optional<picture::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
+  const bool needs_triangles = options.verify || drawing;
+  const LoadedScene scene = load(options.scene, needs_triangles ? Source::keep : Source::release);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, seconds / options.route.dt);
@@ -226,6 +261,9 @@ ExitStatus walk(WalkOptions options) {
     report.verified = verified(scene, recorder.pieces());
     report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
+  if (drawing) {
+    drawing->write(picture::make_sheet({title(options), report, recorder.record(), scene.world, scene.meshes}));
+  }
   if (options.json) {
     print(json_report(report));
   } else {
@@ -246,6 +284,7 @@ constexpr const char* help =
     "  roam walk mine.dae --path tour.path\n"
     "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
     "  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv\n"
+    "  roam walk house.glb --path in.path --height 1.8 --picture in.svg\n"
     "  roam walk Terrain/ --wander 60 --height 1.8 --verify\n";
 
 }  // namespace
@@ -279,13 +318,12 @@ void add_walk(CLI::App& program, Run& run) {
       ->type_name("M");
   verb->add_option("--slope", o.settings.slope_degrees, "What walking climbs, in degrees (default: 45)")
       ->type_name("DEG");
-  verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")
-      ->check(positive)
-      ->type_name("V");
+  verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
   verb->add_option("--dt", o.route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
       ->check(positive)
       ->type_name("S");
   verb->add_option("--trace", o.trace, "Write every step to a CSV file")->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
   verb->add_flag("--verify", o.verify,
                  "Check every move against all triangles, in higher precision, without the index");
   verb->add_flag("--json", o.json, "Print one JSON object");

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// What planes cut out of a scene: level ones for plans, upright ones along the way for sections.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry.h"
+#include "levels.h"
+#include "roam/mesh.h"
+#include "way.h"
+
+namespace roam::app::picture {
+
+/// The corners of a triangle, turned as the plan is.
+using TurnedTriangle = std::array<Vec3, 3>;
+
+/// Where the plane at `height` cuts a triangle. None where it does not, and for a triangle that lies in it. The same
+/// edge of two triangles is cut at the same point, bit by bit.
+[[nodiscard]] std::optional<Segment> cut_level(const TurnedTriangle& triangle, double height);
+
+/// A plan that is to be cut.
+struct PlanView {
+  LevelMap map;
+  std::vector<double> cuts;     ///< heights of the levels, ascending, metres
+  std::optional<double> below;  ///< so far under each level is cut a second time, to show what lies below; metres
+};
+
+struct PlanCut {
+  std::vector<Segment> walls;  ///< at body height, in metres of the plan
+  std::vector<Segment> below;  ///< what lies below: at `below`, and the lower of two storeys
+};
+
+/// A stretch of the way, straight when seen from above, along which is cut.
+struct Stretch {
+  Point from{0.0}, to{0.0};  ///< in the plan, metres; not the same
+  double along = 0.0;        ///< of `from`, metres
+  double lowest = 0.0;       ///< heights between which is cut, metres
+  double highest = 0.0;
+};
+
+/// The stretches of a way, led on straight by `beyond` metres at both ends.
+[[nodiscard]] std::vector<Stretch> stretches(const Way& way, const Turn& turn, double beyond, double lowest,
+                                             double highest);
+
+struct Cuts {
+  std::vector<PlanCut> plans;    ///< one for each view
+  std::vector<Segment> section;  ///< (along, height), metres
+};
+
+/// Cuts a scene on all cores; the result does not depend on how many. `goes_on` is called now and then, from one thread
+/// at a time, with the number of triangles done.
+[[nodiscard]] Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
+                       std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on);
+
+}  // namespace roam::app::picture
