@@ -17,13 +17,15 @@
 ///
 /// Two things are taken on trust, because looking after them would cost what they save:
 ///   - Bounding spheres. They are floats, and osg::Transform computes them too small under a rotation that is scaled
-///     unevenly. The roundings of a node's own coordinates are allowed for; setBoundsMargin is for the rest.
+///     unevenly. What is allowed for at any rate are the roundings of the node's own coordinates, as often as eight
+///     nested transforms make them; setBoundsMargin is for the rest.
 ///   - A KdTree, where a geometry has one (osgDB::Options::BUILD_KDTREES before loading, or osg::KdTreeBuilder) and the
 ///     visitor uses it. It must have been built from the vertices as they are now. osg::KdTree drops primitives with
 ///     two equal corners, among them triangles that are written as quads; geometries where it did are scanned.
 ///
 /// An intersector belongs to one thread at a time; several may traverse one graph at once as long as nobody changes it.
 
+#include <osg/BoundingBox>
 #include <osg/Drawable>
 #include <osg/Matrixd>
 #include <osg/Vec3d>
@@ -116,25 +118,29 @@ class BoxIntersector : public osgUtil::Intersector {
   ~BoxIntersector() override = default;
 
  private:
-  struct Search;
+  class Search;
+  struct KdTreeSearch;
 
   BoxIntersector& root() { return _parent ? *_parent : *this; }
-  /// The frame of the drawables below.
-  void setMatrix(const osg::Matrixd& matrix);
-  bool outside(const osg::Vec3d& centre, const osg::Vec3d& halfSize) const;
+  /// The earliest impact so far, where only that is wanted: nothing later is of interest.
+  void shrinkTo(double time);
+  /// Whether a ball, or a box, in the frame of the drawables below is beyond the box of the swept body.
+  bool beyond(const osg::Vec3d& centre, double radius);
+  bool beyond(const osg::BoundingBox& box);
 
-  BoxIntersector* _parent = nullptr;
+  BoxIntersector* _parent = nullptr;  ///< the intersector that this one was cloned for; it gets what is found
   roam::Body _body;
   osg::Vec3d _start, _end;
   bool _gather = false;
   double _boundsMargin = 0.0;
   osg::Vec3d _lower, _upper;  ///< box of the swept body
 
-  bool _identity = true;
-  bool _ignored = false;  ///< below a camera with a frame of its own
-  osg::Matrixd _matrix;   ///< from the frame of the drawables below to this intersector's
-  double _scale = 1.0;    ///< no length becomes longer than this many times
-  osg::Vec3d _localLower, _localUpper;
+  bool _ignored = false;  ///< what is below has no place in the scene's space
+  bool _identity = true;  ///< the two matrices are
+  osg::Matrixd _matrix;   ///< from the frame of the drawables below to the intersector's
+  osg::Matrixd _inverse;  ///< meaningless where that has none
+  bool _invertible = true;
+  double _stretch = 1.0;  ///< no length in that frame becomes longer than so many times
 
   Intersections _intersections;
   std::vector<Candidate> _candidates;

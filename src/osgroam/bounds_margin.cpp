@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
+#include <vector>
+
+#include "affine.h"
+#include "osgRoam/BoxIntersector.h"
+#include "osg_triangles/graph_walk.h"
+#include "osg_triangles/primitives.h"
+
+namespace osgRoam {
+namespace {
+
+/// A node that the visit is below and that BoxIntersector would reject by its sphere.
+struct Bounded {
+  osg::Vec3d centre;
+  double radius;
+  osg::Matrixd to_bounded;  ///< from the frame of the visit to that of the sphere
+  double stretch;           ///< from that to the frame of the graph
+};
+
+/// Keeps the farthest of a geometry's vertices, as far as triangles use them.
+class Farthest {
+ public:
+  explicit Farthest(const std::vector<Bounded>& above) : above_(above) {}
+
+  template <class Vertex>
+  void begin(const Vertex* vertices, std::size_t count) {
+    vertices_ = roam::osg_triangles::Vertices(count, vertices);
+    seen_.assign(vertices_.size(), false);
+  }
+  void triangle(const roam::osg_triangles::Corners& t) {
+    for (const std::uint64_t i : {t.a, t.b, t.c}) {
+      if (i >= seen_.size() || seen_[i]) continue;
+      seen_[i] = true;
+      measure(vertices_[i]);
+    }
+  }
+  double excess = 0.0;  ///< metres
+
+ private:
+  void measure(const osg::Vec3d& vertex) {
+    for (const Bounded& node : above_) {
+      const double d = ((vertex * node.to_bounded - node.centre).length() - node.radius) * node.stretch;
+      if (d > excess && std::isfinite(d)) excess = d;
+    }
+  }
+
+  const std::vector<Bounded>& above_;
+  roam::osg_triangles::Vertices vertices_;
+  std::vector<bool> seen_;
+};
+
+class MarginVisitor : public osg::NodeVisitor {
+ public:
+  MarginVisitor() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+  void apply(osg::Node& node) override {
+    const std::size_t depth = above_.size();
+    include(node);
+    traverse(node);
+    above_.resize(depth);
+  }
+  void apply(osg::Transform& transform) override {
+    const std::vector<Bounded> above = above_;
+    const osg::Matrixd to_graph = to_graph_;
+    include(transform);
+    osg::Matrixd own;
+    transform.computeLocalToWorldMatrix(own, this);
+    transform.computeLocalToWorldMatrix(to_graph_, this);
+    // Nodes do not bound what has a frame of its own.
+    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF) above_.clear();
+    for (Bounded& node : above_) node.to_bounded.preMult(own);
+    traverse(transform);
+    above_ = above;
+    to_graph_ = to_graph;
+  }
+  void apply(osg::Camera& camera) override {
+    if (!roam::osg_triangles::draws_elsewhere(camera)) apply(static_cast<osg::Transform&>(camera));
+  }
+  void apply(osg::Billboard&) override {}
+  void apply(osg::Geometry& geometry) override {
+    Farthest farthest(above_);
+    roam::osg_triangles::Primitives<Farthest> primitives(farthest);
+    geometry.accept(primitives);
+    excess_ = std::max(excess_, farthest.excess);
+  }
+
+  [[nodiscard]] double excess() const { return excess_; }
+
+ private:
+  void include(const osg::Node& node) {
+    if (!node.isCullingActive() || !node.getBound().valid()) return;
+    const osg::BoundingSphere& sphere = node.getBound();
+    above_.push_back({sphere.center(), sphere.radius(), osg::Matrixd::identity(), greatestStretch(to_graph_)});
+  }
+
+  std::vector<Bounded> above_;
+  osg::Matrixd to_graph_;
+  double excess_ = 0.0;
+};
+
+}  // namespace
+
+double boundsMargin(osg::Node& node) {
+  MarginVisitor visitor;
+  node.accept(visitor);
+  // Measured in doubles, far from the origin perhaps.
+  constexpr double rounding = 1e-9;
+  const osg::BoundingSphere& all = node.getBound();
+  const double coordinates = all.valid() ? osg::Vec3d(all.center()).length() + all.radius() : 0.0;
+  return visitor.excess() * (1.0 + rounding) + rounding * coordinates;
+}
+
+}  // namespace osgRoam
