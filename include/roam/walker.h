@@ -115,7 +115,7 @@ enum class EventKind : std::uint8_t {
                  ///< back to the last safe place
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
-  waiting,       ///< touched, or is in, what is not known yet (see space.h) and waits for it as before a wall
+  waiting,       ///< touched, stands on or is in what is not known yet (see space.h), and waits for it as before a wall
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -205,9 +205,10 @@ struct Stance {
   double level = 0.0;          ///< z of the point last stood on, metres; means nothing before `stood`
   double rise_speed = 0.0;     ///< upward, m/s; 0 on the ground
   bool grounded = false;
-  bool firm = false;    ///< grounded within the slope limit: not on a rim, not wedged between slopes
-  bool stood = false;   ///< has stood on ground since it was placed
-  bool fallen = false;  ///< the present fall has been reported
+  bool firm = false;     ///< grounded within the slope limit: not on a rim, not wedged between slopes
+  bool unknown = false;  ///< grounded on what is not known yet
+  bool stood = false;    ///< has stood on ground since it was placed
+  bool fallen = false;   ///< the present fall has been reported
 };
 
 class Walker {
@@ -229,8 +230,9 @@ class Walker {
   /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
   /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
   /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost
-  /// mode get it away. A body that is held by what is not known yet is also `waiting`: as soon as it is known there,
-  /// the next step goes on as if it had been put there then.
+  /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
+  /// body had been put there then. A body that is held by what is not known yet is also `waiting`; as soon as it is
+  /// known there the next step goes on likewise, in spaces without revisions too.
   const StepReport& place(const Vec3& centre);
 
   /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is
@@ -270,11 +272,13 @@ class Walker {
   void move(const WalkerInput& input, double dt);
   walking::Ending move_for(const WalkerInput& input, double dt);
   void settle();
+  void fit_in();
   void free_body();
   void come_back();
   void put(const Vec3& place, double time);
   void hold();
   void release();
+  [[nodiscard]] bool embedded() const;
   [[nodiscard]] bool in_unknown() const;
   void look_again();
   void remember_safe();
@@ -294,7 +298,8 @@ class Walker {
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
   bool held_ = false;
-  bool waits_ = false;  ///< held by what is not known yet
+  bool waits_ = false;           ///< held by what is not known yet
+  std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
 };
 
 }  // namespace roam

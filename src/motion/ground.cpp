@@ -35,18 +35,18 @@ bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
 }
 
-std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Proximity& contact) {
+std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Proximity& contact, bool unknown) {
   const double up = contact.normal.z;
   if (up < rim_cosine) return std::nullopt;
   const bool gentle = up >= m.slope_cosine - cosine_rounding;
   if (contact.feature == Feature::face) {
-    return gentle ? std::optional<Footing>({contact.normal, contact.point.z, true, false}) : std::nullopt;
+    return gentle ? std::optional<Footing>({contact.normal, contact.point.z, true, false, unknown}) : std::nullopt;
   }
   if (stance.stood && stance.grounded && contact.point.z > stance.level + m.settings.step + 2.0 * m.skin) {
     return std::nullopt;
   }
   if (!gentle && !floor_behind(m, contact.point, contact.normal)) return std::nullopt;
-  return Footing{contact.normal, contact.point.z, gentle, true};
+  return Footing{contact.normal, contact.point.z, gentle, true, unknown};
 }
 
 Proximity as_proximity(const Impact& s) { return {s.point, s.normal, s.feature, s.distance}; }
@@ -61,7 +61,7 @@ bool carried_by(const Move& m, const PlaneSet& planes) {
 }  // namespace
 
 std::optional<Footing> footing(const Move& move, const Stance& stance, const Impact& contact) {
-  return footing_on(move, stance, as_proximity(contact));
+  return footing_on(move, stance, as_proximity(contact), contact.unknown);
 }
 
 std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
@@ -71,16 +71,19 @@ std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
   PlaneSet planes;
   std::optional<Footing> best;
   double highest = move.feet();
+  bool unknown = false;
   for (std::size_t i = 0; i < std::min(found, contacts.size()); ++i) {
     const Contact& c = contacts[i];
     if (!(c.normal.z > 0.0)) continue;
-    const std::optional<Footing> f = footing_on(move, stance, c);
+    const std::optional<Footing> f = footing_on(move, stance, c, c.unknown);
     if (f && (!best || f->normal.z > best->normal.z)) best = f;
     planes.add(c.normal);
+    unknown |= c.unknown;
     highest = std::max(highest, c.point.z);
   }
   if (best) return best;
-  if (planes.size() > 1 && carried_by(move, planes)) return Footing{Vec3(0.0, 0.0, 1.0), highest, false, false};
+  if (planes.size() > 1 && carried_by(move, planes))
+    return Footing{Vec3(0.0, 0.0, 1.0), highest, false, false, unknown};
   return std::nullopt;
 }
 
@@ -93,6 +96,7 @@ void stand_on(Move& move, Stance& stance, const Footing& ground) {
   stance.rise_speed = 0.0;
   stance.grounded = stance.stood = true;
   stance.firm = ground.firm;
+  stance.unknown = ground.unknown;
   stance.fallen = false;
 }
 

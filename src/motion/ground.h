@@ -14,6 +14,7 @@ struct Footing {
   double level = 0.0;          ///< z of the point of contact, metres
   bool firm = true;            ///< within the slope limit: not on a rim, not wedged
   bool edge = false;           ///< the contact is with an edge or a corner, where ground may begin
+  bool unknown = false;        ///< it is what is not known yet that carries
 };
 
 /// Whether the body can stand on what it touches:

@@ -105,6 +105,7 @@ void Move::touch(const Impact& contact, double gap) {
   c.distance = gap;
   c.triangle = contact.triangle;
   c.unknown = contact.unknown;
+  report.waiting |= c.unknown;
   // The last touched stands last, and once.
   InlineList<Contact, 8>& list = report.contacts;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -140,7 +141,8 @@ Move::Mark Move::mark() const {
           report.corners.size(),
           report.events.size(),
           report.contacts,
-          report.blocked};
+          report.blocked,
+          report.waiting};
 }
 
 void Move::undo(const Mark& m) {
@@ -156,6 +158,7 @@ void Move::undo(const Mark& m) {
   report.events.shorten(m.events);
   report.contacts = m.contacts;
   report.blocked = m.blocked;
+  report.waiting = m.waiting;
 }
 
 bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }

@@ -57,7 +57,7 @@ class Move {
     Corner corner;
     std::size_t corners, events;
     InlineList<Contact, 8> contacts;
-    bool blocked;
+    bool blocked, waiting;
   };
 
   const Space& space;

@@ -67,8 +67,7 @@ void Walker::finish() {
         settings_.radius + std::max(space_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
-  for (const Contact& c : report_.contacts) report_.waiting |= c.unknown;
-  report_.waiting |= waits_;
+  report_.waiting |= waits_ || (stance_.grounded && stance_.unknown);
   if (report_.waiting) report_.events.push({EventKind::waiting, position_});
   for (const Corner& c : report_.corners) {
     if (!c.teleport) report_.least_clearance = std::min(report_.least_clearance, c.clearance);
@@ -101,12 +100,36 @@ void Walker::hold() {
 
 void Walker::release() { held_ = waits_ = false; }
 
+bool Walker::embedded() const { return space_->clearance(body(), position_, 0.0).distance < -walking::world_tolerance; }
+
 bool Walker::in_unknown() const { return space_->clearance(body(), position_, 0.0).unknown; }
 
 void Walker::look_again() {
-  if (!waits_ || in_unknown()) return hold();
+  const std::uint64_t now = space_->revision();
+  const bool changed = now != looked_at_;
+  looked_at_ = now;
+  if (!held_) {
+    // Something may have come where it is.
+    if (embedded()) fit_in();
+    return;
+  }
+  if (!changed && (!waits_ || in_unknown())) return hold();
   release();
-  if (!walking::fits(*space_, body(), position_)) free_body();
+  fit_in();
+  if (!held_) remember_safe();
+}
+
+void Walker::fit_in() {
+  if (walking::fits(*space_, body(), position_)) return;
+  const double low = walking::crouched_height(settings_);
+  const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
+  if (mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), lowered)) {
+    height_ = low;
+    put(lowered, report_.elapsed);
+    report_.events.push({EventKind::crouched, position_});
+  } else {
+    free_body();
+  }
 }
 
 void Walker::free_body() {
@@ -138,7 +161,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
     report_.corners.push({position_, height_, dt, 0.0, false});
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
-    if (held_) look_again();
+    if (held_ || space_->revision() != looked_at_) look_again();
     if (!held_) move(input, dt);
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
@@ -159,6 +182,7 @@ void Walker::move(const WalkerInput& input, double dt) {
     put(safe_, report_.elapsed);
     report_.events.push({EventKind::held, position_});
     report_.held = true;
+    if (embedded()) free_body();  // the space may have changed since
     settle();
   }
   if (mode_ == Mode::fly && !held_) remember_safe();
@@ -194,19 +218,10 @@ const StepReport& Walker::place(const Vec3& centre) {
   stance_ = {};
   release();
   safe_height_ = 0.0;
+  looked_at_ = space_->revision();
   put(centre, 0.0);
   report_.events.push({EventKind::placed, position_});
-  if (mode_ != Mode::ghost && !walking::fits(*space_, body(), position_)) {
-    const double low = walking::crouched_height(settings_);
-    const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
-    if (mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), lowered)) {
-      height_ = low;
-      put(lowered, 0.0);
-      report_.events.push({EventKind::crouched, position_});
-    } else {
-      free_body();
-    }
-  }
+  if (mode_ != Mode::ghost) fit_in();
   if (!held_ && walking::fits(*space_, body(), position_)) remember_safe();
   settle();
   finish();
@@ -237,6 +252,7 @@ void Walker::come_back() {
     height_ = safe_height_;
     put(safe_, 0.0);
     report_.events.push({EventKind::returned, position_});
+    if (embedded()) free_body();  // the space may have changed since
   } else {
     hold();
   }
