@@ -39,102 +39,28 @@ std::vector<T> joined(std::vector<std::vector<T>>& pieces) {
   return all;
 }
 
-/// Adds to the entry of that name, or makes one while there is room.
-void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
-  for (LeftOutObject& known : objects) {
-    if (known.name == object.name) {
-      known.vertices += object.vertices;
-      known.triangles += object.triangles;
-      return;
-    }
-  }
-  if (objects.size() < ImportReport::name_limit) objects.push_back(std::move(object));
-}
-
-/// Most sentences that one reader may say.
-constexpr std::size_t note_limit = 100;
-
 }  // namespace
 
 Assembler::Assembler(Scene& scene, std::size_t ignore_patterns, std::uint64_t mesh_bytes)
-    : scene_(scene), ignore_patterns_(ignore_patterns), mesh_bytes_left_(mesh_bytes) {}
+    : StreamReceiver(scene.report, ignore_patterns, mesh_bytes), scene_(scene) {}
 
-void Assembler::take(std::span<const std::byte> bytes) {
-  pending_.insert(pending_.end(), bytes.begin(), bytes.end());
-  std::size_t begin = 0;
-  while (pending_.size() - begin >= sizeof(FrameHeader)) {
-    FrameHeader header;
-    std::memcpy(&header, pending_.data() + begin, sizeof(header));
-    if (header.magic != frame_magic || header.zero != 0 || header.bytes > payload_limit) {
-      throw StreamDamaged{"bytes that are no frame"};
-    }
-    if (header.number != next_number_) throw StreamDamaged{"frames out of order"};
-    if ((header.number == 0) != (header.kind == FrameKind::hello)) throw StreamDamaged{"no greeting"};
-    if (ended_) throw StreamDamaged{"frames after the end"};
-    if (pending_.size() - begin - sizeof(header) < header.bytes) break;
-    handle(header, std::span(pending_).subspan(begin + sizeof(header), header.bytes));
-    ++next_number_;
-    begin += sizeof(header) + header.bytes;
-  }
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(begin));
-}
-
-void Assembler::handle(const FrameHeader& header, std::span<const std::byte> payload) {
-  if (header.kind == FrameKind::vertices) return take_vertices(payload);
-  if (header.kind == FrameKind::triangles) return take_triangles(payload);
+void Assembler::take_content(FrameKind kind, std::span<const std::byte> payload) {
+  if (kind == FrameKind::vertices) return take_vertices(payload);
+  if (kind == FrameKind::triangles) return take_triangles(payload);
+  if (kind != FrameKind::object) throw StreamDamaged{"a frame of unknown kind"};
   PayloadReader fields(payload);
-  ImportReport& report = scene_.report;
-  switch (header.kind) {
-    case FrameKind::hello:
-      if (fields.take<std::uint32_t>() != stream_version) throw StreamDamaged{"another version of the stream"};
-      break;
-    case FrameKind::progress:
-      bytes_read_ = fields.take<std::uint64_t>();
-      break;
-    case FrameKind::georeference: {
-      Georeference georeference;
-      georeference.origin = fields.take<Vec3>();
-      georeference.srs = fields.take_text();
-      if (!report.georeference) report.georeference = std::move(georeference);
-      break;
-    }
-    case FrameKind::object:
-      finish_mesh();
-      in_mesh_ = true;
-      name_ = fields.take_text();
-      count_bytes(sizeof(Mesh) + name_.size());
-      break;
-    case FrameKind::left_out:
-      take_left_out(fields);
-      break;
-    case FrameKind::missing_page: {
-      std::string file = fields.take_text();
-      auto& files = report.missing_page_files;
-      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
-      break;
-    }
-    case FrameKind::note: {
-      std::string sentence = fields.take_text();
-      if (report.notes.size() < note_limit) report.notes.push_back(std::move(sentence));
-      break;
-    }
-    case FrameKind::failure: {
-      Failure failure{fields.take_text()};
-      if (!fields.complete()) break;
-      throw failure;
-    }
-    case FrameKind::end:
-      take_end(fields);
-      break;
-    default:
-      throw StreamDamaged{"a frame of unknown kind"};
-  }
+  finish_mesh();
+  in_mesh_ = true;
+  name_ = fields.take_text();
   if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+  count_bytes(sizeof(Mesh) + name_.size());
 }
 
-void Assembler::count_bytes(std::size_t bytes) {
-  if (bytes > mesh_bytes_left_) throw MeshesTooLarge{};
-  mesh_bytes_left_ -= bytes;
+void Assembler::finish_content(const Totals& totals) {
+  finish_mesh();
+  if (totals.vertices != vertices_ || totals.triangles != triangles_) {
+    throw StreamDamaged{"totals that are not those of its meshes"};
+  }
 }
 
 void Assembler::take_vertices(std::span<const std::byte> payload) {
@@ -164,33 +90,6 @@ void Assembler::take_triangles(std::span<const std::byte> payload) {
   }
   triangles_ += triangles.size();
   triangle_pieces_.push_back(std::move(triangles));
-}
-
-void Assembler::take_left_out(PayloadReader& fields) {
-  const auto reason = fields.take<LeftOutReason>();
-  LeftOutObject object;
-  object.name = fields.take_text();
-  object.vertices = fields.take<std::uint64_t>();
-  object.triangles = fields.take<std::uint64_t>();
-  const bool bad = reason == LeftOutReason::bad_vertices;
-  note_object(bad ? scene_.report.bad_objects : scene_.report.ignored_objects, std::move(object));
-}
-
-void Assembler::take_end(PayloadReader& fields) {
-  finish_mesh();
-  const auto totals = fields.take<Totals>();
-  if (fields.take<std::uint32_t>() != ignore_patterns_) throw StreamDamaged{"totals of other patterns"};
-  for (std::size_t i = 0; i < ignore_patterns_; ++i) matched_.push_back(fields.take<std::uint8_t>() != 0);
-  if (totals.vertices != vertices_ || totals.triangles != triangles_) {
-    throw StreamDamaged{"totals that are not those of its meshes"};
-  }
-  ImportReport& report = scene_.report;
-  report.files += totals.files;
-  report.bad_vertices += totals.bad_vertices;
-  report.bad_triangles += totals.bad_triangles;
-  report.ignored_triangles += totals.ignored_triangles;
-  report.missing_pages += totals.missing_pages;
-  ended_ = true;
 }
 
 void Assembler::finish_mesh() {

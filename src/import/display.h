@@ -63,7 +63,7 @@ struct DisplayReport {
   std::uint64_t missing_textures = 0;  ///< images that are absent or unreadable; what they cover is shown without
   std::vector<std::string> missing_texture_files;  ///< at most ImportReport::name_limit
   bool paged = false;                              ///< whether any part holds pages
-  /// What import_scene says of the same files; of pages only what their roots tell.
+  /// What import_scene says of the same files, but for `vertices`, which is 0; of pages only what their roots tell.
   ImportReport import;
   /// Whole sentences for the user about what is not seen as it should be. What import_scene says of the same files is
   /// in import.notes, not here.

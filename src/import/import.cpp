@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <system_error>
-#include <utility>
 
-#include "import/find_reader.h"
-#include "import/reading.h"
-#include "import/report_notes.h"
+#include "import/assembler.h"
+#include "import/read_all.h"
 
 namespace roam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t least_memory_limit = 64ull << 20;
 
 struct NamedUnit {
   std::string_view name;
@@ -25,79 +19,12 @@ struct NamedUnit {
 };
 constexpr std::array<NamedUnit, 5> units{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}}};
 
-/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing.
-std::uint64_t bytes_in(const fs::path& path) {
-  std::error_code none;
-  if (!fs::is_directory(path, none)) {
-    const auto size = fs::file_size(path, none);
-    return none ? 0 : size;
-  }
-  std::uint64_t bytes = 0;
-  fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, none);
-  while (!none && entry != fs::recursive_directory_iterator()) {
-    std::error_code unseen;
-    if (entry->is_regular_file(unseen)) {
-      const auto size = entry->file_size(unseen);
-      bytes += unseen ? 0 : size;
-    }
-    entry.increment(none);
-  }
-  return bytes;
-}
-
-void check(std::span<const fs::path> paths, const ImportOptions& options) {
-  if (paths.empty()) throw Error("no scene was named; name one or more files or folders to import.");
-  if (options.memory_limit < least_memory_limit) {
-    throw Error(
-        fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
-  }
-  if (!(options.silence_limit > 0.0) || !std::isfinite(options.silence_limit)) {
-    throw Error(fmt::format("an import time limit of {} s makes no sense; give a number of seconds above 0.",
-                            options.silence_limit));
-  }
-  for (const fs::path& path : paths) {
-    std::error_code why;
-    const fs::file_status status = fs::status(path, why);
-    if (!fs::exists(status)) {
-      const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
-      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
-    }
-    if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
-      throw Error(
-          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
-    }
-  }
-}
-
 std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
   std::uint64_t bytes = 0;
   for (const Mesh& mesh : meshes) {
     bytes += mesh.vertices.size() * sizeof(Vec3) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
   }
   return bytes;
-}
-
-/// Triangles that were left out so far, by reason.
-struct LeftOut {
-  std::uint64_t bad = 0;
-  std::uint64_t ignored = 0;
-};
-
-Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOut& before) {
-  const std::uint64_t bad = report.bad_triangles - before.bad;
-  const std::uint64_t ignored = report.ignored_triangles - before.ignored;
-  if (bad > 0) {
-    return Error(
-        fmt::format("{}: none of its {} triangles is usable: they have vertices that are not finite, lie beyond "
-                    "1e9 m, or are not there. The file is damaged, or in another unit.",
-                    path.string(), bad));
-  }
-  if (ignored > 0) {
-    return Error(fmt::format("{}: all of its {} triangles are in objects that are to be ignored; ignore fewer.",
-                             path.string(), ignored));
-  }
-  return Error(fmt::format(
-      "{}: this gives no triangle, so there is nothing to walk on; check that it is the right file.", path.string()));
 }
 
 }  // namespace
@@ -119,37 +46,14 @@ LengthUnit parse_length_unit(std::string_view text) {
 double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)].metres; }
 
 Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
-  check(paths, options);
-  const fs::path program = reader::find_reader(options.reader);
-
-  ImportProgress progress;
-  std::vector<std::uint64_t> sizes;
-  for (const fs::path& path : paths) {
-    sizes.push_back(bytes_in(path));
-    progress.bytes_total += sizes.back();
-  }
-
   Scene scene;
-  std::vector<bool> matched(options.ignore.size(), false);
-  std::uint64_t bytes_before = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  reader::read_all(paths, options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {
     const std::uint64_t triangles_before = scene.report.triangles;
-    const LeftOut before{scene.report.bad_triangles, scene.report.ignored_triangles};
-    const std::uint64_t mesh_bytes_before = bytes_of(scene.meshes);
-    const auto say = [&](std::uint64_t bytes, std::uint64_t triangles) {
-      progress.path = paths[i];
-      progress.bytes_read = bytes_before + std::min(bytes, sizes[i]);
-      progress.triangles = triangles_before + triangles;
-      if (options.progress && !options.progress(progress)) throw Cancelled();
-    };
-    say(0, 0);
-    const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, mesh_bytes_before);
-    reader::read_one({program, paths[i], sizes[i], &options, mesh_bytes, say}, scene, matched);
-    if (scene.report.triangles == triangles_before) throw no_triangle(paths[i], scene.report, before);
-    say(sizes[i], scene.report.triangles - triangles_before);
-    bytes_before += sizes[i];
-  }
-  reader::add_count_notes(scene.report, options, matched);
+    const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, bytes_of(scene.meshes));
+    reader::Assembler assembler(scene, options.ignore.size(), mesh_bytes);
+    reader::read_one(reading, assembler, matched);
+    return scene.report.triangles > triangles_before;
+  });
   return scene;
 }
 

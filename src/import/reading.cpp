@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "import/assembler.h"
 #include "import/reader_process.h"
 
 namespace roam::reader {
@@ -25,7 +24,7 @@ constexpr int ending_milliseconds = 2000;
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
 
-std::vector<std::string> arguments_of(const Reading& reading, const Scene& scene) {
+std::vector<std::string> arguments_of(const Reading& reading) {
   const ImportOptions& options = *reading.options;
   std::vector<std::string> arguments{"--unit", fmt::format("{}", metres_per(options.unit)), "--memory",
                                      fmt::format("{}", options.memory_limit)};
@@ -34,10 +33,15 @@ std::vector<std::string> arguments_of(const Reading& reading, const Scene& scene
     arguments.insert(arguments.end(), {"--up", names[static_cast<int>(*options.up)]});
   }
   for (const std::string& pattern : options.ignore) arguments.insert(arguments.end(), {"--ignore", pattern});
-  if (const auto& georeference = scene.report.georeference) {
-    const Vec3& o = georeference->origin;
-    arguments.insert(arguments.end(), {"--frame", fmt::format("{}", o.x), fmt::format("{}", o.y),
-                                       fmt::format("{}", o.z), georeference->srs});
+  if (const auto& frame = reading.frame) {
+    const Vec3& o = frame->origin;
+    arguments.insert(arguments.end(),
+                     {"--frame", fmt::format("{}", o.x), fmt::format("{}", o.y), fmt::format("{}", o.z), frame->srs});
+  }
+  if (reading.display) arguments.emplace_back("--display");
+  if (const auto& o = reading.origin) {
+    arguments.insert(arguments.end(),
+                     {"--origin", fmt::format("{}", o->x), fmt::format("{}", o->y), fmt::format("{}", o->z)});
   }
   // A path that begins with a dash must not be taken for an option.
   arguments.insert(arguments.end(), {"--", reading.path.string()});
@@ -82,20 +86,19 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
 
 }  // namespace
 
-void read_one(const Reading& reading, Scene& scene, std::vector<bool>& matched) {
+void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
   const auto fail = [&](const std::string& what) -> Error { return Error(path + ": " + what + "."); };
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
-  ReaderProcess process(reading.program, arguments_of(reading, scene));
-  Assembler assembler(scene, options.ignore.size(), reading.mesh_bytes);
+  ReaderProcess process(reading.program, arguments_of(reading));
   std::vector<std::byte> buffer(receive_bytes);
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
   try {
-    while (!assembler.ended()) {
+    while (!receiver.ended()) {
       std::size_t received = 0;
       const auto arrival = process.receive(buffer, wait_milliseconds, received);
       const Clock::time_point now = Clock::now();
@@ -104,7 +107,7 @@ void read_one(const Reading& reading, Scene& scene, std::vector<bool>& matched) 
         throw fail(cause_of_death(ending, process.complaints(), options));
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
-        assembler.take(std::span(buffer).first(received));
+        receiver.take(std::span(buffer).first(received));
         heard = now;
       } else if (std::chrono::duration<double>(now - heard).count() > silence_limit) {
         throw fail(
@@ -114,20 +117,20 @@ void read_one(const Reading& reading, Scene& scene, std::vector<bool>& matched) 
       }
       if (now - reported >= std::chrono::milliseconds(wait_milliseconds)) {
         reported = now;
-        reading.report_progress(assembler.bytes_read(), assembler.triangles());
+        reading.report_progress(receiver.bytes_read(), receiver.triangles());
       }
     }
-  } catch (const Assembler::Failure& failure) {
+  } catch (const StreamReceiver::Failure& failure) {
     throw Error(failure.sentence);
-  } catch (const Assembler::MeshesTooLarge&) {
+  } catch (const StreamReceiver::ContentTooLarge&) {
     throw fail(too_much_memory(options));
-  } catch (const Assembler::StreamDamaged& damage) {
+  } catch (const StreamReceiver::StreamDamaged& damage) {
     throw fail(
         fmt::format("its reader sent {}; it is broken, or not the roam-reader of this version. Install roam "
                     "anew",
                     damage.how));
   }
-  for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || assembler.matched()[i];
+  for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || receiver.matched()[i];
 }
 
 }  // namespace roam::reader

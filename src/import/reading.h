@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "import/stream_receiver.h"
 #include "roam/import.h"
 
 namespace roam::reader {
@@ -17,13 +19,15 @@ struct Reading {
   std::filesystem::path path;     ///< existing file or folder
   std::uint64_t path_bytes = 0;   ///< its size
   const ImportOptions* options = nullptr;
-  std::uint64_t mesh_bytes = 0;  ///< most that its meshes may take
+  std::optional<Georeference> frame{};  ///< of the paths before, if there is one
+  bool display = false;                 ///< parts of what is seen are wanted, not meshes
+  std::optional<Vec3> origin{};         ///< of the parts of the paths before
   /// Called about every tenth of a second with the bytes read and triangles received of this path.
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };
 
-/// Appends what the path holds to `scene`, and sets matched[i] where ignore pattern i matched. Throws roam::Error, and
-/// whatever report_progress throws; the reader is gone either way.
-void read_one(const Reading& reading, Scene& scene, std::vector<bool>& matched);
+/// Gives what the reader says of the path to `receiver`, and sets matched[i] where ignore pattern i matched. Throws
+/// roam::Error, and whatever report_progress and the receiver throw; the reader is gone either way.
+void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched);
 
 }  // namespace roam::reader

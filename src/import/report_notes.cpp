@@ -19,13 +19,13 @@ std::string listed(const std::vector<LeftOutObject>& objects) {
   return objects.size() > listed_names ? text + " and others" : text;
 }
 
+}  // namespace
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < listed_names; ++i) text += (i == 0 ? "" : ", ") + names[i];
   return names.size() > listed_names ? text + " and others" : text;
 }
-
-}  // namespace
 
 void add_count_notes(ImportReport& report, const ImportOptions& options, const std::vector<bool>& matched) {
   std::vector<std::string> notes;

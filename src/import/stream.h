@@ -13,7 +13,12 @@
 ///     vertices      f64 x, y, z of each                                      belong to the mesh begun last
 ///     triangles     u32 a, b, c of each                                      index the vertices sent so far
 ///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
+///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, paged, bytes;
+///                   begins a part of what is shown (display.h); only where the program asked for that, and then
+///                   neither object, vertices nor triangles come
+///     part_bytes    bytes of the part begun last, until all are there
 ///     missing_page  text file
+///     missing_texture  text file
 ///     note          text sentence
 ///     failure       text sentence                                            last: the file cannot be read
 ///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: all is said
@@ -33,7 +38,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 1;
+inline constexpr std::uint32_t stream_version = 2;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -48,7 +53,10 @@ enum class FrameKind : std::uint16_t {
   vertices,
   triangles,
   left_out,
+  part,
+  part_bytes,
   missing_page,
+  missing_texture,
   note,
   failure,
   end
@@ -68,6 +76,16 @@ enum class LeftOutReason : std::uint8_t { bad_vertices, ignored };
 struct Totals {
   std::uint64_t files = 0, vertices = 0, triangles = 0;
   std::uint64_t bad_vertices = 0, bad_triangles = 0, ignored_triangles = 0, missing_pages = 0;
+  std::uint64_t textures = 0, missing_textures = 0;
+};
+
+/// What begins a part; see display.h.
+struct PartHeader {
+  double origin[3];
+  double lower[3], upper[3];
+  std::uint64_t triangles;
+  std::uint64_t paged;  ///< 0 or 1
+  std::uint64_t bytes;
 };
 
 /// Builds a payload field by field.

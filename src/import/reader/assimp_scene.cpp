@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "import/reader/display/assimp_looks.h"
 #include "import/reader/formats.h"
 #include "roam/error.h"
 
@@ -39,6 +40,14 @@ struct Matrix {
     }
     return product;
   }
+  /// The images of the axes, as columns.
+  [[nodiscard]] glm::dmat3 linear() const {
+    glm::dmat3 columns;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) columns[j][i] = m[i][j];
+    }
+    return columns;
+  }
   Vec3 operator*(const aiVector3D& v) const {
     Vec3 p;
     for (int i = 0; i < 3; ++i) p[i] = m[i][0] * v.x + m[i][1] * v.y + m[i][2] * v.z + m[i][3];
@@ -54,8 +63,9 @@ std::string name_of(const aiNode& node) {
 
 class AssimpWalk {
  public:
-  AssimpWalk(const aiScene& scene, std::string path, std::string stem, MeshSink& sink)
-      : scene_(scene), path_(std::move(path)), stem_(std::move(stem)), sink_(sink) {}
+  /// `looks`: null when nobody asks how surfaces look.
+  AssimpWalk(const aiScene& scene, std::string path, std::string stem, AssimpLooks* looks, MeshSink& sink)
+      : scene_(scene), path_(std::move(path)), stem_(std::move(stem)), looks_(looks), sink_(sink) {}
 
   void walk(const aiNode& node, const Matrix& parent) { walk_in(node, parent * Matrix::of(node.mTransformation)); }
 
@@ -78,13 +88,14 @@ class AssimpWalk {
     names_.insert(names_.end() - 1, mesh.mName.C_Str());
     sink_.begin_object(names_, stem_);
     index_.clear();
+    if (looks_ != nullptr) looks_->begin_mesh(mesh, to_world.linear());
     const unsigned count = mesh.mVertices == nullptr ? 0 : mesh.mNumVertices;
     // Most of assimp's readers give every face corners of its own.
     for (unsigned i = 0; i < count; ++i) {
       const Vec3 v = to_world * mesh.mVertices[i];
       // assimp's vertices and transforms alike are floats.
       for (int k = 0; k < 3; ++k) sink_.note_rounded(v[k]);
-      index_.push_back(sink_.add_shared_vertex(v));
+      index_.push_back(sink_.add_shared_vertex(v, looks_ == nullptr ? VertexLook{} : looks_->of(i)));
     }
     const auto corner = [&](unsigned i) { return i < count ? index_[i] : std::numeric_limits<std::uint32_t>::max(); };
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
@@ -99,6 +110,7 @@ class AssimpWalk {
   const aiScene& scene_;
   std::string path_;
   std::string stem_;
+  AssimpLooks* looks_;
   MeshSink& sink_;
   std::vector<std::string> names_;
   std::vector<std::uint32_t> index_;  ///< in the sink's object, of each vertex of the mesh
@@ -147,7 +159,10 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
   // Else Collada's nodes are called by their ids.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   // IFC's faces are concave as often as not; in other formats polygons are fanned as everywhere in roam.
-  const aiScene* scene = importer.ReadFile(file, ifc ? static_cast<unsigned>(aiProcess_Triangulate) : 0u);
+  const unsigned triangulate = ifc ? static_cast<unsigned>(aiProcess_Triangulate) : 0u;
+  const bool shown = sink.parts() != nullptr;
+  const unsigned coordinates = shown ? static_cast<unsigned>(aiProcess_TransformUVCoords) : 0u;
+  const aiScene* scene = importer.ReadFile(file, triangulate | coordinates);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();
     throw Error(
@@ -156,15 +171,20 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
                     file, importer.GetErrorString()));
   }
   sink.count_file();
-  AssimpWalk walk(*scene, file, path.stem().string(), sink);
+  std::optional<AssimpLooks> looks;
+  if (shown) looks.emplace(*scene, path, extension, sink);
+  AssimpWalk walk(*scene, file, path.stem().string(), looks ? &*looks : nullptr, sink);
   if (extension == "dae") {
     compare_collada(scene->mRootNode->mTransformation, file, sink);
-    return walk.walk_in(*scene->mRootNode, Matrix::identity());
+    walk.walk_in(*scene->mRootNode, Matrix::identity());
+  } else {
+    if (extension == "fbx") compare_fbx(*scene, file, sink);
+    // assimp turns IFC, whose z axis is up, to y up; this turns it back: (x, y, z) -> (x, -z, y).
+    const Matrix upright{{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+    walk.walk(*scene->mRootNode, ifc ? upright : Matrix::identity());
   }
-  if (extension == "fbx") compare_fbx(*scene, file, sink);
-  // assimp turns IFC, whose z axis is up, to y up; this turns it back: (x, y, z) -> (x, -z, y).
-  const Matrix upright{{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
-  walk.walk(*scene->mRootNode, ifc ? upright : Matrix::identity());
+  // Images inside the file go with it.
+  sink.send_parts();
 }
 
 }  // namespace roam::reader

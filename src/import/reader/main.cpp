@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
 #include "import/reader/read_path.h"
@@ -61,6 +63,8 @@ void confine([[maybe_unused]] std::uint64_t memory_limit) {
 
 struct Request {
   ReadingSettings settings;
+  bool display = false;
+  std::optional<Vec3> origin;
   std::string path;
 };
 
@@ -88,6 +92,11 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       for (int k = 0; k < 3; ++k) frame.origin[k] = std::stod(arguments[i++]);
       frame.srs = arguments[i++];
       settings.frame = frame;
+    } else if (name == "--display") {
+      request.display = true;
+    } else if (name == "--origin" && left() > 2) {
+      request.origin = Vec3(0.0);
+      for (int k = 0; k < 3; ++k) (*request.origin)[k] = std::stod(arguments[i++]);
     } else {
       return false;
     }
@@ -111,7 +120,8 @@ int run(const std::vector<std::string>& arguments) {
 
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
-  MeshSink sink(frames, request.settings);
+  PartPool parts(frames, request.origin);
+  MeshSink sink(frames, request.settings, request.display ? &parts : nullptr);
   const auto fail = [&](const std::string& sentence) {
     frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
     frames.flush();

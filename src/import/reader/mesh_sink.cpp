@@ -32,6 +32,11 @@ bool same_bits(const Vec3& a, const Vec3& b) {
   return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) && bits_of(a.z) == bits_of(b.z);
 }
 
+/// Looks are compared by their numbers, so that one with a NaN is never the same.
+bool same(const VertexLook& a, const VertexLook& b) {
+  return a.normal == b.normal && a.texture == b.texture && a.colour == b.colour;
+}
+
 std::size_t slot_of(const Vec3& v) {
   // Fibonacci hashing (Knuth, TAOCP 3, 6.4) of each coordinate in turn.
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
@@ -49,8 +54,12 @@ bool good(const Vec3& v) {
 
 }  // namespace
 
-MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings)
-    : frames_(frames), settings_(settings), up_(settings.up.value_or(UpAxis::z)), matched_(settings.ignore.size(), 0) {}
+MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts)
+    : frames_(frames),
+      settings_(settings),
+      parts_(parts),
+      up_(settings.up.value_or(UpAxis::z)),
+      matched_(settings.ignore.size(), 0) {}
 
 void MeshSink::set_format_up(UpAxis up) { up_ = settings_.up.value_or(up); }
 
@@ -75,12 +84,18 @@ void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<doubl
   }
 }
 
-Vec3 MeshSink::placed(const Vec3& vertex) const {
-  const Vec3 v = (vertex + offset_) * settings_.metres_per_unit;
+Vec3 MeshSink::turned(const Vec3& v) const {
   // 0 - x instead of -x: no negative zeros.
   if (up_ == UpAxis::y) return {v.x, 0.0 - v.z, v.y};
   if (up_ == UpAxis::x) return {0.0 - v.z, v.y, v.x};
   return v;
+}
+
+Vec3 MeshSink::placed(const Vec3& vertex) const { return turned((vertex + offset_) * settings_.metres_per_unit); }
+
+std::array<Vec3, 4> MeshSink::placement() const {
+  const double unit = settings_.metres_per_unit;
+  return {placed(Vec3(0.0)), turned({unit, 0, 0}), turned({0, unit, 0}), turned({0, 0, unit})};
 }
 
 bool MeshSink::matches_ignore(std::span<const std::string> names) {
@@ -110,7 +125,13 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
   return true;
 }
 
-std::uint32_t MeshSink::add_vertex(const Vec3& vertex) {
+void MeshSink::set_look(const Look& look) {
+  if (parts_ == nullptr || look == look_) return;
+  if (!triangles_.empty()) send_triangles();
+  look_ = look;
+}
+
+std::uint32_t MeshSink::add_vertex(const Vec3& vertex, const VertexLook& look) {
   if (vertex_count_ == std::numeric_limits<std::uint32_t>::max()) {
     throw Error(fmt::format("object '{}' has more than 2^32 vertices; split it.", name_));
   }
@@ -122,16 +143,22 @@ std::uint32_t MeshSink::add_vertex(const Vec3& vertex) {
     return index;
   }
   vertices_.push_back(v);
-  if (vertices_.size() == vertices_per_frame) send_vertices();
+  if (parts_ != nullptr) {
+    looks_.push_back(look);
+    looks_.back().normal = glm::vec3(turned(Vec3(look.normal)));
+  } else if (vertices_.size() == vertices_per_frame) {
+    send_vertices();
+  }
   return index;
 }
 
-std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex) {
+std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex, const VertexLook& look) {
   if (remembered_.empty()) remembered_.resize(std::size_t{1} << remembered_bits);
   Remembered& slot = remembered_[slot_of(vertex)];
-  if (slot.object == object_number_ && same_bits(slot.vertex, vertex)) return slot.index;
-  const std::uint32_t index = add_vertex(vertex);
-  slot = {vertex, index, object_number_};
+  const bool seen = slot.object == object_number_ && same_bits(slot.vertex, vertex);
+  if (seen && (parts_ == nullptr || same(slot.look, look))) return slot.index;
+  const std::uint32_t index = add_vertex(vertex, look);
+  slot = {vertex, look, index, object_number_};
   return index;
 }
 
@@ -162,7 +189,8 @@ void MeshSink::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 void MeshSink::send_vertices() {
-  if (vertices_.empty()) return;
+  // Parts are made of vertices and triangles together.
+  if (vertices_.empty() || parts_ != nullptr) return;
   if (!announced_) {
     frames_.send(FrameKind::object, PayloadWriter().add_text(name_));
     announced_ = true;
@@ -174,7 +202,11 @@ void MeshSink::send_vertices() {
 
 void MeshSink::send_triangles() {
   totals_.triangles += triangles_.size();
-  frames_.send(FrameKind::triangles, std::as_bytes(std::span(triangles_)));
+  if (parts_ != nullptr) {
+    parts_->add(vertices_, looks_, triangles_, look_);
+  } else {
+    frames_.send(FrameKind::triangles, std::as_bytes(std::span(triangles_)));
+  }
   triangles_.clear();
 }
 
@@ -196,6 +228,7 @@ void MeshSink::finish_object() {
   bad_triangles_ = ignored_triangles_ = 0;
   bad_.clear();
   vertices_.clear();
+  looks_.clear();
   vertex_count_ = 0;
   announced_ = ignored_ = begun_ = false;
 }
@@ -242,8 +275,19 @@ void MeshSink::say_what_was_rounded() {
                   largest, spacing / 2.0));
 }
 
+void MeshSink::send_parts() {
+  if (parts_ == nullptr) return;
+  finish_object();
+  parts_->finish_file();
+}
+
 void MeshSink::end() {
   finish_object();
+  if (parts_ != nullptr) {
+    parts_->finish_file();
+    totals_.textures = parts_->textures().read();
+    totals_.missing_textures = parts_->textures().missing();
+  }
   say_what_was_rounded();
   PayloadWriter payload;
   payload.add(totals_).add(static_cast<std::uint32_t>(matched_.size()));

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "import/reader/display/look.h"
+#include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "roam/import.h"
 
@@ -28,7 +30,11 @@ struct ReadingSettings {
 
 class MeshSink {
  public:
-  MeshSink(FrameWriter& frames, const ReadingSettings& settings);
+  /// `parts`: where triangles go with their looks when they are to be seen; null when they are to be walked on.
+  MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts);
+
+  /// Null when nobody asks how surfaces look.
+  [[nodiscard]] PartPool* parts() const { return parts_; }
 
   /// The up axis of a format whose own definition says one; the user's choice goes before it.
   void set_format_up(UpAxis up);
@@ -44,10 +50,12 @@ class MeshSink {
   /// goes on and the answer is false.
   bool begin_object(std::span<const std::string> names, std::string_view fallback);
 
+  /// How the triangles that follow look. Where nobody asks it is not looked at, and so are the looks of vertices.
+  void set_look(const Look& look);
   /// Adds a vertex of the current object, in the frame and unit of the file; returns its index in this object.
-  std::uint32_t add_vertex(const Vec3& vertex);
+  std::uint32_t add_vertex(const Vec3& vertex, const VertexLook& look = {});
   /// The same, but returns an earlier index when these very bits were seen shortly before.
-  std::uint32_t add_shared_vertex(const Vec3& vertex);
+  std::uint32_t add_shared_vertex(const Vec3& vertex, const VertexLook& look = {});
   /// Adds a triangle of vertices of the current object. One that has a bad vertex, or an index that add_vertex did not
   /// return, is left out and counted.
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
@@ -73,10 +81,16 @@ class MeshSink {
   /// Adds to the bytes that are read, for readers of many files.
   void report_more_progress(std::uint64_t bytes) { report_progress(bytes_read_ + bytes); }
 
+  /// Closes the current object and sends what is to be seen: what follows has other images. Nothing where nobody asks.
+  void send_parts();
+  /// Where the frame of the file lies in that of the scene: its zero, and the unit vectors along its axes.
+  [[nodiscard]] std::array<Vec3, 4> placement() const;
+
   /// The last words: closes the current object and sends the totals.
   void end();
 
  private:
+  [[nodiscard]] Vec3 turned(const Vec3& v) const;
   [[nodiscard]] Vec3 placed(const Vec3& vertex) const;
   bool matches_ignore(std::span<const std::string> names);
   void finish_object();
@@ -87,6 +101,7 @@ class MeshSink {
 
   FrameWriter& frames_;
   const ReadingSettings& settings_;
+  PartPool* parts_;
   UpAxis up_;
   Vec3 offset_{0.0};
   Totals totals_;
@@ -106,11 +121,14 @@ class MeshSink {
   std::uint64_t bad_triangles_ = 0, ignored_triangles_ = 0;
   std::vector<std::uint32_t> bad_;  ///< indices of bad vertices, ascending; they are not sent
   std::vector<Vec3> vertices_;
+  std::vector<VertexLook> looks_;  ///< of vertices_, where there are parts
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  Look look_;
 
   /// One remembered vertex for each hash of its bits.
   struct Remembered {
     Vec3 vertex{0.0};
+    VertexLook look;
     std::uint32_t index = 0;
     std::uint32_t object = 0;
   };

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "import/reader/display/obj_looks.h"
 #include "import/reader/file_bytes.h"
 #include "import/reader/formats.h"
 #include "import/reader/numbers.h"
@@ -22,7 +24,9 @@ class ObjReader {
       : sink_(sink),
         bytes_(path, [&sink](std::uint64_t read) { sink.report_progress(read); }),
         lines_(bytes_),
-        stem_(path.stem().string()) {}
+        stem_(path.stem().string()) {
+    if (sink.parts() != nullptr) looks_.emplace(path, sink);
+  }
 
   void read() {
     std::string_view line;
@@ -55,6 +59,7 @@ class ObjReader {
     const std::string_view keyword = take_word(line);
     if (keyword == "v") return take_vertex(line);
     if (keyword == "f" || keyword == "fo") return take_face(line);
+    if (looks_) looks_->take_line(keyword, line);
     if (keyword.empty() || keyword.front() == '#' || keyword == "vn" || keyword == "vt") return;
     if (keyword == "g") return take_names(group_, line);
     if (keyword == "o") {
@@ -73,6 +78,7 @@ class ObjReader {
       if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", shown(word)));
     }
     vertices_.add(v);
+    if (looks_) looks_->take_vertex_colour(rest);
   }
 
   void take_names(std::string& name, std::string_view rest) {
@@ -93,7 +99,10 @@ class ObjReader {
   }
 
   std::uint32_t corner_of(std::string_view corner) {
-    return vertices_.index_in_object(vertex_of(corner), [this](const Vec3& v) { return sink_.add_vertex(v); });
+    const std::uint64_t vertex = vertex_of(corner);
+    // A vertex that looks different in two faces is two vertices.
+    if (looks_) return sink_.add_shared_vertex(vertices_[vertex], looks_->of(vertex, corner));
+    return vertices_.index_in_object(vertex, [this](const Vec3& v) { return sink_.add_vertex(v); });
   }
 
   void take_face(std::string_view rest) {
@@ -135,6 +144,7 @@ class ObjReader {
   std::string joined_;
   std::uint64_t number_ = 0;
   VertexPool vertices_;
+  std::optional<ObjLooks> looks_;
   std::string object_, group_, material_;
   bool begun_ = false;
   std::vector<std::uint32_t> corners_;

@@ -16,8 +16,8 @@ using Result = osgDB::ReaderWriter::ReadResult;
 /// Files that read files that read files: more than this is a circle.
 constexpr int nesting_limit = 64;
 
-/// Answers for every kind of image before osgDB loads a decoder for it: what is walked on has no colour, and image
-/// files are a favourite of attackers.
+/// Answers for every kind of image inside other files before osgDB loads a decoder for it: what is walked on has no
+/// colour, and image files are a favourite of attackers.
 class NoImages : public osgDB::ReaderWriter {
  public:
   NoImages() {
@@ -43,6 +43,7 @@ class GuardedReading : public osgDB::ReadFileCallback {
     Result result = osgDB::ReadFileCallback::readNode(file, options);
     --nesting_;
     if (!result.validNode()) return main ? result : missing(file);
+    if (quiet_) return result;
     sink_.count_file();
     std::error_code unseen;
     const auto bytes = std::filesystem::file_size(file, unseen);
@@ -50,21 +51,31 @@ class GuardedReading : public osgDB::ReadFileCallback {
     return result;
   }
   Result readObject(const std::string& file, const osgDB::Options* options) override { return readNode(file, options); }
-  Result readImage(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+  Result readImage(const std::string& file, const osgDB::Options* options) override {
+    if (!images_) return Result::FILE_NOT_FOUND;
+    std::filesystem::path folder;
+    if (options != nullptr && !options->getDatabasePathList().empty()) folder = options->getDatabasePathList().front();
+    osg::ref_ptr<osg::Image> image = sink_.parts()->textures().find(folder, file);
+    return image == nullptr ? Result(Result::FILE_NOT_FOUND) : Result(image.get());
+  }
   Result readShader(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
   Result readScript(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
 
   void expect_main() { next_is_main_ = true; }
+  void set_images(bool wanted) { images_ = wanted; }
+  void set_quiet(bool quiet) { quiet_ = quiet; }
 
  private:
   Result missing(const std::string& file) {
-    sink_.report_missing_page(file);
+    if (!quiet_) sink_.report_missing_page(file);
     return Result::FILE_NOT_FOUND;
   }
 
   MeshSink& sink_;
   int nesting_ = 0;
   bool next_is_main_ = false;
+  bool images_ = false;
+  bool quiet_ = false;
 };
 
 /// Keeps the last complaint for the message of a failure, and passes all on to the standard error.
@@ -81,18 +92,27 @@ class Complaints : public osg::NotifyHandler {
 };
 
 osg::ref_ptr<GuardedReading> guard;
+osg::ref_ptr<NoImages> no_images;
 osg::ref_ptr<Complaints> complaints;
+
+void set_images(bool wanted) {
+  osgDB::Registry* registry = osgDB::Registry::instance();
+  guard->set_images(wanted);
+  registry->removeReaderWriter(no_images);
+  if (!wanted) registry->addReaderWriter(no_images);
+}
 
 }  // namespace
 
-void prepare_osg(MeshSink& sink) {
+void prepare_osg(MeshSink& sink, bool images) {
   complaints = new Complaints;
   osg::setNotifyLevel(osg::WARN);
   osg::setNotifyHandler(complaints);
   osgDB::Registry* registry = osgDB::Registry::instance();
-  registry->addReaderWriter(new NoImages);
+  no_images = new NoImages;
   guard = new GuardedReading(sink);
   registry->setReadFileCallback(guard);
+  set_images(images);
   // Readers of other formats optimise with it; it would reorder triangles.
   registry->setBuildKdTreesHint(osgDB::Options::DO_NOT_BUILD_KDTREES);
 }
@@ -104,6 +124,14 @@ osg::ref_ptr<osg::Node> read_osg_file(const std::filesystem::path& path, bool ma
   options->setDatabasePath(path.parent_path().string());
   if (main) guard->expect_main();
   return osgDB::readRefNodeFile(file, options.get());
+}
+
+osg::ref_ptr<osg::Node> read_again_with_images(const std::filesystem::path& path) {
+  set_images(true);
+  guard->set_quiet(true);
+  osg::ref_ptr<osg::Node> node = read_osg_file(path, false);
+  guard->set_quiet(false);
+  return node;
 }
 
 std::string last_osg_complaint() {

@@ -13,7 +13,11 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// Collects primitives by index. OpenSceneGraph's own TriangleIndexFunctor trusts the indices of the file.
 class TriangleCollector : public osg::PrimitiveIndexFunctor {
  public:
-  TriangleCollector(const osg::Matrixd& to_world, MeshSink& sink) : to_world_(to_world), sink_(sink) {}
+  TriangleCollector(const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink)
+      : to_world_(to_world), looks_(looks), sink_(sink) {}
+
+  /// Tells which of the geometry's primitive sets comes next.
+  void begin_set(unsigned number) { set_ = number; }
 
   void setVertexArray(unsigned int count, const osg::Vec2* v) override { set(count, v); }
   void setVertexArray(unsigned int count, const osg::Vec3* v) override { set(count, v); }
@@ -64,9 +68,11 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
       if (is_float_) {
         for (int k = 0; k < 3; ++k) sink_.note_rounded(in_file[k]);
       }
-      const osg::Vec3d v = in_file * to_world_;
+      const osg::Vec3d w = in_file * to_world_;
+      const Vec3 v{w.x(), w.y(), w.z()};
+      const VertexLook look = looks_ == nullptr ? VertexLook{} : looks_->of(i, set_);
       // Arrays without indices repeat the vertices that triangles share.
-      index = unindexed ? sink_.add_shared_vertex({v.x(), v.y(), v.z()}) : sink_.add_vertex({v.x(), v.y(), v.z()});
+      index = unindexed ? sink_.add_shared_vertex(v, look) : sink_.add_vertex(v, look);
     }
     return index;
   }
@@ -107,7 +113,9 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
   }
 
   const osg::Matrixd& to_world_;
+  const OsgLooks* looks_;
   MeshSink& sink_;
+  unsigned set_ = 0;
   std::uint64_t count_ = 0;
   const void* vertices_ = nullptr;
   bool is_float_ = false;
@@ -117,9 +125,17 @@ class TriangleCollector : public osg::PrimitiveIndexFunctor {
 
 }  // namespace
 
-void add_drawable(const osg::Drawable& drawable, const osg::Matrixd& to_world, MeshSink& sink) {
-  TriangleCollector collector(to_world, sink);
-  drawable.accept(collector);
+void add_geometry(const osg::Geometry& geometry, const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink) {
+  TriangleCollector collector(to_world, looks, sink);
+  if (looks == nullptr || !looks->by_set()) return geometry.accept(collector);
+  // The functor is not told which primitive set it is given, so that each comes alone; a vertex of two sets that look
+  // different is two vertices.
+  for (unsigned i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
+    const osg::ref_ptr<osg::Geometry> one = new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY);
+    one->setPrimitiveSetList({const_cast<osg::PrimitiveSet*>(geometry.getPrimitiveSet(i))});
+    collector.begin_set(i);
+    one->accept(collector);
+  }
 }
 
 }  // namespace roam::reader

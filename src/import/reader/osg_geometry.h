@@ -2,15 +2,16 @@
 /// \file
 /// The triangles of one OpenSceneGraph drawable, in the order and with the precision of its arrays.
 
-#include <osg/Drawable>
+#include <osg/Geometry>
 #include <osg/Matrixd>
 
+#include "import/reader/display/osg_looks.h"
 #include "import/reader/mesh_sink.h"
 
 namespace roam::reader {
 
-/// Adds the triangles of `drawable`, its vertices multiplied by `to_world`, to the sink's current object. Vertices that
-/// only lines or points use are not added.
-void add_drawable(const osg::Drawable& drawable, const osg::Matrixd& to_world, MeshSink& sink);
+/// Adds the triangles of `geometry`, its vertices multiplied by `to_world`, to the sink's current object, with looks
+/// unless `looks` is null. Vertices that only lines or points use are not added.
+void add_geometry(const osg::Geometry& geometry, const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink);
 
 }  // namespace roam::reader

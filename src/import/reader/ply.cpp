@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "import/reader/display/ply_looks.h"
 #include "import/reader/file_bytes.h"
 #include "import/reader/formats.h"
 #include "import/reader/numbers.h"
@@ -163,22 +164,22 @@ class PlyBody {
   void read_vertices(const PlyElement& element) {
     const std::array<int, 3> at{element.find("x"), element.find("y"), element.find("z")};
     if (at[0] < 0 || at[1] < 0 || at[2] < 0) fail("the element 'vertex' has no x, y and z");
-    const auto axis_of = [&](std::size_t property) {
-      const auto found = std::find(at.begin(), at.end(), static_cast<int>(property));
-      return static_cast<int>(found - at.begin());
-    };
+    const PlyLooks looks(element, header_, bytes_.path(), sink_);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<double, 4> v{};
+      Vec3 v{0.0};
+      VertexLook look;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
-        const int axis = axis_of(p);
-        if (axis == 3 || property.list) {
-          skip(property);
+        const auto axis = static_cast<int>(std::find(at.begin(), at.end(), static_cast<int>(p)) - at.begin());
+        if (axis < 3 && !property.list) {
+          v[axis] = values_.number(property.type);
+        } else if (looks.wants(p)) {
+          looks.take(p, values_.number(property.type), look);
         } else {
-          v[static_cast<std::size_t>(axis)] = values_.number(property.type);
+          skip(property);
         }
       }
-      sink_.add_vertex({v[0], v[1], v[2]});
+      sink_.add_vertex(v, look);
     }
   }
 

@@ -53,7 +53,9 @@ class HeaderParser {
         take_element(line);
       } else if (keyword == "property") {
         take_property(line);
-      } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+      } else if (keyword == "comment") {
+        if (take_word(line) == "TextureFile") header_.texture_file = trimmed(line);
+      } else if (!keyword.empty() && keyword != "obj_info") {
         fail(fmt::format("'{}' is no word of a PLY header", shown(keyword)));
       }
     }

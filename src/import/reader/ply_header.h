@@ -39,6 +39,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
+  std::string texture_file;  ///< of a comment that MeshLab and others write; empty when there is none
 };
 
 /// Takes the header, up to and with the end of its last line. Throws roam::Error with the line that is wrong.

@@ -113,7 +113,10 @@ void SceneGraphWalk::apply(osg::Drawable& drawable) {
 void SceneGraphWalk::apply(osg::Geometry& geometry) {
   const Entered entered(*this, geometry);
   sink_.begin_object(names_, files_.back().stem().string());
-  add_drawable(geometry, to_world_, sink_);
+  if (sink_.parts() == nullptr) return add_geometry(geometry, to_world_, nullptr, sink_);
+  const OsgLooks looks(geometry, getNodePath(), to_world_, sink_.parts()->textures());
+  sink_.set_look(looks.look());
+  add_geometry(geometry, to_world_, &looks, sink_);
 }
 
 void SceneGraphWalk::apply(osg::LOD& lod) { walk_children_shown(lod, nullptr); }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "import/reader/display/pages.h"
 #include "import/reader/formats.h"
 #include "import/reader/numbers.h"
 #include "import/reader/osg_files.h"
@@ -125,11 +126,21 @@ void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& set
                     "as they are.",
                     path.string()));
   }
-  prepare_osg(sink);
+  // A tile that is paged is not opened here but for its place, which needs no image.
+  prepare_osg(sink, false);
+  Pages pages(sink);
   for (const fs::path& root : roots) {
-    const osg::ref_ptr<osg::Node> node = read_osg_file(root, false);
-    if (node != nullptr) SceneGraphWalk(sink).walk(*node, root);
+    osg::ref_ptr<osg::Node> node = read_osg_file(root, false);
+    if (node == nullptr) continue;
+    if (sink.parts() != nullptr) {
+      if (refers_to_pages(*node, root) && pages.add(*node, root)) continue;
+      node = read_again_with_images(root);
+      if (node == nullptr) continue;
+    }
+    SceneGraphWalk(sink).walk(*node, root);
+    sink.send_parts();
   }
+  pages.send();
 }
 
 }  // namespace roam::reader

@@ -24,6 +24,9 @@ class VertexPool {
     blocks_.back()->vertex[size_ % block_size] = vertex;
     ++size_;
   }
+  [[nodiscard]] const Vec3& operator[](std::uint64_t i) const {
+    return blocks_[i / block_size]->vertex[i % block_size];
+  }
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
   /// Forgets which vertices the object before had.

@@ -1,0 +1,44 @@
+#include "import/display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "import/part_receiver.h"
+#include "import/read_all.h"
+#include "import/report_notes.h"
+
+namespace roam {
+
+DisplayReport read_display(std::span<const std::filesystem::path> paths, const ImportOptions& options,
+                           const std::function<bool(DisplayPart&&)>& take) {
+  DisplayReport report;
+  std::optional<Vec3> origin;
+  std::uint64_t bytes_left = options.memory_limit;
+  const auto counting_take = [&](DisplayPart&& part) {
+    bytes_left -= std::min<std::uint64_t>(bytes_left, part.osgb.size());
+    return take(std::move(part));
+  };
+  const std::function<bool(DisplayPart &&)> give = counting_take;
+  reader::read_all(paths, options, report.import, [&](reader::Reading& reading, std::vector<bool>& matched) {
+    const std::uint64_t parts_before = report.parts;
+    reading.display = true;
+    reading.origin = origin;
+    reader::PartReceiver receiver(report, origin, options.ignore.size(), bytes_left, give);
+    reader::read_one(reading, receiver, matched);
+    return report.parts > parts_before;
+  });
+  if (report.missing_textures > 0) {
+    report.notes.push_back(fmt::format(
+        "{} images that the scene refers to are absent or unreadable; what they cover is shown without: {}.",
+        report.missing_textures, reader::listed(report.missing_texture_files)));
+  }
+  if (report.paged && !options.ignore.empty()) {
+    report.notes.push_back(
+        "Objects to be ignored are left out of what stops a body, but in pages they are still to be seen.");
+  }
+  return report;
+}
+
+}  // namespace roam

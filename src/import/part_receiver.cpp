@@ -1,0 +1,76 @@
+#include "import/part_receiver.h"
+
+#include <cmath>
+#include <utility>
+
+#include "roam/error.h"
+#include "roam/world.h"
+
+namespace roam::reader {
+
+PartReceiver::PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
+                           std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give)
+    : StreamReceiver(report.import, ignore_patterns, part_bytes), display_(report), origin_(origin), give_(give) {}
+
+void PartReceiver::take_content(FrameKind kind, std::span<const std::byte> payload) {
+  if (kind == FrameKind::part) return begin_part(payload);
+  if (kind == FrameKind::part_bytes) {
+    if (payload.size() > bytes_missing_) throw StreamDamaged{"bytes of no part"};
+    count_bytes(payload.size());
+    part_.osgb.append(reinterpret_cast<const char*>(payload.data()), payload.size());
+    bytes_missing_ -= payload.size();
+    if (bytes_missing_ == 0) finish_part();
+    return;
+  }
+  if (kind != FrameKind::missing_texture) throw StreamDamaged{"a frame of unknown kind"};
+  PayloadReader fields(payload);
+  std::string file = fields.take_text();
+  if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+  auto& files = display_.missing_texture_files;
+  if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+}
+
+void PartReceiver::begin_part(std::span<const std::byte> payload) {
+  if (bytes_missing_ > 0) throw StreamDamaged{"a part that is not whole"};
+  PayloadReader fields(payload);
+  const auto header = fields.take<PartHeader>();
+  if (!fields.complete() || header.bytes == 0 || header.paged > 1) throw StreamDamaged{"a frame of broken length"};
+  part_ = {};
+  part_.triangles = header.triangles;
+  part_.paged = header.paged != 0;
+  for (int k = 0; k < 3; ++k) {
+    part_.origin[k] = header.origin[k];
+    part_.bounds.lower[k] = header.lower[k];
+    part_.bounds.upper[k] = header.upper[k];
+    // False for a NaN too. Pages state their bounds themselves, so that these may be too large.
+    const double limit = part_.paged ? 4.0 * World::coordinate_limit : World::coordinate_limit;
+    if (!(std::abs(header.origin[k]) <= World::coordinate_limit && std::abs(header.lower[k]) <= limit &&
+          std::abs(header.upper[k]) <= limit && header.lower[k] <= header.upper[k])) {
+      throw StreamDamaged{"a part without a place"};
+    }
+  }
+  if (origin_ && *origin_ != part_.origin) throw StreamDamaged{"parts of several origins"};
+  bytes_missing_ = header.bytes;
+}
+
+void PartReceiver::finish_part() {
+  origin_ = part_.origin;
+  triangles_ += part_.triangles;
+  display_.origin = part_.origin;
+  display_.bounds.include(part_.bounds);
+  ++display_.parts;
+  display_.triangles += part_.triangles;
+  display_.import.triangles += part_.triangles;
+  display_.paged = display_.paged || part_.paged;
+  if (!give_(std::move(part_))) throw Cancelled();
+  part_ = {};
+}
+
+void PartReceiver::finish_content(const Totals& totals) {
+  if (bytes_missing_ > 0) throw StreamDamaged{"a part that is not whole"};
+  if (totals.triangles != triangles_) throw StreamDamaged{"totals that are not those of its parts"};
+  display_.textures += totals.textures;
+  display_.missing_textures += totals.missing_textures;
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Collects the frames of each part of what is shown.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "import/display.h"
+#include "import/stream_receiver.h"
+
+namespace roam::reader {
+
+/// Takes the frames of one reader, hands each part on when it is whole, and sums them up in the report.
+class PartReceiver : public StreamReceiver {
+ public:
+  /// `origin`: that of all parts, unset before the first. `part_bytes`: most bytes of parts that this reader may still
+  /// send. Throws Cancelled from `take` when `give` returns false.
+  PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
+               std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give);
+
+  [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
+
+ private:
+  void take_content(FrameKind kind, std::span<const std::byte> payload) override;
+  void finish_content(const Totals& totals) override;
+  void begin_part(std::span<const std::byte> payload);
+  void finish_part();
+
+  DisplayReport& display_;
+  std::optional<Vec3>& origin_;
+  const std::function<bool(DisplayPart&&)>& give_;
+  std::uint64_t triangles_ = 0;
+
+  DisplayPart part_;
+  std::uint64_t bytes_missing_ = 0;  ///< of part_
+};
+
+}  // namespace roam::reader

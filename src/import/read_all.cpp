@@ -1,0 +1,127 @@
+#include "import/read_all.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "import/find_reader.h"
+#include "import/report_notes.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t least_memory_limit = 64ull << 20;
+
+/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing.
+std::uint64_t bytes_in(const fs::path& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) {
+    const auto size = fs::file_size(path, none);
+    return none ? 0 : size;
+  }
+  std::uint64_t bytes = 0;
+  fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, none);
+  while (!none && entry != fs::recursive_directory_iterator()) {
+    std::error_code unseen;
+    if (entry->is_regular_file(unseen)) {
+      const auto size = entry->file_size(unseen);
+      bytes += unseen ? 0 : size;
+    }
+    entry.increment(none);
+  }
+  return bytes;
+}
+
+void check(std::span<const fs::path> paths, const ImportOptions& options) {
+  if (paths.empty()) throw Error("no scene was named; name one or more files or folders to import.");
+  if (options.memory_limit < least_memory_limit) {
+    throw Error(
+        fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
+  }
+  if (!(options.silence_limit > 0.0) || !std::isfinite(options.silence_limit)) {
+    throw Error(fmt::format("an import time limit of {} s makes no sense; give a number of seconds above 0.",
+                            options.silence_limit));
+  }
+  for (const fs::path& path : paths) {
+    std::error_code why;
+    const fs::file_status status = fs::status(path, why);
+    if (!fs::exists(status)) {
+      const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
+      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
+    }
+    if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
+      throw Error(
+          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
+    }
+  }
+}
+
+/// Triangles that were left out so far, by reason.
+struct LeftOut {
+  std::uint64_t bad = 0;
+  std::uint64_t ignored = 0;
+};
+
+Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOut& before) {
+  const std::uint64_t bad = report.bad_triangles - before.bad;
+  const std::uint64_t ignored = report.ignored_triangles - before.ignored;
+  if (bad > 0) {
+    return Error(
+        fmt::format("{}: none of its {} triangles is usable: they have vertices that are not finite, lie beyond "
+                    "1e9 m, or are not there. The file is damaged, or in another unit.",
+                    path.string(), bad));
+  }
+  if (ignored > 0) {
+    return Error(fmt::format("{}: all of its {} triangles are in objects that are to be ignored; ignore fewer.",
+                             path.string(), ignored));
+  }
+  return Error(fmt::format(
+      "{}: this gives no triangle, so there is nothing to walk on; check that it is the right file.", path.string()));
+}
+
+}  // namespace
+
+void read_all(std::span<const fs::path> paths, const ImportOptions& options, ImportReport& report,
+              const std::function<bool(Reading& reading, std::vector<bool>& matched)>& read) {
+  check(paths, options);
+  const fs::path program = find_reader(options.reader);
+
+  ImportProgress progress;
+  std::vector<std::uint64_t> sizes;
+  for (const fs::path& path : paths) {
+    sizes.push_back(bytes_in(path));
+    progress.bytes_total += sizes.back();
+  }
+
+  std::vector<bool> matched(options.ignore.size(), false);
+  std::uint64_t bytes_before = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::uint64_t triangles_before = report.triangles;
+    const LeftOut before{report.bad_triangles, report.ignored_triangles};
+    const auto say = [&](std::uint64_t bytes, std::uint64_t triangles) {
+      progress.path = paths[i];
+      progress.bytes_read = bytes_before + std::min(bytes, sizes[i]);
+      progress.triangles = triangles_before + triangles;
+      if (options.progress && !options.progress(progress)) throw Cancelled();
+    };
+    say(0, 0);
+    Reading reading;
+    reading.program = program;
+    reading.path = paths[i];
+    reading.path_bytes = sizes[i];
+    reading.options = &options;
+    reading.report_progress = say;
+    reading.frame = report.georeference;
+    if (!read(reading, matched)) throw no_triangle(paths[i], report, before);
+    say(sizes[i], report.triangles - triangles_before);
+    bytes_before += sizes[i];
+  }
+  add_count_notes(report, options, matched);
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Image files: where they lie, and what is in them.
+
+#include <filesystem>
+#include <osg/Image>
+#include <osg/ref_ptr>
+#include <string>
+
+namespace roam::reader {
+
+/// The file that a scene in `folder` means by `name`: names of other machines and systems are tried in the folders
+/// that exporters use. Empty when there is none.
+[[nodiscard]] std::filesystem::path find_image_file(const std::filesystem::path& folder, const std::string& name);
+
+/// The content of a regular file; empty when it cannot be read or is larger than any image that means well.
+[[nodiscard]] std::string image_bytes(const std::filesystem::path& file);
+
+/// The image that `bytes` encode, its first row the lowest; null when they encode none. `name` says the format where
+/// the bytes do not.
+[[nodiscard]] osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::string& name);
+
+}  // namespace roam::reader

@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// How an OpenSceneGraph geometry looks: the state of its ancestors and its own, and its arrays.
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <osg/Array>
+#include <osg/Geometry>
+#include <osg/Matrixd>
+#include <osg/Node>
+#include <osg/StateSet>
+
+#include "import/reader/display/look.h"
+#include "import/reader/display/textures.h"
+
+namespace roam::reader {
+
+/// The looks of one geometry where a walk meets it.
+class OsgLooks {
+ public:
+  /// `path`: the nodes above it, and itself. Both must outlive this.
+  OsgLooks(const osg::Geometry& geometry, const osg::NodePath& path, const osg::Matrixd& to_world, Textures& textures);
+
+  [[nodiscard]] const Look& look() const { return look_; }
+  /// Of a vertex, where it is used by that primitive set.
+  [[nodiscard]] VertexLook of(std::uint64_t vertex, unsigned set) const;
+  /// Whether a vertex looks different in different primitive sets.
+  [[nodiscard]] bool by_set() const;
+
+ private:
+  void take_state(const osg::StateSet& state, Textures& textures);
+
+  const osg::Array* normals_;
+  const osg::Array* colours_;
+  const osg::Array* coordinates_;
+  glm::dmat3 normal_matrix_;
+  osg::Matrixd texture_matrix_;
+  Look look_;
+  Colour material_ = white;
+};
+
+}  // namespace roam::reader

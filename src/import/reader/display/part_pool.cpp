@@ -1,0 +1,143 @@
+#include "import/reader/display/part_pool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/stream.h"
+
+namespace roam::reader {
+namespace {
+
+/// Bytes of geometry in a part: a second of reading at most, thousands of parts at least before they are a burden.
+constexpr std::size_t part_bytes = 8u << 20;
+/// Geometry that is gathered for the sake of its textures, before these are sent again: of one, and of all.
+constexpr std::size_t one_texture_bytes = 64u << 20;
+constexpr std::size_t all_textures_bytes = 512u << 20;
+/// Beyond this the origin is moved: floats at 10 km are a millimetre apart.
+constexpr double far_from_zero = 1e4;
+constexpr double origin_rounding = 1e3;
+
+bool has_normals(const Corners& corners, std::span<const VertexLook> looks) {
+  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+    const glm::vec3 n = looks[corner].normal;
+    const float square = n.x * n.x + n.y * n.y + n.z * n.z;
+    return square > 0.0f && std::isfinite(square);
+  });
+}
+
+}  // namespace
+
+void PartPool::add(std::span<const Vec3> vertices, std::span<const VertexLook> looks,
+                   std::span<const Corners> triangles, const Look& look) {
+  if (triangles.empty()) return;
+  if (index_.size() < vertices.size()) index_.resize(vertices.size());
+  for (const bool normals : {true, false}) {
+    const bool any = std::any_of(triangles.begin(), triangles.end(),
+                                 [&](const Corners& corners) { return has_normals(corners, looks) == normals; });
+    if (!any) continue;
+    const auto at = gathered_.try_emplace({look, normals}).first;
+    const std::size_t before = at->second.bytes();
+    add_to(at->second, vertices, looks, triangles, look, normals);
+    const std::size_t bytes = at->second.bytes();
+    const bool plain = look.texture == no_texture;
+    (plain ? plain_bytes_ : textured_bytes_) += bytes - before;
+    if (plain && plain_bytes_ >= part_bytes) {
+      send_where([](const Look& one) { return one.texture == no_texture; });
+    } else if (!plain && bytes >= one_texture_bytes) {
+      send_where([&](const Look& one) { return one.texture == look.texture; });
+    } else if (textured_bytes_ >= all_textures_bytes) {
+      send_where([](const Look&) { return true; });
+    }
+  }
+}
+
+void PartPool::add_to(Surface& surface, std::span<const Vec3> vertices, std::span<const VertexLook> looks,
+                      std::span<const Corners> triangles, const Look& look, bool normals) {
+  ++mark_;
+  for (const Corners& corners : triangles) {
+    if (has_normals(corners, looks) != normals) continue;
+    Corners added;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& index = index_[corners[k]];
+      if (index.mark != mark_) {
+        index = {mark_, static_cast<std::uint32_t>(surface.vertices.size())};
+        surface.vertices.push_back(vertices[corners[k]]);
+        surface.looks.push_back(looks[corners[k]]);
+        if (look.transparency == Transparency::none) surface.looks.back().colour[3] = 255;
+      }
+      added[k] = index.index;
+    }
+    surface.triangles.push_back(added);
+  }
+}
+
+void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
+  std::optional<PartGraph> graph;
+  std::uint64_t triangles = 0;
+  TextureId last = no_texture;
+  // In the order of the map, which is that of textures: several small ones in a part, all of one in the same part.
+  for (auto at = gathered_.begin(); at != gathered_.end();) {
+    const auto& [look, normals] = at->first;
+    Surface& surface = at->second;
+    if (!wanted(look)) {
+      ++at;
+      continue;
+    }
+    if (graph && look.texture != last && graph->bytes() >= part_bytes) {
+      send(*graph, graph->bounds(), triangles, false);
+      graph.reset();
+      triangles = 0;
+    }
+    if (!graph) graph.emplace(textures_, origin_near(surface.vertices));
+    graph->add(surface, look, normals);
+    triangles += surface.triangles.size();
+    last = look.texture;
+    (last == no_texture ? plain_bytes_ : textured_bytes_) -= surface.bytes();
+    at = gathered_.erase(at);
+  }
+  if (graph) send(*graph, graph->bounds(), triangles, false);
+}
+
+void PartPool::finish_file() {
+  send_where([](const Look&) { return true; });
+  textures_.forget_images();
+}
+
+const Vec3& PartPool::origin_near(std::span<const Vec3> places) {
+  if (origin_) return *origin_;
+  // The median, because one stray vertex must not move the origin.
+  Vec3 middle{0.0};
+  std::vector<double> along(places.size());
+  for (int k = 0; k < 3; ++k) {
+    std::transform(places.begin(), places.end(), along.begin(), [k](const Vec3& place) { return place[k]; });
+    const auto median = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+    std::nth_element(along.begin(), median, along.end());
+    middle[k] = *median;
+  }
+  origin_ = Vec3(0.0);
+  if (std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}) > far_from_zero) {
+    for (int k = 0; k < 3; ++k) (*origin_)[k] = origin_rounding * std::round(middle[k] / origin_rounding);
+  }
+  return *origin_;
+}
+
+void PartPool::send(const PartGraph& graph, const Box& bounds, std::uint64_t triangles, bool paged) {
+  const std::string bytes = graph.osgb();
+  PartHeader header{};
+  for (int k = 0; k < 3; ++k) {
+    header.origin[k] = origin_.value_or(Vec3(0.0))[k];
+    header.lower[k] = bounds.lower[k];
+    header.upper[k] = bounds.upper[k];
+  }
+  header.triangles = triangles;
+  header.paged = paged ? 1 : 0;
+  header.bytes = bytes.size();
+  frames_.send(FrameKind::part, PayloadWriter().add(header));
+  const auto all = std::as_bytes(std::span(bytes));
+  for (std::size_t sent = 0; sent < all.size(); sent += payload_limit) {
+    frames_.send(FrameKind::part_bytes, all.subspan(sent, std::min<std::size_t>(payload_limit, all.size() - sent)));
+  }
+  frames_.flush();
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Triangles with the looks of their vertices, and how they are cut into chunks that are drawn or not as a whole.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "import/reader/display/look.h"
+#include "roam/math.h"
+
+namespace roam::reader {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+struct Surface {
+  std::vector<Vec3> vertices;  ///< in the frame of the scene
+  std::vector<VertexLook> looks;
+  std::vector<Corners> triangles;
+
+  [[nodiscard]] std::size_t bytes() const {
+    return vertices.size() * (sizeof(Vec3) + sizeof(VertexLook)) + triangles.size() * sizeof(Corners);
+  }
+};
+
+/// Most triangles of a chunk: their corners are counted in 16 bits, and a few hundred chunks are a million triangles.
+inline constexpr std::size_t chunk_triangles = 16384;
+static_assert(3 * chunk_triangles <= 65536);
+
+/// The triangles of each chunk, as spans of `order`, which is filled with all triangle numbers: cut at the median of
+/// the longest side until a chunk is small enough.
+[[nodiscard]] std::vector<std::span<const std::uint32_t>> cut_into_chunks(const Surface& surface,
+                                                                          std::vector<std::uint32_t>& order);
+
+}  // namespace roam::reader

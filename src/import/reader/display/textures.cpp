@@ -1,0 +1,86 @@
+#include "import/reader/display/textures.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "import/reader/display/image_file.h"
+#include "roam/import.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string key_of(std::string_view kind, const std::string& name, Wrapping wrapping) {
+  return fmt::format("{} {} {} {}", kind, static_cast<int>(wrapping.across), static_cast<int>(wrapping.up), name);
+}
+
+}  // namespace
+
+TextureId Textures::add(const std::string& key, Source&& source) {
+  const auto [at, is_new] = known_.try_emplace(key, static_cast<TextureId>(sources_.size()));
+  if (is_new) sources_.push_back(std::move(source));
+  return at->second;
+}
+
+TextureId Textures::add_file(const fs::path& folder, const std::string& name, Wrapping wrapping) {
+  const auto decode = [folder, name]() -> osg::ref_ptr<osg::Image> {
+    const fs::path file = find_image_file(folder, name);
+    return file.empty() ? nullptr : decode_image(image_bytes(file), file.string());
+  };
+  return add(key_of("file", (folder / name).string(), wrapping), {name, decode, nullptr, wrapping});
+}
+
+TextureId Textures::add_encoded(const std::string& key, std::function<std::string()> read, Wrapping wrapping) {
+  const auto decode = [key, read = std::move(read)] { return decode_image(read(), key); };
+  return add(key_of("inside", key, wrapping), {key, decode, nullptr, wrapping});
+}
+
+TextureId Textures::add_image(osg::Image& image, Wrapping wrapping) {
+  const std::string key = key_of("image", fmt::format("{}", fmt::ptr(&image)), wrapping);
+  return add(key, {image.getFileName(), {}, &image, wrapping});
+}
+
+osg::ref_ptr<osg::Texture2D> Textures::load(TextureId id) {
+  Source& source = sources_.at(id);
+  const osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
+  if (image == nullptr) {
+    report_missing(source.name);
+    return nullptr;
+  }
+  if (!std::exchange(source.counted, true)) ++read_;
+  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+  texture->setWrap(osg::Texture::WRAP_S, source.wrapping.across);
+  texture->setWrap(osg::Texture::WRAP_T, source.wrapping.up);
+  texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  constexpr float anisotropy = 8.0f;
+  texture->setMaxAnisotropy(anisotropy);
+  texture->setResizeNonPowerOfTwoHint(false);
+  return texture;
+}
+
+void Textures::forget_images() {
+  for (Source& source : sources_) source.image = nullptr;
+  found_.clear();
+  // An address may be used again by another image.
+  std::erase_if(known_, [](const auto& entry) { return entry.first.starts_with("image"); });
+}
+
+osg::ref_ptr<osg::Image> Textures::find(const fs::path& folder, const std::string& name) {
+  const auto [at, is_new] = found_.try_emplace((folder / name).string());
+  if (is_new) {
+    const fs::path file = find_image_file(folder, name);
+    if (!file.empty()) at->second = decode_image(image_bytes(file), file.string());
+  }
+  if (at->second == nullptr) report_missing(name);
+  return at->second;
+}
+
+void Textures::report_missing(const std::string& name) {
+  if (!missing_.insert(name).second || missing_.size() > ImportReport::name_limit) return;
+  frames_.send(FrameKind::missing_texture, PayloadWriter().add_text(name));
+}
+
+}  // namespace roam::reader

@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// The images of a scene: looked for where exporters leave them, decoded when they are needed, each one once.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <osg/Image>
+#include <osg/Texture2D>
+#include <osg/Texture>
+#include <osg/ref_ptr>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/reader/display/look.h"
+#include "import/reader/frame_writer.h"
+
+namespace roam::reader {
+
+/// How an image goes on beyond its edges, across and up.
+struct Wrapping {
+  osg::Texture::WrapMode across = osg::Texture::REPEAT;
+  osg::Texture::WrapMode up = osg::Texture::REPEAT;
+};
+
+class Textures {
+ public:
+  explicit Textures(FrameWriter& frames) : frames_(frames) {}
+
+  /// The image that a file in `folder` calls `name`. It is looked for when it is needed.
+  TextureId add_file(const std::filesystem::path& folder, const std::string& name, Wrapping wrapping);
+  /// An encoded image inside a scene's file. `key` tells it from others; `read` gives the bytes of the image.
+  TextureId add_encoded(const std::string& key, std::function<std::string()> read, Wrapping wrapping);
+  /// An image that is decoded already.
+  TextureId add_image(osg::Image& image, Wrapping wrapping);
+
+  /// The texture with its image, decoded anew each time; null when there is none, which is reported once.
+  [[nodiscard]] osg::ref_ptr<osg::Texture2D> load(TextureId texture);
+  /// Lets go of the images of find and add_image; the latter's numbers must not be used any more.
+  void forget_images();
+
+  /// The image of that name, for files that OpenSceneGraph reads itself; null when there is none, which is reported.
+  [[nodiscard]] osg::ref_ptr<osg::Image> find(const std::filesystem::path& folder, const std::string& name);
+
+  [[nodiscard]] std::uint64_t read() const { return read_; }
+  [[nodiscard]] std::uint64_t missing() const { return missing_.size(); }
+
+ private:
+  struct Source {
+    std::string name;
+    std::function<osg::ref_ptr<osg::Image>()> decode;
+    osg::ref_ptr<osg::Image> image;  ///< where there is nothing to decode
+    Wrapping wrapping;
+    bool counted = false;
+  };
+
+  TextureId add(const std::string& key, Source&& source);
+  void report_missing(const std::string& name);
+
+  FrameWriter& frames_;
+  std::vector<Source> sources_;
+  std::map<std::string, TextureId> known_;
+  std::map<std::string, osg::ref_ptr<osg::Image>> found_;
+  std::set<std::string> missing_;
+  std::uint64_t read_ = 0;
+};
+
+}  // namespace roam::reader

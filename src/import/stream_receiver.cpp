@@ -1,0 +1,121 @@
+#include "import/stream_receiver.h"
+
+#include <cstring>
+#include <utility>
+
+namespace roam::reader {
+namespace {
+
+/// Adds to the entry of that name, or makes one while there is room.
+void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
+  for (LeftOutObject& known : objects) {
+    if (known.name == object.name) {
+      known.vertices += object.vertices;
+      known.triangles += object.triangles;
+      return;
+    }
+  }
+  if (objects.size() < ImportReport::name_limit) objects.push_back(std::move(object));
+}
+
+/// Most sentences that one reader may say.
+constexpr std::size_t note_limit = 100;
+
+}  // namespace
+
+StreamReceiver::StreamReceiver(ImportReport& report, std::size_t ignore_patterns, std::uint64_t content_bytes)
+    : report_(report), ignore_patterns_(ignore_patterns), content_bytes_left_(content_bytes) {}
+
+void StreamReceiver::take(std::span<const std::byte> bytes) {
+  pending_.insert(pending_.end(), bytes.begin(), bytes.end());
+  std::size_t begin = 0;
+  while (pending_.size() - begin >= sizeof(FrameHeader)) {
+    FrameHeader header;
+    std::memcpy(&header, pending_.data() + begin, sizeof(header));
+    if (header.magic != frame_magic || header.zero != 0 || header.bytes > payload_limit) {
+      throw StreamDamaged{"bytes that are no frame"};
+    }
+    if (header.number != next_number_) throw StreamDamaged{"frames out of order"};
+    if ((header.number == 0) != (header.kind == FrameKind::hello)) throw StreamDamaged{"no greeting"};
+    if (ended_) throw StreamDamaged{"frames after the end"};
+    if (pending_.size() - begin - sizeof(header) < header.bytes) break;
+    handle(header, std::span(pending_).subspan(begin + sizeof(header), header.bytes));
+    ++next_number_;
+    begin += sizeof(header) + header.bytes;
+  }
+  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte> payload) {
+  PayloadReader fields(payload);
+  switch (header.kind) {
+    case FrameKind::hello:
+      if (fields.take<std::uint32_t>() != stream_version) throw StreamDamaged{"another version of the stream"};
+      break;
+    case FrameKind::progress:
+      bytes_read_ = fields.take<std::uint64_t>();
+      break;
+    case FrameKind::georeference: {
+      Georeference georeference;
+      georeference.origin = fields.take<Vec3>();
+      georeference.srs = fields.take_text();
+      if (!report_.georeference) report_.georeference = std::move(georeference);
+      break;
+    }
+    case FrameKind::left_out:
+      take_left_out(fields);
+      break;
+    case FrameKind::missing_page: {
+      std::string file = fields.take_text();
+      auto& files = report_.missing_page_files;
+      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+      break;
+    }
+    case FrameKind::note: {
+      std::string sentence = fields.take_text();
+      if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
+      break;
+    }
+    case FrameKind::failure: {
+      Failure failure{fields.take_text()};
+      if (!fields.complete()) break;
+      throw failure;
+    }
+    case FrameKind::end:
+      take_end(fields);
+      break;
+    default:
+      return take_content(header.kind, payload);
+  }
+  if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+}
+
+void StreamReceiver::count_bytes(std::size_t bytes) {
+  if (bytes > content_bytes_left_) throw ContentTooLarge{};
+  content_bytes_left_ -= bytes;
+}
+
+void StreamReceiver::take_left_out(PayloadReader& fields) {
+  const auto reason = fields.take<LeftOutReason>();
+  LeftOutObject object;
+  object.name = fields.take_text();
+  object.vertices = fields.take<std::uint64_t>();
+  object.triangles = fields.take<std::uint64_t>();
+  const bool bad = reason == LeftOutReason::bad_vertices;
+  note_object(bad ? report_.bad_objects : report_.ignored_objects, std::move(object));
+}
+
+void StreamReceiver::take_end(PayloadReader& fields) {
+  const auto totals = fields.take<Totals>();
+  if (fields.take<std::uint32_t>() != ignore_patterns_) throw StreamDamaged{"totals of other patterns"};
+  for (std::size_t i = 0; i < ignore_patterns_; ++i) matched_.push_back(fields.take<std::uint8_t>() != 0);
+  finish_content(totals);
+  report_.files += totals.files;
+  report_.bad_vertices += totals.bad_vertices;
+  report_.bad_triangles += totals.bad_triangles;
+  report_.ignored_triangles += totals.ignored_triangles;
+  report_.missing_pages += totals.missing_pages;
+  ended_ = true;
+}
+
+}  // namespace roam::reader
