@@ -103,13 +103,13 @@ class Composer {
         .what = what + " frame", .lines = {outline(map.panel())}, .width = 1.5, .stroke = frame_ink, .closed = true});
   }
 
-  /// Where the scene's x and y point, seen on the sheet.
+  /// Where the scene's x and y point on the sheet, whose y points down.
   void axes() {
     const Turn& turn = c_.frames.turn;
     const Point centre(sheet_width - sheet_margin - 0.45 * axes_width, sheet_margin + 50.0);
     constexpr double reach = 40.0;
     const std::array<std::pair<const char*, Point>, 2> directions{
-        {{"x", {turn.cosine, turn.sine}}, {"y", {-turn.sine, turn.cosine}}}};
+        {{"x", {turn.cosine, turn.sine}}, {"y", {turn.sine, -turn.cosine}}}};
     for (const auto& [name, d] : directions) {
       const Point way(d.x, d.y), tip = centre + reach * way, side(-way.y, way.x);
       sheet_.items.emplace_back(
@@ -166,6 +166,14 @@ class Composer {
     return in_a_detail ? std::vector<std::string>{} : full_label(i);
   }
 
+  /// A letter on white in the upper left corner of a panel.
+  void badge(const std::string& what, const std::string& text, const Point& corner) {
+    const Rect ground{corner + Point(1.0), corner + Point(46.0)};
+    sheet_.items.emplace_back(Lines{.what = "label ground", .lines = {outline(ground)}, .fill = paper, .closed = true});
+    labels_.write(what, text, corner + Point(13.0, 34.0), heading_size, true, ink);
+    labels_.block(ground);
+  }
+
   void details() {
     y_ += 6.0;
     const auto& details = c_.frames.details;
@@ -182,10 +190,7 @@ class Composer {
       const Map plan{details[k].plan, {x, top}};
       frame(prefix + "plan", plan);
       painter_.plan(prefix + "plan ", plan, c_.cuts.plans[k + 1]);
-      // The letter stands in the corner; what is marked is named beside it.
-      const Rect badge =
-          labels_.write(prefix + "letter", letter(k), plan.corner + Point(14.0, 36.0), heading_size, true, ink);
-      labels_.block(badge.grown(6.0));
+      badge(prefix + "letter", letter(k), plan.corner);
       painter_.label_marks(prefix + "plan ", plan, true, [&](std::size_t i) { return full_label(i); });
       const Map section{details[k].section, {x, top + details[k].plan.height() + 10.0}};
       frame(prefix + "section", section);
@@ -222,7 +227,8 @@ class Composer {
   void height_axis(const Map& map) {
     const double step = round_length(64.0 / map.frame.scale_y * 1.9);
     const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-    for (double z = std::ceil(map.frame.view.lower.y / step) * step; z <= map.frame.view.upper.y; z += step) {
+    for (double k = std::ceil(map.frame.view.lower.y / step); k * step <= map.frame.view.upper.y; ++k) {
+      const double z = k == 0.0 ? 0.0 : k * step;  // never "-0"
       const Point p = map({map.frame.view.lower.x, z});
       tick({p - Point(7.0, 0.0), p});
       sheet_.items.emplace_back(Lines{.what = "section grid",

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
 
@@ -81,6 +82,13 @@ class StretchTree {
   std::vector<Node> nodes_;
 };
 
+/// The z of the unit normal, either way up: 1 for level ground, 0 for a wall and for what has no normal.
+double levelness(const TurnedTriangle& t) {
+  const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+  const double length = glm::length(normal);
+  return length > 0.0 ? std::abs(normal.z) / length : 0.0;
+}
+
 void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double highest, const PlanView& view,
               PlanCut& out) {
   const Rect& area = view.map.area();
@@ -95,18 +103,21 @@ void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double hi
       if (segment) take(*segment, static_cast<std::uint16_t>(level - view.cuts.begin()));
     }
   };
+  const bool is_ground = levelness(t) > view.ground;
   levels_in(0.0, [&](const Segment& segment, std::uint16_t level) {
     view.map.pieces(segment, [&](const Segment& piece, const LevelMap::Cell& cell) {
-      if (cell.upper == level) out.walls.push_back(piece);
+      if (cell.upper == level) (is_ground ? out.below : out.walls).push_back(piece);
       if (cell.lower == level) out.below.push_back(piece);
     });
   });
-  if (!view.below) return;
-  levels_in(*view.below, [&](const Segment& segment, std::uint16_t level) {
-    view.map.pieces(segment, [&](const Segment& piece, const LevelMap::Cell& cell) {
-      if (cell.upper == level) out.below.push_back(piece);
+  if (is_ground) return;
+  for (const double depth : view.below) {
+    levels_in(depth, [&](const Segment& segment, std::uint16_t level) {
+      view.map.pieces(segment, [&](const Segment& piece, const LevelMap::Cell& cell) {
+        if (cell.upper == level) out.below.push_back(piece);
+      });
     });
-  });
+  }
 }
 
 void cut_section(const TurnedTriangle& t, const Stretch& stretch, std::vector<Segment>& out) {

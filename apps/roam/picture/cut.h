@@ -24,13 +24,16 @@ using TurnedTriangle = std::array<Vec3, 3>;
 /// A plan that is to be cut.
 struct PlanView {
   LevelMap map;
-  std::vector<double> cuts;     ///< heights of the levels, ascending, metres
-  std::optional<double> below;  ///< so far under each level is cut a second time, to show what lies below; metres
+  std::vector<double> cuts;   ///< heights of the levels, ascending, metres
+  std::vector<double> below;  ///< how far under each level is cut again, to show what lies below; metres
+  /// Triangles whose normal's z is more than this are ground to walk on. At body height they are shown as what lies
+  /// below; further down they are not cut: contour lines would look like steps. 1 or more: there are none.
+  double ground = 1.0;
 };
 
 struct PlanCut {
   std::vector<Segment> walls;  ///< at body height, in metres of the plan
-  std::vector<Segment> below;  ///< what lies below: at `below`, and the lower of two storeys
+  std::vector<Segment> below;  ///< what lies below: at the depths `below`, the lower of two storeys, and rising ground
 };
 
 /// A stretch of the way, straight when seen from above, along which is cut.

@@ -16,6 +16,7 @@ constexpr double section_scale_width = 120.0;  ///< left of the section, for its
 constexpr double least_body = 20.0;            ///< across; a smaller body needs details
 constexpr double detail_most_width = 607.0;
 constexpr double detail_gap = 30.0;
+constexpr double detail_height = 0.62;  ///< of its plan's width
 constexpr std::size_t most_details = 4;
 
 // Of the best scale that any turn allows, so much is given up for a plan that is not turned, or by right angles.
@@ -110,8 +111,11 @@ void frame_section(Frames& frames, const Way& way, const Survey& survey, double 
   frames.section = {{{left, low}, {left + width / scale, high}}, scale, scale_y};
 }
 
-void frame_details(Frames& frames, const std::vector<Mark>& marks, const WalkerSettings& settings) {
-  const double size = std::max(28.0 * settings.radius, 4.0 * settings.height);  // metres across
+void frame_details(Frames& frames, const Survey& survey, const std::vector<Mark>& marks,
+                   const WalkerSettings& settings) {
+  double size = std::max(28.0 * settings.radius, 4.0 * settings.height);  // metres across
+  // The measure of the narrowest place should be seen whole, unless it is as good as open.
+  if (survey.narrowest) size = std::clamp(survey.narrowest->width / detail_height * 1.2, size, 1.6 * size);
   if (2.0 * settings.radius * frames.plan.scale_x >= least_body) return;
   // What says how it ended comes first, then what was tight, then the start.
   std::vector<std::size_t> order;
@@ -145,7 +149,7 @@ void frame_details(Frames& frames, const std::vector<Mark>& marks, const WalkerS
     const Mark& mark = marks[about[k]];
     const double tall = std::clamp(2.2 * settings.height, 0.25 * size, 0.5 * size);
     frames.details.push_back({with[k],
-                              {Rect::around(frames.turn.plan(mark.centre), size, 0.62 * size), scale, scale},
+                              {Rect::around(frames.turn.plan(mark.centre), size, detail_height * size), scale, scale},
                               {Rect::around({mark.along, mark.centre.z}, size, tall), scale, scale}});
   }
   std::sort(frames.details.begin(), frames.details.end(),
@@ -169,7 +173,7 @@ Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mar
   frames.turn = choose_turn(way, settings.radius);
   frames.plan = plan_frame(way, frames.turn, scene, settings.radius);
   frame_section(frames, way, survey, settings.height, settings.radius);
-  frame_details(frames, marks, settings);
+  frame_details(frames, survey, marks, settings);
   return frames;
 }
 

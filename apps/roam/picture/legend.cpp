@@ -72,7 +72,7 @@ double draw_legend(const Contents& contents, Sheet& sheet, Labels& labels, doubl
              narrowest = shows(sheet, " narrowest");
   Rows rows(sheet, labels, top + 48.0);
   rows.line("cut by the plane", 2.5, wall_ink);
-  if (below) rows.line("lies below", 2.0, below_ink);
+  if (below) rows.line(contents.report.mode == Mode::walk ? "lower, or gently rising" : "lower", 2.0, below_ink);
   if (contents.report.mode == Mode::ghost) {
     rows.line("way", 5.0, ghost_ink);
   } else {

@@ -12,6 +12,9 @@ constexpr std::size_t most_looked_at = 2'000;
 /// What is within so many storeys of two parts of the way shows both.
 constexpr double beside = 1.5;
 
+/// Where the way is steeper, the body falls, or flies straight up or down: seen from above it is where it was.
+constexpr double steepest = 1.5;  ///< height per length
+
 struct Sample {
   double z = 0.0;
   double weight = 0.0;
@@ -23,10 +26,16 @@ struct Sample {
 Levels find_levels(std::span<const Station> stations, double body_height) {
   Levels levels;
   levels.where.assign(stations.size(), 0);
-  std::vector<Sample> open(stations.size());
+  std::vector<Sample> open;
+  std::vector<std::size_t> falling;
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    const double before = i > 0 && !stations[i].jump ? stations[i].along - stations[i - 1].along : 0.0;
-    open[i] = {stations[i].centre.z, before + 1e-9, i};
+    const bool moved = i > 0 && !stations[i].jump;
+    const double length = moved ? stations[i].along - stations[i - 1].along : 0.0;
+    if (moved && std::abs(stations[i].centre.z - stations[i - 1].centre.z) > steepest * length) {
+      falling.push_back(i);
+    } else {
+      open.push_back({stations[i].centre.z, length + 1e-9, i});
+    }
   }
   std::sort(open.begin(), open.end(), [](const Sample& a, const Sample& b) { return a.z < b.z; });
   const double window = 0.5 * body_height;
@@ -61,6 +70,7 @@ Levels find_levels(std::span<const Station> stations, double body_height) {
     levels.cuts.push_back(cuts[i].first);
   }
   for (auto& level : levels.where) level = rank[level];
+  for (const std::size_t i : falling) levels.where[i] = levels.where[i - 1];
   return levels;
 }
 

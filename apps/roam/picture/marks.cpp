@@ -66,7 +66,7 @@ std::vector<Mark> find_marks(const WalkReport& report, const Record& record, con
   if (result.outcome == Outcome::blocked && result.blocked_at) {
     marks.push_back({MarkKind::blocked, result.blocked_at->point, last.position, last.height, last.along, "blocked",
                      blocked_note(report)});
-  } else {
+  } else if (marks.back().kind != MarkKind::fell || result.outcome != Outcome::fell) {
     const char* how = result.outcome == Outcome::reached ? "" : name(result.outcome);
     marks.push_back({MarkKind::end, last.position, last.position, last.height, last.along, "end", how});
   }

@@ -114,7 +114,9 @@ void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_pl
   std::vector<Point> drawn;
   for (const Touch& touch : c_.record.touches) {
     if (c_.report.mode == Mode::walk && std::abs(touch.normal.z) > steepest_wall) continue;
-    const Point place = is_plan ? c_.frames.turn.plan(touch.point) : Point(c_.way.along[touch.place], touch.point.z);
+    const Vec3& centre = c_.record.places[touch.place].position;
+    const Point place =
+        is_plan ? c_.frames.turn.plan(touch.point) : unrolled(touch.point, centre, c_.way.along[touch.place]);
     if (!map.frame.view.contains(place)) continue;
     const Point p = map(place);
     // Those that a walk along a wall leaves behind come one after the other.
@@ -135,18 +137,28 @@ void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_pl
 }
 
 Point PanelPainter::at(const Mark& mark, bool is_plan) const {
-  if (is_plan) return c_.frames.turn.plan(mark.point);
-  // What is touched lies beside the way or ahead of it: as far as the body's centre is from it, seen from above.
-  const Vec3 d = mark.point - mark.centre;
-  return {mark.along + std::hypot(d.x, d.y), mark.point.z};
+  return is_plan ? c_.frames.turn.plan(mark.point) : unrolled(mark.point, mark.centre, mark.along);
+}
+
+Point PanelPainter::unrolled(const Vec3& point, const Vec3& centre, double along) const {
+  const auto& stations = c_.survey.stations;
+  // Where the body stands still or falls, it looks as it went last.
+  auto station = std::upper_bound(stations.begin(), stations.end(), along,
+                                  [](double value, const Station& s) { return value < s.along; });
+  while (station != stations.begin() && (station == stations.end() || station->heading == Vec3(0.0))) --station;
+  return {along + glm::dot(point - centre, station->heading), point.z};
 }
 
 void PanelPainter::body_outline(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark) {
   const double radius = c_.report.settings.radius;
   if (radius * map.frame.scale_x < least_outline) return;
+  Polyline line = is_plan ? capsule(radius, 2.0 * radius) : capsule(radius, mark.height);
+  const Point centre = is_plan ? c_.frames.turn.plan(mark.centre) : Point(mark.along, mark.centre.z);
+  for (Point& p : line) p = map(p + centre);
+  labels_.avoid({line}, 1.0);
   if (is_plan) {
     sheet_.items.emplace_back(Disc{.what = prefix + "body",
-                                   .centre = map(c_.frames.turn.plan(mark.centre)),
+                                   .centre = map(centre),
                                    .radius = radius * map.frame.scale_x,
                                    .width = 1.6,
                                    .stroke = body_ink,
@@ -154,8 +166,6 @@ void PanelPainter::body_outline(const std::string& prefix, const Map& map, bool 
                                    .clip = map.panel()});
     return;
   }
-  Polyline line = capsule(radius, mark.height);
-  for (Point& p : line) p = map(p + Point(mark.along, mark.centre.z));
   sheet_.items.emplace_back(Lines{.what = prefix + "body",
                                   .lines = {std::move(line)},
                                   .width = 1.6,
@@ -188,6 +198,7 @@ void PanelPainter::mark(const std::string& prefix, const Map& map, bool is_plan,
       if (is_plan && n.width * map.frame.scale_x > 14.0) {
         const Point a = map(c_.frames.turn.plan(n.left)), b = map(c_.frames.turn.plan(n.right));
         const Point along = (b - a) / glm::distance(a, b), across(-along.y, along.x);
+        labels_.avoid({{a, b}}, 6.0);
         lines({{a, b}, {a - 9.0 * across, a + 9.0 * across}, {b - 9.0 * across, b + 9.0 * across}}, 2.6);
         break;
       }

@@ -61,6 +61,8 @@ class PanelPainter {
   void mark(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
   void body_outline(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
   [[nodiscard]] Point at(const Mark& mark, bool is_plan) const;
+  /// A point near the body, in the section: ahead of the body's centre or behind it, as the body goes.
+  [[nodiscard]] Point unrolled(const Vec3& point, const Vec3& centre, double along) const;
 
   const Contents& c_;
   Sheet& sheet_;

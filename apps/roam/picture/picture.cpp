@@ -1,28 +1,42 @@
 #include "picture.h"
 
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
 #include "compose.h"
 #include "progress.h"
 
 namespace roam::app::picture {
 namespace {
 
-/// Metres by which the way may be straightened, in radii: far less than a line is wide.
+/// By how much the way may be straightened, in radii and at most in metres: far less than a line is wide, and so little
+/// that a body on the straightened way still fits where the true one did when the survey makes it slimmer.
 constexpr double straightening = 0.04;
+constexpr double most_straightening = 0.002;
 /// Storeys that are shown one over the other are at least so many body heights apart.
 constexpr double storey_heights = 1.2;
-constexpr double detail_storey = 0.5;  ///< of a body's height: what is lower than feet is another story
+/// On foot two cuts more, under the body's centre: just above what it steps onto, for what stops its legs; and below
+/// what it steps down, for the ditches and pits that it may fall into.
+std::vector<double> depths_below(const WalkerSettings& settings) {
+  const double feet = 0.5 * settings.height, margin = 0.1 * settings.height;
+  const double legs = feet - settings.step - margin;
+  return legs > margin ? std::vector{legs, feet + settings.step + margin} : std::vector{feet + settings.step + margin};
+}
 
 std::vector<PlanView> plan_views(const Walked& walked, const Frames& frames, const Survey& survey, const Levels& levels,
                                  const std::vector<Mark>& marks) {
   const WalkerSettings& settings = walked.report.settings;
-  std::optional<double> below;
-  if (walked.report.mode == Mode::walk)
-    below = detail_storey * settings.height + std::max(settings.step, 0.25 * settings.height);
+  std::vector<double> below;
+  double ground = 1.0;
+  if (walked.report.mode == Mode::walk) {
+    below = depths_below(settings);
+    ground = std::cos(glm::radians(settings.slope_degrees));
+  }
   std::vector<PlanView> views;
   views.push_back({LevelMap(frames.plan.view, levels, survey.stations, frames.turn, storey_heights * settings.height),
-                   levels.cuts, below});
+                   levels.cuts, below, ground});
   for (const Detail& detail : frames.details) {
-    views.push_back({LevelMap(detail.plan.view, 0), {marks[detail.marks[0]].centre.z}, below});
+    views.push_back({LevelMap(detail.plan.view, 0), {marks[detail.marks[0]].centre.z}, below, ground});
   }
   return views;
 }
@@ -41,7 +55,7 @@ Rect section_range(const Frames& frames) {
 
 Sheet make_sheet(const Walked& walked) {
   const WalkReport& report = walked.report;
-  const Way way = simplified(walked.record, straightening * report.settings.radius);
+  const Way way = simplified(walked.record, std::min(straightening * report.settings.radius, most_straightening));
   const Survey measured = survey(walked.space, way, report.settings, report.mode);
   const std::vector<Mark> marks = find_marks(report, walked.record, way, measured);
   const Frames frames = choose_frames(way, measured, marks, walked.space.bounds(), report.settings);

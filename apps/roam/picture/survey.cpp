@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace roam::app::picture {
 namespace {
@@ -10,13 +11,19 @@ namespace {
 constexpr double side_reach = 12.0;
 constexpr double height_reach = 5.0;
 constexpr double most_stations = 10'000.0;
+/// Metres by which the body is slimmer when its room is measured: a body that touches the ground is at home on it, but
+/// a sweep that begins in touch would end there. More than the 2 mm within which a space answers a hit.
+constexpr double slimmer = 0.005;
 /// The narrowest place is looked for again between its neighbours, so many times as densely.
 constexpr int refinement = 24;
 
 class Surveyor {
  public:
   Surveyor(const Space& space, const WalkerSettings& settings, Mode mode)
-      : space_(space), settings_(settings), mode_(mode) {}
+      : space_(space),
+        settings_(settings),
+        mode_(mode),
+        slope_cosine_(std::cos(glm::radians(settings.slope_degrees))) {}
 
   [[nodiscard]] double reach() const {
     return std::min(side_reach * settings_.radius, Space::reach_limit - settings_.radius);
@@ -24,7 +31,9 @@ class Surveyor {
 
   /// Free metres from the body to a side, measured with the body itself.
   [[nodiscard]] double room(const Vec3& centre, double height, const Vec3& side) const {
+    const double less = std::min(slimmer, 0.25 * settings_.radius);
     Body body = Body::capsule(settings_.radius, height);
+    body.radius -= less;
     Vec3 place = centre;
     if (mode_ == Mode::walk) {
       // The legs are lifted over what is stepped onto; a body that is hardly taller than wide is lifted as a whole.
@@ -37,8 +46,11 @@ class Surveyor {
         place.z += up.hit ? up.time * rest : rest;
       }
     }
-    const Impact hit = space_.sweep(body, place, reach() * side);
-    return hit.hit ? hit.time * reach() : reach();
+    const double far = reach() + less;
+    const Impact hit = space_.sweep(body, place, far * side);
+    // Ground that rises gently to the side is no wall.
+    if (mode_ == Mode::walk && hit.hit && hit.normal.z > slope_cosine_) return reach();
+    return hit.hit ? std::max(0.0, hit.time * far - less) : reach();
   }
 
   [[nodiscard]] std::optional<double> height_at(const Vec3& from, double direction, double height) const {
@@ -51,39 +63,53 @@ class Surveyor {
   [[nodiscard]] Station station(const WayPoint& a, const WayPoint& b, double t) const {
     Station s;
     s.centre = a.position + t * (b.position - a.position);
-    s.height = std::min(a.height, b.height);
+    s.height = b.height;  // which a piece has all along, see Corner
     s.along = a.along + t * (b.along - a.along);
     const Vec3 way(b.position.x - a.position.x, b.position.y - a.position.y, 0.0);
     const double length = glm::length(way);
     // Steeper than some 84 degrees there is no telling left from right.
     if (length > 0.1 * std::abs(b.position.z - a.position.z)) s.heading = way / length;
     if (mode_ == Mode::ghost) return s;
-    if (s.heading != Vec3(0.0)) {
-      const Vec3 left(-s.heading.y, s.heading.x, 0.0);
-      s.left = room(s.centre, s.height, left);
-      s.right = room(s.centre, s.height, -left);
-    }
+    if (s.heading != Vec3(0.0)) measure_at(s, 0.0);
     s.floor = height_at(s.centre, -1.0, s.height);
     s.ceiling = height_at(s.centre, 1.0, s.height);
     return s;
   }
 
-  /// Room that is bounded on both sides; infinite where it is not.
+  /// Turns the measure of a station by an angle from straight across the way.
+  void measure_at(Station& s, double angle) const {
+    const Vec3 left(-s.heading.y, s.heading.x, 0.0);
+    s.across = std::cos(angle) * left + std::sin(angle) * s.heading;
+    s.left = room(s.centre, s.height, s.across);
+    s.right = room(s.centre, s.height, -s.across);
+  }
+
+  /// Clear width where it is bounded on both sides; infinite where it is not.
   [[nodiscard]] double width(const Station& s) const {
     const bool bounded = s.heading != Vec3(0.0) && s.left < reach() && s.right < reach();
     return bounded ? s.left + s.right + 2.0 * settings_.radius : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether the body could go on and back by its radius: else it is in a corner, which is no narrow passage.
+  [[nodiscard]] bool is_passage(const Station& s) const {
+    return room(s.centre, s.height, s.heading) >= settings_.radius &&
+           room(s.centre, s.height, -s.heading) >= settings_.radius;
   }
 
  private:
   const Space& space_;
   const WalkerSettings& settings_;
   Mode mode_;
+  double slope_cosine_;
 };
 
 Narrowest narrowest_at(const Station& s, double width, double radius) {
-  const Vec3 left(-s.heading.y, s.heading.x, 0.0);
-  return {
-      s.centre, s.height, s.along, width, s.centre + (s.left + radius) * left, s.centre - (s.right + radius) * left};
+  return {s.centre,
+          s.height,
+          s.along,
+          width,
+          s.centre + (s.left + radius) * s.across,
+          s.centre - (s.right + radius) * s.across};
 }
 
 }  // namespace
@@ -101,7 +127,7 @@ Survey survey(const Space& space, const Way& way, const WalkerSettings& settings
   const auto add = [&](std::size_t i, std::size_t j, double t, double step) {
     result.stations.push_back(surveyor.station(points[i], points[j], t));
     const double width = surveyor.width(result.stations.back());
-    if (width < least) {
+    if (width < least && surveyor.is_passage(result.stations.back())) {
       least = width;
       piece = i;
       least_t = t;
@@ -131,7 +157,13 @@ Survey survey(const Space& space, const Way& way, const WalkerSettings& settings
   for (int k = -refinement; k <= refinement; ++k) {
     const double t = std::clamp(least_t + dt * k / refinement, 0.0, 1.0);
     const Station s = surveyor.station(a, b, t);
-    if (surveyor.width(s) < surveyor.width(best)) best = s;
+    if (surveyor.width(s) < surveyor.width(best) && surveyor.is_passage(s)) best = s;
+  }
+  // A way that crosses a passage aslant has its least width aslant too.
+  Station turned = best;
+  for (int degrees = -45; degrees <= 45; degrees += 3) {
+    surveyor.measure_at(turned, glm::radians(static_cast<double>(degrees)));
+    if (surveyor.width(turned) < surveyor.width(best)) best = turned;
   }
   result.narrowest = narrowest_at(best, surveyor.width(best), settings.radius);
   return result;

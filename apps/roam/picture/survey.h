@@ -12,23 +12,25 @@ namespace roam::app::picture {
 
 /// A place at which was measured.
 struct Station {
-  Vec3 centre{0.0};     ///< of the body, metres
-  double height = 0.0;  ///< of the body, metres
-  double along = 0.0;   ///< metres, as WayPoint::along
-  bool jump = false;    ///< no way leads here from the station before
-  Vec3 heading{0.0};    ///< level, unit length; 0 where the way leads straight up or down
-  double left = 0.0;    ///< metres that are free beside the body, at most the survey's reach
-  double right = 0.0;
+  Vec3 centre{0.0};               ///< of the body, metres
+  double height = 0.0;            ///< of the body, metres
+  double along = 0.0;             ///< metres, as WayPoint::along
+  bool jump = false;              ///< no way leads here from the station before
+  Vec3 heading{0.0};              ///< level, unit length; 0 where the way leads straight up or down
+  Vec3 across{0.0};               ///< level, to the left, unit length, where there is a heading
+  double left = 0.0;              ///< metres that are free beside the body along `across`, at most the survey's reach
+  double right = 0.0;             ///< and the other way
   std::optional<double> floor;    ///< height in the scene of what is right below the centre, metres
   std::optional<double> ceiling;  ///< the same above
 };
 
-/// Where the least room is between something on the left and something on the right.
+/// Where the least room is between something on the left and something on the right, with a way on and a way back.
 struct Narrowest {
   Vec3 centre{0.0};
   double height = 0.0;
   double along = 0.0;
-  double width = 0.0;  ///< metres that are clear, measured level and across the way by moving the body aside
+  double width = 0.0;  ///< metres that are clear: measured level, within 45 degrees of across the way, by moving
+                       ///< the body aside
   Vec3 left{0.0};      ///< the ends of that measure, at the height of the centre
   Vec3 right{0.0};
 };
