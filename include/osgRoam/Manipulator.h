@@ -36,12 +36,14 @@
 /// Never throws from what a viewer calls (handle, home, setByMatrix, updateCamera, ...): see problem(). All of it
 /// belongs to the thread that calls Viewer::frame(), in every threading model.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <osg/Vec3d>
 #include <osgGA/CameraManipulator>
 #include <string>
+#include <string_view>
 
 #include "osgRoam/Controls.h"
 #include "roam/patchwork.h"
@@ -77,9 +79,11 @@ class Manipulator : public osgGA::CameraManipulator {
   void setSpace(std::shared_ptr<const roam::Space> space);
   /// The same, and takes into use what was delivered, before the steps of each frame.
   void setSpace(std::shared_ptr<roam::Patchwork> space);
-  [[nodiscard]] const std::shared_ptr<const roam::Space>& space() const;
-  /// What a space needs before the steps of each frame: called with the body and its centre.
+  void setSpace(std::nullptr_t) { setSpace(std::shared_ptr<const roam::Space>()); }
+  /// What the present space needs before the steps of each frame and before a placement: called with the body and its
+  /// centre. setSpace forgets it.
   void setSpaceUpdate(std::function<bool(const roam::Body&, const roam::Vec3&)> update);
+  [[nodiscard]] const std::shared_ptr<const roam::Space>& space() const;
   /// Builds a world of the triangles of `scene` as the constructor does, and takes it as the space when it is ready.
   void buildSpace(osg::Node& scene);
   /// The fraction done of buildSpace, in [0, 1]; 1 when nothing is being built.

@@ -1,0 +1,107 @@
+// What keys and mouse do.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "osgroam/manipulator_state.h"
+
+namespace osgRoam {
+namespace {
+
+using Adapter = osgGA::GUIEventAdapter;
+
+/// On the speed, for one notch of the wheel: three are twice as fast.
+constexpr double notch = 1.25;
+
+/// Metres: no click goes farther.
+constexpr double click_limit = 1e5;
+
+int symbol(const Adapter& event) {
+  const int unmodified = event.getUnmodifiedKey();
+  return Controls::canonical(unmodified > 0 ? unmodified : event.getKey());
+}
+
+/// Keys by which people leave a window: a window manager may keep to itself what is let go then.
+bool leaves_window(int key) {
+  return key == Adapter::KEY_Alt_L || (key >= Adapter::KEY_Meta_L && key <= Adapter::KEY_Hyper_R);
+}
+
+}  // namespace
+
+bool Manipulator::State::key_down(const Adapter& event) {
+  const int key = symbol(event);
+  if (leaves_window(key)) {
+    keyboard.release_all(event.getTime());
+    pointer.want_grab(false);
+    return false;
+  }
+  const bool fresh = keyboard.press(keys, key, event.getTime());
+  const Controls::Command* command = keys.lookup(key, keyboard.ctrl());
+  if (!command) return false;
+  if (command->kind != Controls::Kind::pressed) return true;
+  return fresh ? press(*command, event.getTime()) : true;
+}
+
+void Manipulator::State::key_up(const Adapter& event) { keyboard.release(keys, symbol(event), event.getTime()); }
+
+bool Manipulator::State::press(const Controls::Command& command, double time) {
+  const std::string name = command.name;
+  if (name == "jump") {
+    keyboard.ask_to_jump(time);
+  } else if (name == "gravity") {
+    change_mode(mode == roam::Mode::walk ? roam::Mode::fly : roam::Mode::walk);
+  } else if (name == "ghost") {
+    change_mode(mode == roam::Mode::ghost ? before_ghost : roam::Mode::ghost);
+  } else if (name == "home") {
+    home_wanted = true;
+  } else if (name == "grab") {
+    pointer.want_grab(!pointer.grab_wanted());
+  } else if (name == "release") {
+    if (!pointer.grab_wanted()) return false;
+    pointer.want_grab(false);
+  } else if (on_command) {
+    guarded([&] { on_command(name); });
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool Manipulator::State::look(const Adapter& event) {
+  const Pointer::Movement movement = pointer.move(event);
+  if (movement.left == 0.0 && movement.up == 0.0) return false;
+  pose.yaw = wrapped_yaw(pose.yaw + movement.left * look_speed);
+  pose.pitch = limited_pitch(pose.pitch + movement.up * look_speed);
+  return true;
+}
+
+bool Manipulator::State::scroll(const Adapter& event) {
+  double notches = 0.0;
+  if (event.getScrollingMotion() == Adapter::SCROLL_UP) notches = 1.0;
+  if (event.getScrollingMotion() == Adapter::SCROLL_DOWN) notches = -1.0;
+  if (event.getScrollingMotion() == Adapter::SCROLL_2D) notches = std::clamp(event.getScrollingDeltaY(), -1.0f, 1.0f);
+  if (!std::isfinite(notches) || notches == 0.0) return false;
+  change_speed(settings.speed * std::pow(notch, notches));
+  return true;
+}
+
+bool Manipulator::State::go_to_clicked(const Adapter& event) {
+  if (!walker || !projection || stuck || pilot) return false;
+  const bool grabbed = pointer.grab_wanted();  // then the pointer is where the middle of the picture is
+  const double x = grabbed ? 0.0 : event.getXnormalized(), y = grabbed ? 0.0 : event.getYnormalized();
+  const roam::Vec3 from = eye();
+  const std::optional<roam::Vec3> direction = through_picture({from, pose.yaw, pose.pitch}, *projection, x, y);
+  if (!direction || !std::isfinite(glm::length(*direction))) return false;
+  roam::Impact seen;
+  guarded([&] {
+    const roam::Box bounds = space->bounds();
+    const double farthest = bounds.empty() ? 0.0 : glm::length(bounds.center() - from) + glm::length(bounds.size());
+    seen = space->ray(from, std::min(farthest, click_limit) * *direction);
+  });
+  if (!seen.hit || seen.unknown) return false;
+  at_computed_home = false;
+  journey.begin(*walker, seen.point, seen.normal);
+  return true;
+}
+
+}  // namespace osgRoam

@@ -1,0 +1,220 @@
+#include "osgRoam/Manipulator.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "osgRoam/Triangles.h"
+#include "osgroam/manipulator_state.h"
+
+namespace osgRoam {
+namespace {
+
+void demand_finite(double sum, const char* what) {
+  if (!std::isfinite(sum)) throw roam::Error(std::string(what) + " is not a finite number");
+}
+
+}  // namespace
+
+Manipulator::Manipulator() : _state(std::make_unique<State>()) {}
+
+Manipulator::Manipulator(osg::Node* scene, const roam::WalkerSettings& settings, roam::Mode mode) : Manipulator() {
+  setSettings(settings);
+  setMode(mode);
+  if (scene) buildSpace(*scene);
+}
+
+Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
+    : osg::Object(other, copy),
+      osg::Callback(other, copy),
+      osgGA::CameraManipulator(other, copy),
+      _state(std::make_unique<State>()) {
+  const State& from = *other._state;
+  State& s = *_state;
+  s.settings = from.settings;
+  s.mode = from.mode;
+  s.before_ghost = from.before_ghost;
+  s.space = from.space;
+  s.update = from.update;
+  s.origin = from.origin;
+  s.pose = {other.eye(), from.pose.yaw, from.pose.pitch};
+  s.node = from.node;
+  s.at_computed_home = from.at_computed_home;
+  s.keys = from.keys;
+  s.look_speed = from.look_speed;
+  s.make_walker(from.walker ? from.walker->position() : s.centre_under(s.pose.eye));
+}
+
+Manipulator::~Manipulator() = default;
+
+// --- the body and what it moves in
+
+void Manipulator::setSpace(std::shared_ptr<const roam::Space> space) {
+  _state->build.reset();
+  _state->change_space(std::move(space), nullptr);
+  if (_state->at_computed_home && _state->mode == roam::Mode::walk) home(0.0);
+}
+
+void Manipulator::setSpace(std::shared_ptr<roam::Patchwork> space) {
+  _state->build.reset();
+  State::Update update;
+  if (space) {
+    update = [space](const roam::Body& body, const roam::Vec3& place) { return space->update(body, place); };
+  }
+  _state->change_space(std::move(space), std::move(update));
+  if (_state->at_computed_home && _state->mode == roam::Mode::walk) home(0.0);
+}
+
+const std::shared_ptr<const roam::Space>& Manipulator::space() const { return _state->space; }
+
+void Manipulator::setSpaceUpdate(std::function<bool(const roam::Body&, const roam::Vec3&)> update) {
+  _state->update = std::move(update);
+}
+
+void Manipulator::buildSpace(osg::Node& scene) {
+  _state->build.reset();
+  _state->build = std::make_unique<BackgroundBuild>(collectMeshes(scene, _state->origin));
+}
+
+double Manipulator::buildProgress() const { return _state->build ? _state->build->fraction() : 1.0; }
+
+void Manipulator::setOrigin(const osg::Vec3d& origin) {
+  demand_finite(origin.x() + origin.y() + origin.z(), "the origin of the graph");
+  const osg::Vec3d moved = std::exchange(_state->origin, origin) - origin;
+  // The home position is told in the frame of the graph, which is another one from here on.
+  _homeEye += moved;
+  _homeCenter += moved;
+}
+
+const osg::Vec3d& Manipulator::origin() const { return _state->origin; }
+
+void Manipulator::setSettings(const roam::WalkerSettings& settings) {
+  roam::check(settings);
+  State& s = *_state;
+  const roam::Vec3 feet = s.walker ? s.walker->feet() : roam::Vec3(0.0);
+  s.settings = settings;
+  s.change_speed(settings.speed);
+  if (s.walker) s.make_walker(feet + roam::Vec3(0.0, 0.0, 0.5 * settings.height));
+}
+
+const roam::WalkerSettings& Manipulator::settings() const { return _state->settings; }
+
+void Manipulator::setMode(roam::Mode mode) { _state->change_mode(mode); }
+
+roam::Mode Manipulator::mode() const { return _state->mode; }
+
+void Manipulator::setSpeed(double speed) {
+  demand_finite(speed, "the speed");
+  _state->change_speed(speed);
+}
+
+double Manipulator::speed() const { return _state->settings.speed; }
+
+roam::Walker* Manipulator::walker() { return _state->walker.get(); }
+
+const roam::Walker* Manipulator::walker() const { return _state->walker.get(); }
+
+void Manipulator::placed() {
+  _state->at_computed_home = false;
+  _state->tell_placed();
+}
+
+const roam::StepReport& Manipulator::report() const {
+  static const roam::StepReport none;
+  return _state->walker ? _state->walker->report() : none;
+}
+
+bool Manipulator::held() const { return !_state->walker || _state->stuck || _state->walker->report().held; }
+
+const std::string& Manipulator::problem() const { return _state->problem; }
+
+// --- the pose
+
+void Manipulator::setPose(const roam::Vec3& eye, double yaw, double pitch) {
+  demand_finite(eye.x + eye.y + eye.z + yaw + pitch, "the place or the angle of the eye");
+  _state->put_eye({eye, wrapped_yaw(yaw), limited_pitch(pitch)});
+}
+
+void Manipulator::setFeet(const roam::Vec3& feet, double yaw, double pitch) {
+  const roam::WalkerSettings& s = _state->settings;
+  setPose(feet + roam::Vec3(0.0, 0.0, 0.5 * s.height + eye_height(s, s.height)), yaw, pitch);
+}
+
+void Manipulator::look(double yaw, double pitch) {
+  demand_finite(yaw + pitch, "the angle to look at");
+  _state->pose.yaw = wrapped_yaw(yaw);
+  _state->pose.pitch = limited_pitch(pitch);
+}
+
+double Manipulator::yaw() const { return _state->pose.yaw; }
+
+double Manipulator::pitch() const { return _state->pose.pitch; }
+
+roam::Vec3 Manipulator::eye() const { return _state->eye(); }
+
+double Manipulator::leastEyeDistance() const { return least_eye_distance(_state->settings); }
+
+void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
+  demand_finite(eye.x + eye.y + eye.z + yaw + pitch, "the home pose");
+  const osg::Vec3d at = to_osg(eye) - _state->origin;
+  const osg::Vec3d up = to_osg(glm::cross(osgRoam::right(yaw), forward(yaw, pitch)));
+  setHomePosition(at, at + to_osg(forward(yaw, pitch)), up, false);
+}
+
+// --- going without keys
+
+void Manipulator::goTo(const roam::Vec3& point, const roam::Vec3& normal) {
+  demand_finite(point.x + point.y + point.z + normal.x + normal.y + normal.z, "the place to go to");
+  if (_state->walker) _state->journey.begin(*_state->walker, point, normal);
+}
+
+bool Manipulator::going() const { return _state->journey.under_way(); }
+
+void Manipulator::stopGoing() { _state->journey.end(); }
+
+void Manipulator::setPilot(Pilot pilot) {
+  _state->pilot = std::move(pilot);
+  _state->owed = 0.0;
+  _state->journey.end();
+}
+
+bool Manipulator::piloted() const { return static_cast<bool>(_state->pilot); }
+
+// --- keys and mouse
+
+Controls& Manipulator::controls() { return _state->keys; }
+
+const Controls& Manipulator::controls() const { return _state->keys; }
+
+void Manipulator::setCommandCallback(std::function<void(const std::string& name)> callback) {
+  _state->on_command = std::move(callback);
+}
+
+bool Manipulator::down(std::string_view command) const { return _state->keyboard.is_down(_state->keys, command); }
+
+void Manipulator::releaseKeys() {
+  if (_state->last_time) _state->keyboard.release_all(*_state->last_time);
+}
+
+void Manipulator::setMouseGrab(bool on) { _state->pointer.want_grab(on); }
+
+bool Manipulator::mouseGrab() const { return _state->pointer.grab_wanted(); }
+
+void Manipulator::setLookSpeed(double angle) {
+  demand_finite(angle, "the speed of looking");
+  _state->look_speed = angle;
+}
+
+double Manipulator::lookSpeed() const { return _state->look_speed; }
+
+// --- watching
+
+void Manipulator::setStepCallback(std::function<void(const roam::StepReport& report, double seconds)> callback) {
+  _state->on_step = std::move(callback);
+}
+
+std::int64_t Manipulator::collisionNanoseconds() const { return _state->nanoseconds; }
+
+int Manipulator::steps() const { return _state->steps; }
+
+}  // namespace osgRoam

@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// What an osgRoam::Manipulator is made of, and the frame in which all of it moves.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <osg/Node>
+#include <string>
+#include <utility>
+
+#include "osgRoam/Manipulator.h"
+#include "osgroam/background_build.h"
+#include "osgroam/camera_pose.h"
+#include "osgroam/journey.h"
+#include "osgroam/keyboard.h"
+#include "osgroam/pointer.h"
+#include "osgroam/soft_eye.h"
+
+namespace osgRoam {
+
+struct Manipulator::State {
+  using Update = std::function<bool(const roam::Body&, const roam::Vec3&)>;
+  using StepCallback = std::function<void(const roam::StepReport&, double)>;
+
+  // The body.
+  roam::WalkerSettings settings;
+  roam::Mode mode = roam::Mode::fly;
+  roam::Mode before_ghost = roam::Mode::fly;
+  std::shared_ptr<const roam::Space> space;
+  Update update;
+  std::unique_ptr<roam::Walker> walker;
+  std::unique_ptr<BackgroundBuild> build;
+  std::string problem;
+  bool stuck = false;  ///< by the problem
+
+  // The camera.
+  osg::Vec3d origin;
+  CameraPose pose;  ///< the eye means something while there is no walker
+  SoftEye soft;
+  std::optional<osg::Matrixd> projection;  ///< of the camera that was updated last
+  osg::ref_ptr<osg::Node> node;
+  bool at_computed_home = false;  ///< and nobody has moved it from there
+
+  // What moves it.
+  Controls keys;
+  Keyboard keyboard;
+  Pointer pointer;
+  Journey journey;
+  Pilot pilot;
+  double owed = 0.0;       ///< seconds that the pilot has not simulated yet
+  double jump_left = 0.0;  ///< seconds for which a jump that was asked for may still begin
+  double look_speed = 0.0;
+  std::optional<double> last_time;  ///< of the last frame, seconds
+  bool continuous = false;          ///< has asked the viewer for continuous update
+  HeldCommands held_before;         ///< as of the last frame
+
+  // What is told.
+  StepCallback on_step;
+  std::function<void(const std::string&)> on_command;
+  std::int64_t nanoseconds = 0;
+  int steps = 0;
+  bool moved = false;  ///< in the last frame
+
+  State();
+
+  [[nodiscard]] roam::Vec3 eye() const;
+  /// The body's centre, for a standing body with its eye there.
+  [[nodiscard]] roam::Vec3 centre_under(const roam::Vec3& eye) const;
+  /// Runs what may throw; what it throws becomes the problem.
+  template <class Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+  void fail(const std::string& what);
+
+  void change_space(std::shared_ptr<const roam::Space> to, Update update_of_it);
+  /// A new walker in the space, put to `centre`; none without a space.
+  void make_walker(const roam::Vec3& centre);
+  void put(const roam::Vec3& centre);
+  void put_eye(const CameraPose& where);
+  void tell_placed();
+  void change_mode(roam::Mode to);
+  void change_speed(double to);
+
+  /// Returns whether a world that was being built has become the space.
+  bool take_build();
+  /// Moves by the time since the last frame.
+  void frame(double time);
+  void run(double seconds, const HeldCommands& held);
+  void step(double seconds, const HeldCommands& held);
+  void fly_pilot(double seconds);
+  [[nodiscard]] roam::Vec3 wish(const HeldCommands& held) const;
+  /// Whether the next frame will differ from this one although nothing happens.
+  [[nodiscard]] bool restless() const;
+
+  // Events; true when taken.
+  bool key_down(const osgGA::GUIEventAdapter& event);
+  void key_up(const osgGA::GUIEventAdapter& event);
+  bool press(const Controls::Command& command, double time);
+  bool look(const osgGA::GUIEventAdapter& event);
+  bool scroll(const osgGA::GUIEventAdapter& event);
+  bool go_to_clicked(const osgGA::GUIEventAdapter& event);
+  bool home_wanted = false;  ///< by its key
+};
+
+}  // namespace osgRoam

@@ -1,0 +1,248 @@
+// How the body moves from frame to frame.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <osg/Notify>
+#include <utility>
+
+#include "osgroam/manipulator_state.h"
+#include "osgroam/places.h"
+
+namespace osgRoam {
+namespace {
+
+/// Seconds: who asks for a jump just before coming to the ground means it.
+constexpr double jump_patience = 0.2;
+
+/// Seconds that are not worth a step of a pilot: rounding.
+constexpr double least_owed = 1e-6;
+
+/// Steps of a pilot in one frame, at most, however short its own are.
+constexpr int pilot_limit = 256;
+
+/// A window at 60 Hz turns by a quarter for a hand's movement over its height.
+constexpr double default_look_speed = 0.5 * std::numbers::pi;
+
+std::int64_t nanoseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+Manipulator::State::State() : look_speed(default_look_speed) {
+  pose.yaw = 0.5 * std::numbers::pi;  // along +y, as every manipulator of osgGA
+  using enum Controls::Kind;
+  keys.add("forward", "W, Up", "walks or flies forward", held);
+  keys.add("back", "S, Down", "goes back", held);
+  keys.add("left", "A, Left", "goes to the left", held);
+  keys.add("right", "D, Right", "goes to the right", held);
+  keys.add("up", "E, Page_Up", "rises (flying)", held);
+  keys.add("down", "Q, Page_Down", "sinks (flying)", held);
+  keys.add("fast", "Shift", "hurries", held);
+  keys.add("slow", "Ctrl", "goes slowly", held);
+  keys.add("jump", "Space", "jumps (walking)", pressed);
+  keys.add("crouch", "C", "crouches (walking)", held);
+  keys.add("gravity", "G", "changes between walking and flying", pressed);
+  keys.add("ghost", "N", "passes through walls, or no longer", pressed);
+  keys.add("home", "Home", "goes back to the start", pressed);
+  keys.add("grab", "M", "lets the mouse look without a button", pressed);
+  keys.add("release", "Escape", "lets go of the mouse", pressed);
+  keys.add("look", "Drag", "looks around", gesture);
+  keys.add("speed", "Wheel", "makes faster or slower", gesture);
+  keys.add("go", "Double click", "goes to what was clicked", gesture);
+}
+
+roam::Vec3 Manipulator::State::eye() const { return walker ? soft.eye(*walker) : pose.eye; }
+
+roam::Vec3 Manipulator::State::centre_under(const roam::Vec3& eye) const {
+  return eye - roam::Vec3(0.0, 0.0, eye_height(settings, settings.height));
+}
+
+void Manipulator::State::fail(const std::string& what) {
+  problem = what;
+  stuck = true;
+  pilot = nullptr;
+  journey.end();
+  OSG_WARN << "osgRoam::Manipulator: " << what << std::endl;
+}
+
+void Manipulator::State::tell_placed() {
+  soft.reset();
+  journey.end();
+  problem.clear();
+  stuck = false;
+  jump_left = 0.0;
+  if (walker && on_step) guarded([&] { on_step(walker->report(), 0.0); });
+}
+
+void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it) {
+  const roam::Vec3 centre = walker ? walker->position() : centre_under(pose.eye);
+  // A walker knows its space by address: the old one stays until the old walker is gone.
+  const std::shared_ptr<const roam::Space> before = std::exchange(space, std::move(to));
+  update = std::move(update_of_it);
+  make_walker(centre);
+}
+
+void Manipulator::State::make_walker(const roam::Vec3& centre) {
+  if (walker) pose.eye = soft.eye(*walker);
+  walker.reset();
+  soft.reset();
+  journey.end();
+  problem.clear();
+  stuck = false;
+  if (!space) return;
+  guarded([&] {
+    if (update) update(roam::Body::capsule(settings.radius, settings.height), centre);
+    walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
+    if (walker->held()) place_safely(*walker, centre);
+  });
+  if (walker && !stuck) tell_placed();
+}
+
+void Manipulator::State::put(const roam::Vec3& centre) {
+  if (!walker) return;
+  guarded([&] {
+    if (update) update(roam::Body::capsule(settings.radius, settings.height), centre);
+    place_safely(*walker, centre);
+    tell_placed();
+  });
+}
+
+void Manipulator::State::put_eye(const CameraPose& where) {
+  pose = where;
+  at_computed_home = false;
+  put(centre_under(where.eye));
+}
+
+void Manipulator::State::change_mode(roam::Mode to) {
+  if (to == roam::Mode::ghost && mode != roam::Mode::ghost) before_ghost = mode;
+  mode = to;
+  journey.end();
+  if (!walker) return;
+  guarded([&] {
+    if (walker->set_mode(to).held && !walker->report().waiting) place_safely(*walker, walker->position());
+    tell_placed();
+  });
+}
+
+void Manipulator::State::change_speed(double to) { settings.speed = std::clamp(to, least_speed, greatest_speed); }
+
+bool Manipulator::State::take_build() {
+  if (!build || !build->ready()) return false;
+  const std::unique_ptr<BackgroundBuild> done = std::move(build);
+  bool taken = false;
+  guarded([&] {
+    change_space(done->take(), nullptr);
+    taken = true;
+  });
+  return taken;
+}
+
+void Manipulator::State::frame(double time) {
+  nanoseconds = 0;
+  steps = 0;
+  moved = false;
+  const std::vector<Keyboard::Change> changes = keyboard.take_changes();
+  if (!last_time || !std::isfinite(time)) {
+    if (std::isfinite(time)) last_time = time;
+    held_before = keyboard.held();
+    return;
+  }
+  const double begin = std::max(*last_time, time - longest_frame);
+  last_time = time;
+  guarded([&] {
+    if (walker && update && !stuck) update(walker->body(), walker->position());
+    double at = begin;
+    for (const Keyboard::Change& change : changes) {
+      const double until = std::clamp(change.time, at, std::max(at, time));
+      run(until - at, held_before);
+      at = until;
+      held_before = change.held;
+      if (change.jump) jump_left = jump_patience;
+    }
+    run(time - at, held_before);
+    if (walker) soft.keep_free(*walker);
+  });
+  held_before = keyboard.held();
+}
+
+void Manipulator::State::run(double seconds, const HeldCommands& held) {
+  if (!(seconds > 0.0)) return;
+  const double pieces = std::ceil(seconds / longest_step);
+  for (double i = 0.0; i < pieces && walker && !stuck; ++i) {
+    if (pilot) {
+      fly_pilot(seconds / pieces);
+    } else {
+      step(seconds / pieces, held);
+    }
+  }
+}
+
+void Manipulator::State::step(double seconds, const HeldCommands& held) {
+  const bool jumps = jump_left > 0.0;
+  jump_left -= seconds;
+  if (held.move() || jumps) {
+    journey.end();
+    at_computed_home = false;
+  }
+  roam::WalkerInput input;
+  input.crouch = held.crouch;
+  input.jump = jumps;
+  input.velocity =
+      journey.under_way() ? journey.velocity(*walker, settings.speed * settings.fast_factor, seconds) : wish(held);
+
+  const SoftEye::Before before = SoftEye::before(*walker);
+  const auto begin = std::chrono::steady_clock::now();
+  const roam::StepReport& report = walker->step(input, seconds);
+  nanoseconds += nanoseconds_since(begin);
+  ++steps;
+  if (report.has(roam::EventKind::jumped)) jump_left = 0.0;
+  moved |= !report.corners.empty();
+  soft.follow(*walker, before, seconds);
+  if (on_step) on_step(report, seconds);
+}
+
+void Manipulator::State::fly_pilot(double seconds) {
+  owed += seconds;
+  for (int count = 0; count < pilot_limit && pilot && walker && owed > least_owed; ++count) {
+    const double asked = std::min(owed, longest_step);
+    const SoftEye::Before before = SoftEye::before(*walker);
+    const Pilot now = pilot;  // it may end itself while it runs
+    const auto begin = std::chrono::steady_clock::now();
+    const roam::StepReport* report = now(*walker, asked);
+    nanoseconds += nanoseconds_since(begin);
+    if (!report) {
+      pilot = nullptr;
+      break;
+    }
+    ++steps;
+    moved = true;
+    at_computed_home = false;
+    const double simulated = report->elapsed > 0.0 ? report->elapsed : asked;
+    owed -= simulated;
+    soft.follow(*walker, before, simulated);
+    if (on_step) on_step(*report, simulated);
+  }
+  if (!pilot) owed = 0.0;
+}
+
+roam::Vec3 Manipulator::State::wish(const HeldCommands& held) const {
+  const auto axis = [](bool plus, bool minus) { return static_cast<double>(plus) - static_cast<double>(minus); };
+  const double pitch = mode == roam::Mode::walk ? 0.0 : pose.pitch;
+  const roam::Vec3 direction = axis(held.forward, held.back) * forward(pose.yaw, pitch) +
+                               axis(held.right, held.left) * right(pose.yaw) +
+                               roam::Vec3(0.0, 0.0, axis(held.up, held.down));
+  const double factor = held.slow ? slow_factor : 1.0;
+  return roam::wish_velocity(settings, direction, held.fast) * factor;
+}
+
+bool Manipulator::State::restless() const {
+  if (build) return true;
+  if (!walker || stuck) return false;
+  return moved || keyboard.held().move() || journey.under_way() || pilot || soft.moving() || jump_left > 0.0 ||
+         walker->report().waiting;
+}
+
+}  // namespace osgRoam

@@ -1,0 +1,87 @@
+#include "osgroam/places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+namespace osgRoam {
+namespace {
+
+/// Each shell of places to try is this much farther out than the one before: no opening as wide as a third of its
+/// distance is missed by much, and a mountain is left in some ten shells.
+constexpr double growth = 1.25;
+
+/// Directions that are tried in each shell: evenly spread on a sphere by the golden angle.
+constexpr int directions = 64;
+
+/// Metres that a body must be clear of everything to be put down.
+constexpr double least_gap = 1e-3;
+
+/// Places along each side of the space that are tried for standing.
+constexpr int columns = 15;
+
+/// No ray is longer: Space::sweep's own limit, metres.
+constexpr double ray_limit = 1e6;
+
+roam::Vec3 direction(int i) {
+  const double z = 1.0 - (2.0 * i + 1.0) / directions, level = std::sqrt(1.0 - z * z);
+  const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+  return {level * std::cos(turn), level * std::sin(turn), z};
+}
+
+bool fits(const roam::Space& space, const roam::Body& body, const roam::Vec3& centre) {
+  return space.clearance(body, centre, 2.0 * least_gap).distance >= least_gap;
+}
+
+}  // namespace
+
+void place_safely(roam::Walker& walker, const roam::Vec3& centre) {
+  const roam::StepReport& report = walker.place(centre);
+  if (!report.held || report.waiting || walker.mode() == roam::Mode::ghost) return;
+  const roam::Space& space = walker.space();
+  const roam::WalkerSettings& s = walker.settings();
+  const roam::Body body = roam::Body::capsule(s.radius, s.height);
+  const roam::Box bounds = space.bounds();
+  const double enough = bounds.empty() ? 0.0 : glm::length(bounds.size()) + s.height;
+  for (double distance = 0.5 * s.height; distance < growth * enough; distance *= growth) {
+    for (int i = 0; i < directions; ++i) {
+      const roam::Vec3 candidate = centre + distance * direction(i);
+      if (!fits(space, body, candidate)) continue;
+      if (!walker.place(candidate).held) return;
+    }
+  }
+  walker.place(centre);
+}
+
+std::optional<roam::Vec3> standing_place(const roam::Space& space, const roam::WalkerSettings& s) {
+  const roam::Box bounds = space.bounds();
+  if (bounds.empty()) return std::nullopt;
+  std::vector<roam::Vec3> tops;
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const double u = (i + 0.5) / columns, v = (j + 0.5) / columns;
+      tops.emplace_back(bounds.lower.x + u * bounds.size().x, bounds.lower.y + v * bounds.size().y,
+                        bounds.upper.z + 1.0);
+    }
+  }
+  const roam::Vec3 middle = bounds.center();
+  const auto off = [&](const roam::Vec3& p) { return std::hypot(p.x - middle.x, p.y - middle.y); };
+  std::stable_sort(tops.begin(), tops.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+
+  const double down = std::min(bounds.size().z + 2.0, ray_limit);
+  const double flat = std::cos(s.slope_degrees * (std::numbers::pi / 180.0));
+  const roam::Body body = roam::Body::capsule(s.radius, s.height);
+  for (const roam::Vec3& top : tops) {
+    const roam::Impact floor = space.ray(top, {0.0, 0.0, -down});
+    if (!floor.hit || floor.unknown || floor.normal.z < flat) continue;
+    // On a slope a round body touches beside its lowest point, and so stands higher.
+    const double lift = s.radius * (1.0 / floor.normal.z - 1.0) + 0.5 * s.height + 2.0 * least_gap;
+    const roam::Vec3 centre = floor.point + roam::Vec3(0.0, 0.0, lift);
+    if (fits(space, body, centre)) return centre;
+  }
+  return std::nullopt;
+}
+
+}  // namespace osgRoam

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The eye of a body that climbs stairs: it follows the body's steps softly, and stays where the body keeps walls away.
+
+#include "roam/walker.h"
+
+namespace osgRoam {
+
+/// Height of the eye above the body's centre, metres: as the settings say, but at least a quarter of the radius inside
+/// the body's surface.
+[[nodiscard]] double eye_height(const roam::WalkerSettings& settings, double body_height);
+
+/// The distance, metres, that no triangle comes nearer to the eye at eye_height() than, standing or crouched.
+[[nodiscard]] double least_eye_distance(const roam::WalkerSettings& settings);
+
+class SoftEye {
+ public:
+  /// The eye as it is before a step.
+  struct Before {
+    double z = 0.0;
+    double height = 0.0;  ///< of the body
+    bool grounded = false;
+  };
+
+  void reset() { lag_ = 0.0; }
+  [[nodiscard]] static Before before(const roam::Walker& walker);
+  /// After each step, of `seconds`.
+  void follow(const roam::Walker& walker, const Before& before, double seconds);
+  /// After the steps of a frame: keeps the eye where least_eye_distance() holds.
+  void keep_free(const roam::Walker& walker);
+  [[nodiscard]] roam::Vec3 eye(const roam::Walker& walker) const;
+  [[nodiscard]] bool moving() const { return lag_ != 0.0; }
+
+ private:
+  double lag_ = 0.0;  ///< metres that the eye is above where it belongs
+};
+
+}  // namespace osgRoam
