@@ -53,6 +53,7 @@ class Hud {
   /// A bar below the message, in [0, 1]; negative: none. For loading.
   void set_progress(double share);
   void set_help(std::vector<HelpLine> lines);
+  /// The help takes the place of the status and the crosshair; the message stays.
   void show_help(bool shown);
   [[nodiscard]] bool help_shown() const;
   void set_detail(Detail detail);
@@ -66,7 +67,7 @@ class Hud {
  private:
   class Panels;
   osg::ref_ptr<Panels> panels_;
-  osg::ref_ptr<osg::Camera> camera_;
+  osg::ref_ptr<osg::Group> parent_, group_;
 };
 
 }  // namespace roam::graphics

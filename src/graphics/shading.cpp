@@ -38,10 +38,10 @@ uniform mat4 osg_ViewMatrix;
 uniform sampler2D roam_picture;
 
 const vec3 sun = vec3(0.48, -0.36, 0.80);
-const vec3 ambient = vec3(0.32, 0.33, 0.35);
-const vec3 sky = vec3(0.19, 0.20, 0.22);
-const vec3 sunlight = vec3(0.20, 0.19, 0.17);
-const vec3 lamp = vec3(0.30, 0.29, 0.27);
+const vec3 ambient = vec3(0.245, 0.26, 0.29);
+const vec3 sky = vec3(0.15, 0.16, 0.18);
+const vec3 sunlight = vec3(0.36, 0.34, 0.31);
+const vec3 lamp = vec3(0.32, 0.30, 0.255);
 const float lamp_reach = 14.0;
 
 const vec3 haze = vec3(0.63, 0.67, 0.71);
@@ -52,7 +52,8 @@ vec3 lit(vec3 normal, vec3 view, float distance) {
   vec3 up = osg_ViewMatrix[2].xyz;
   vec3 to_sun = mat3(osg_ViewMatrix) * sun;
   float fall_off = 1.0 / (1.0 + distance * distance / (lamp_reach * lamp_reach));
-  return ambient + sky * (0.5 + 0.5 * dot(normal, up)) + sunlight * (0.5 + 0.5 * dot(normal, to_sun)) +
+  float towards_sun = 0.5 + 0.5 * dot(normal, to_sun);
+  return ambient + sky * (0.5 + 0.5 * dot(normal, up)) + sunlight * towards_sun * towards_sun +
          lamp * dot(normal, view) * fall_off;
 }
 
@@ -96,7 +97,7 @@ varying vec3 roam_direction;
 uniform mat4 osg_ViewMatrix;
 const vec3 zenith = vec3(0.30, 0.38, 0.48);
 const vec3 horizon = vec3(0.63, 0.67, 0.71);
-const vec3 edge = vec3(0.44, 0.45, 0.46);
+const vec3 edge = vec3(0.53, 0.55, 0.56);
 const vec3 nadir = vec3(0.23, 0.23, 0.24);
 void main() {
   float height = dot(normalize(roam_direction), osg_ViewMatrix[2].xyz);

@@ -1,0 +1,163 @@
+#include "graphics/hud.h"
+
+#include <algorithm>
+#include <optional>
+#include <osg/BlendFunc>
+#include <osg/Camera>
+#include <osg/NodeCallback>
+
+#include "graphics/hud_panels.h"
+
+namespace roam::graphics {
+
+/// What is to be shown, and the nodes that show it. As an update callback it makes them agree before each frame.
+class Hud::Panels : public osg::NodeCallback {
+ public:
+  explicit Panels(osg::ref_ptr<osg::Camera> picture) : picture_(std::move(picture)) {}
+
+  std::vector<StatusLine> status;
+  std::string message;
+  Tone tone = Tone::info;
+  std::optional<double> progress;
+  std::vector<HelpLine> help;
+  bool help_shown = false;
+  Detail detail = Detail::full;
+  std::size_t minimal_lines = 1;
+  bool crosshair = true;
+  bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
+
+  /// The nodes, from the lowest to the uppermost.
+  void add_to(osg::Group& group) {
+    for (osg::Node* node : {static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
+                            static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(help_.get())}) {
+      group.addChild(node);
+    }
+  }
+
+  void change_all() { status_changed = message_changed = help_changed = crosshair_changed = true; }
+
+  [[nodiscard]] std::vector<StatusLine> status_shown() const {
+    if (help_shown) return {};  // it stands there itself
+    std::vector<StatusLine> shown = status;
+    if (detail == Detail::minimal) shown.resize(std::min(shown.size(), minimal_lines));
+    return shown;
+  }
+
+  void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+    const osg::Viewport& viewport = *picture_->getViewport();
+    const Page page = Page::of(static_cast<float>(viewport.width()), static_cast<float>(viewport.height()));
+    if (page != page_) change_all();
+    page_ = page;
+    if (detail != Detail::off) lay_out();
+    traverse(node, visitor);
+  }
+
+ private:
+  static void show_only(osg::Group& group, const osg::ref_ptr<osg::Node>& node) {
+    group.removeChildren(0, group.getNumChildren());
+    if (node) group.addChild(node);
+  }
+
+  void lay_out() {
+    osg::StateSet* plates = plates_.get();
+    if (status_changed) status_panel_.lay_out(page_, status_shown());
+    if (message_changed) {
+      const bool any = !message.empty() || progress;
+      show_only(*message_, any ? make_message(page_, message, tone, progress, plates) : nullptr);
+    }
+    if (help_changed) show_only(*help_, help_shown ? make_help(page_, help, plates) : nullptr);
+    if (crosshair_changed) show_only(*crosshair_, crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr);
+    status_changed = message_changed = help_changed = crosshair_changed = false;
+  }
+
+  osg::ref_ptr<osg::Camera> picture_;
+  Page page_;
+  osg::ref_ptr<osg::StateSet> plates_ = plate_state();
+  StatusPanel status_panel_{plates_};
+  osg::ref_ptr<osg::Group> message_ = new osg::Group, help_ = new osg::Group, crosshair_ = new osg::Group;
+};
+
+Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
+  group_->setName("head-up display");
+  osg::StateSet& state = *group_->getOrCreateStateSet();
+  // As they were added, whatever bins the texts would choose: panels before what stands on them.
+  state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  state.setAttributeAndModes(new osg::BlendFunc);
+  state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+  panels_->add_to(*group_);
+  group_->addUpdateCallback(panels_);
+  parent_->addChild(group_);
+}
+
+Hud::~Hud() { parent_->removeChild(group_); }
+
+void Hud::set_status(std::vector<StatusLine> lines) {
+  if (lines == panels_->status) return;
+  panels_->status = std::move(lines);
+  panels_->status_changed = true;
+}
+
+void Hud::set_message(std::string text, Tone tone) {
+  if (text == panels_->message && tone == panels_->tone) return;
+  panels_->message = std::move(text);
+  panels_->tone = tone;
+  panels_->message_changed = true;
+}
+
+void Hud::set_progress(double share) {
+  const std::optional<double> progress = share < 0 ? std::nullopt : std::optional(share);
+  if (progress == panels_->progress) return;
+  panels_->progress = progress;
+  panels_->message_changed = true;
+}
+
+void Hud::set_help(std::vector<HelpLine> lines) {
+  if (lines == panels_->help) return;
+  panels_->help = std::move(lines);
+  panels_->help_changed = true;
+}
+
+void Hud::show_help(bool shown) {
+  if (shown == panels_->help_shown) return;
+  panels_->help_shown = shown;
+  panels_->change_all();
+}
+
+bool Hud::help_shown() const { return panels_->help_shown; }
+
+void Hud::set_detail(Detail detail) {
+  if (detail == panels_->detail) return;
+  panels_->detail = detail;
+  panels_->change_all();
+  group_->setNodeMask(detail == Detail::off ? 0u : ~0u);
+}
+
+Detail Hud::detail() const { return panels_->detail; }
+
+void Hud::set_minimal_lines(std::size_t lines) {
+  if (lines == panels_->minimal_lines) return;
+  panels_->minimal_lines = lines;
+  panels_->status_changed = true;
+}
+
+void Hud::set_crosshair(bool shown) {
+  if (shown == panels_->crosshair) return;
+  panels_->crosshair = shown;
+  panels_->crosshair_changed = true;
+}
+
+std::string Hud::text() const {
+  std::string all;
+  if (panels_->detail == Detail::off) return all;
+  for (const StatusLine& line : panels_->status_shown()) {
+    all += line.label.empty() ? line.value : line.label + ": " + line.value;
+    all += '\n';
+  }
+  if (!panels_->message.empty()) all += panels_->message + '\n';
+  if (panels_->help_shown) {
+    for (const auto& [key, deed] : panels_->help) all += (deed.empty() ? key : key + ": " + deed) + '\n';
+  }
+  return all;
+}
+
+}  // namespace roam::graphics

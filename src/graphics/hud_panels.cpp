@@ -1,0 +1,163 @@
+#include "graphics/hud_panels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roam::graphics {
+namespace {
+
+// On the darkest and on the lightest picture the panel stays so dark that the text's contrast is above 7 : 1, which
+// the Web Content Accessibility Guidelines ask for in their strictest level.
+const osg::Vec4 panel_color(0.055f, 0.065f, 0.08f, 0.80f);
+const osg::Vec4 text_color(0.96f, 0.97f, 0.98f, 1.0f);
+const osg::Vec4 label_color(0.72f, 0.79f, 0.86f, 1.0f);
+const osg::Vec4 warning_color(1.0f, 0.78f, 0.30f, 1.0f);
+const osg::Vec4 accent_color(0.52f, 0.80f, 1.0f, 1.0f);
+const osg::Vec4 groove_color(0.96f, 0.97f, 0.98f, 0.18f);
+const osg::Vec4 rim_color(0.0f, 0.0f, 0.0f, 0.55f);
+
+const osg::Vec4& color_of(Tone tone) { return tone == Tone::warning ? warning_color : text_color; }
+
+osg::ref_ptr<osg::Geometry> plate(osg::StateSet* plates, const Rectangle& where, float radius, const osg::Vec4& color) {
+  osg::ref_ptr<osg::Geometry> made = make_plate(where, radius, color);
+  made->setStateSet(plates);
+  return made;
+}
+
+float up_to(float value, float step) { return std::ceil(value / step) * step; }
+
+}  // namespace
+
+Page Page::of(float width, float height) {
+  // 12 pixels at 640 x 360, 15 at 1280 x 720, 19 at 1920 x 1080, 33 at 3840 x 2160: the same share of a large window,
+  // and a little more of a small one. A narrow window counts as one of 16 : 9.
+  const float effective = std::min(height, width * 9.0f / 16.0f);
+  Page page;
+  page.width = width;
+  page.height = height;
+  page.letter = std::max(9, static_cast<int>(std::lround(6.0f + 0.0125f * effective)));
+  page.letter = std::max(page.letter, effective >= 350.0f ? 12 : 9);
+  page.margin = static_cast<float>(page.letter);
+  page.line = std::round(1.45f * static_cast<float>(page.letter));
+  return page;
+}
+
+void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines) {
+  std::vector<std::string> labels;
+  for (const StatusLine& line : lines) labels.push_back(line.label);
+  if (page != page_ || labels != labels_) {
+    page_ = page;
+    labels_ = labels;
+    width_ = 0;
+    rebuild(page, lines);
+  }
+  if (rows_.empty()) return;
+  const float most = 0.62f * page.width - value_left_;
+  float widest = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Look look{page.letter, false, color_of(lines[i].tone)};
+    change_text(*rows_[i].value, shorten(lines[i].value, look, most), look.color);
+    const osg::BoundingBox& box = rows_[i].value->getBoundingBox();
+    if (box.valid()) widest = std::max(widest, box.xMax());
+  }
+  // In steps, and slow to shrink: a panel that follows each digit is restless.
+  const float step = 3.0f * static_cast<float>(page.letter);
+  const float wished = up_to(widest - page.margin, step);
+  if (wished > width_ || wished + 2 * step < width_) place(page, wished);
+}
+
+void StatusPanel::rebuild(const Page& page, const std::vector<StatusLine>& lines) {
+  group_->removeChildren(0, group_->getNumChildren());
+  rows_.clear();
+  plate_ = nullptr;
+  if (lines.empty()) return;
+  plate_ = plate(plates_.get(), {}, 0, panel_color);
+  group_->addChild(plate_);
+
+  const Look label_look{page.letter, false, label_color};
+  float widest = 0;
+  for (const StatusLine& line : lines) widest = std::max(widest, width_of(line.label, label_look));
+  const float left = 1.8f * page.margin;
+  value_left_ = std::round(left + (widest > 0 ? widest + page.margin : 0));
+  float y = page.height - 1.55f * page.margin - static_cast<float>(page.letter);
+  for (const StatusLine& line : lines) {
+    Row row;
+    row.label = make_text(line.label, label_look, std::round(left), std::round(y));
+    const float x = line.label.empty() ? left : value_left_;
+    row.value = make_text(line.value, {page.letter, false, color_of(line.tone)}, std::round(x), std::round(y));
+    group_->addChild(row.label);
+    group_->addChild(row.value);
+    rows_.push_back(row);
+    y -= page.line;
+  }
+}
+
+void StatusPanel::place(const Page& page, float width) {
+  width_ = width;
+  const float height = page.line * static_cast<float>(rows_.size()) + 0.8f * page.margin;
+  move_plate(*plate_, {page.margin, page.height - page.margin - height, width + 0.8f * page.margin, height},
+             0.5f * page.margin);
+}
+
+osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
+                                     std::optional<double> progress, osg::StateSet* plates) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, color_of(tone)};
+  const float line_height = std::round(1.45f * static_cast<float>(look.size));
+  const float pad = page.margin;
+  const float bar = std::max(3.0f, std::round(0.3f * page.margin));
+
+  std::vector<std::string> lines = break_lines(text, look, 0.78f * page.width);
+  // Never over the middle, where one looks.
+  const auto most = static_cast<std::size_t>(std::max(1.0f, 0.3f * page.height / line_height));
+  if (lines.size() > most) lines.resize(most);
+  float widest = progress ? 16.0f * page.margin : 0.0f;
+  for (std::string& line : lines) {
+    line = shorten(line, look, 0.9f * page.width);
+    widest = std::max(widest, width_of(line, look));
+  }
+  const float text_height = line_height * static_cast<float>(lines.size());
+  const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
+  Rectangle panel;
+  panel.width = std::round(widest + 2 * pad);
+  panel.height = std::round(text_height + bar_height + pad);
+  panel.x = std::round(0.5f * (page.width - panel.width));
+  panel.y = std::round(0.07f * page.height);
+  group->addChild(plate(plates, panel, 0.5f * pad, panel_color));
+  if (tone == Tone::warning) {
+    group->addChild(plate(plates, {panel.x, panel.y, bar, panel.height}, 0.5f * bar, warning_color));
+  }
+
+  float y = panel.y + panel.height - 0.5f * pad - std::round(1.08f * static_cast<float>(look.size));
+  for (const std::string& line : lines) {
+    const float x = std::round(0.5f * (page.width - width_of(line, look)));
+    group->addChild(make_text(line, look, x, std::round(y)));
+    y -= line_height;
+  }
+  if (progress) {
+    const float share = static_cast<float>(std::clamp(*progress, 0.0, 1.0));
+    Rectangle groove{panel.x + pad, panel.y + std::round(0.5f * pad), panel.width - 2 * pad, bar};
+    group->addChild(plate(plates, groove, bar, groove_color));
+    groove.width *= share;
+    if (groove.width >= 1) group->addChild(plate(plates, groove, bar, accent_color));
+  }
+  return group;
+}
+
+osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const float arm = std::max(5.0f, std::round(0.45f * static_cast<float>(page.letter)));
+  const float thick = std::max(1.0f, std::round(static_cast<float>(page.letter) / 12.0f));
+  const float x = std::floor(0.5f * page.width), y = std::floor(0.5f * page.height);
+  for (const float rim : {1.0f, 0.0f}) {
+    const osg::Vec4& color = rim > 0 ? rim_color : text_color;
+    const float half = 0.5f * thick + rim, length = arm + rim;
+    // The upright stroke in two pieces, so that what is not opaque is nowhere drawn twice.
+    group->addChild(plate(plates, {x - length, y - half, 2 * length, 2 * half}, 0, color));
+    group->addChild(plate(plates, {x - half, y + half, 2 * half, length - half}, 0, color));
+    group->addChild(plate(plates, {x - half, y - length, 2 * half, length - half}, 0, color));
+  }
+  return group;
+}
+
+}  // namespace roam::graphics

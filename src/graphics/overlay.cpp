@@ -1,0 +1,224 @@
+#include "graphics/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <osg/BlendFunc>
+#include <osg/Depth>
+#include <osg/Geometry>
+#include <osg/LineWidth>
+#include <osg/Program>
+#include <osg/StateSet>
+#include <string>
+
+namespace roam::graphics {
+namespace {
+
+const osg::Vec4 body_color(0.35f, 0.80f, 1.0f, 0.9f);
+const osg::Vec4 held_color(1.0f, 0.66f, 0.20f, 0.95f);
+const osg::Vec4 contact_color(1.0f, 0.25f, 0.30f, 1.0f);
+const osg::Vec4 triangle_color(1.0f, 0.72f, 0.20f, 0.95f);
+const osg::Vec4 face_color(1.0f, 0.72f, 0.20f, 0.28f);
+const osg::Vec4 trail_color(0.25f, 0.95f, 0.60f, 0.95f);
+constexpr double normal_length = 0.3, cross_size = 0.05;  // metres
+constexpr int circle_corners = 48;
+constexpr double pi = 3.14159265358979323846;
+
+constexpr const char* vertex_source = R"(
+varying vec4 roam_color;
+void main() {
+  vec4 eye = gl_ModelViewMatrix * gl_Vertex;
+  // A thousandth nearer: what lies on a wall is seen on it.
+  eye.xyz *= 0.999;
+  roam_color = gl_Color;
+  gl_Position = roam_clip(eye);
+}
+)";
+
+constexpr const char* fragment_source = R"(#version 120
+varying vec4 roam_color;
+uniform float roam_strength;
+void main() { gl_FragColor = vec4(roam_color.rgb, roam_color.a * roam_strength); }
+)";
+
+osg::Vec3 to_osg(const Vec3& p) { return osg::Vec3d(p.x, p.y, p.z); }
+
+/// Points of one primitive type, each with a colour.
+class Strokes {
+ public:
+  explicit Strokes(GLenum type) : type_(type) {}
+  void add(const Vec3& point, const osg::Vec4& color) {
+    points_->push_back(to_osg(point));
+    colors_->push_back(color);
+  }
+  void line(const Vec3& a, const Vec3& b, const osg::Vec4& color) {
+    add(a, color);
+    add(b, color);
+  }
+  /// Part of a circle about `centre`: centre + cos t u + sin t v.
+  void arc(const Vec3& centre, const Vec3& u, const Vec3& v, double from, double to, const osg::Vec4& color) {
+    const int pieces = std::max(1, static_cast<int>(std::lround(circle_corners * (to - from) / (2 * pi))));
+    const auto at = [&](int i) {
+      const double t = from + (to - from) * i / pieces;
+      return centre + std::cos(t) * u + std::sin(t) * v;
+    };
+    for (int i = 0; i < pieces; ++i) line(at(i), at(i + 1), color);
+  }
+  void add_to(osg::Group& group) const {
+    if (points_->empty()) return;
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(points_);
+    geometry->setColorArray(colors_, osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(new osg::DrawArrays(type_, 0, static_cast<GLsizei>(points_->size())));
+    group.addChild(geometry);
+  }
+
+ private:
+  GLenum type_;
+  osg::ref_ptr<osg::Vec3Array> points_ = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec4Array> colors_ = new osg::Vec4Array;
+};
+
+void draw_body(const BodyMark& body, Strokes& lines) {
+  const osg::Vec4& color = body.held ? held_color : body_color;
+  const double r = body.radius;
+  const double half = std::max(0.0, 0.5 * body.height - r);
+  const Vec3 x(r, 0, 0), y(0, r, 0), z(0, 0, r);
+  const Vec3 top = body.centre + Vec3(0, 0, half), bottom = body.centre - Vec3(0, 0, half);
+  lines.arc(top, x, y, 0, 2 * pi, color);
+  if (half > 0) lines.arc(bottom, x, y, 0, 2 * pi, color);
+  for (const double height : {0.5, 0.866}) {  // 30 and 60 degrees of latitude
+    const double share = std::sqrt(1 - height * height);
+    lines.arc(top + height * z, share * x, share * y, 0, 2 * pi, color);
+    lines.arc(bottom - height * z, share * x, share * y, 0, 2 * pi, color);
+  }
+  constexpr int meridians = 8;
+  for (int i = 0; i < meridians; ++i) {
+    const double t = 2 * pi * i / meridians;
+    const Vec3 out = std::cos(t) * x + std::sin(t) * y;
+    lines.arc(top, out, z, 0, 0.5 * pi, color);
+    lines.arc(bottom, out, -z, 0, 0.5 * pi, color);
+    if (half > 0) lines.line(top + out, bottom + out, color);
+  }
+}
+
+void draw_contact(const ContactMark& contact, Strokes& lines) {
+  lines.line(contact.point, contact.point + normal_length * contact.normal, contact_color);
+  for (int k = 0; k < 3; ++k) {
+    Vec3 arm(0.0);
+    arm[k] = cross_size;
+    lines.line(contact.point - arm, contact.point + arm, contact_color);
+  }
+}
+
+void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& faces) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    lines.line(corners[k], corners[(k + 1) % 3], triangle_color);
+    faces.add(corners[k], face_color);
+  }
+}
+
+/// `depth_test` off: what is behind walls, faintly.
+osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
+  osg::ref_ptr<osg::Group> pass = new osg::Group;
+  osg::StateSet& state = *pass->getOrCreateStateSet();
+  state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
+  // After everything that is transparent. Depth is compared and not written, by the function of the space around.
+  state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
+  if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+  pass->addChild(content);
+  return pass;
+}
+
+void make_state(osg::StateSet& state) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName("roam overlay");
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, std::string(depth_glsl()) + vertex_source));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment_source));
+  state.setAttribute(program);
+  state.setAttributeAndModes(new osg::BlendFunc);
+  state.setAttribute(new osg::LineWidth(2.0f));
+  state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
+}
+
+}  // namespace
+
+/// A line in pieces that are full, and one that grows.
+class Overlay::Trail : public osg::Group {
+ public:
+  void add(const Vec3& point) {
+    if (!points_) begin_piece();
+    if (points_->size() == piece_size) {
+      const osg::Vec3 last = points_->back();
+      begin_piece();
+      points_->push_back(last);
+    }
+    points_->push_back(to_osg(point));
+    // A line strip of one point is nothing; OpenGL takes it.
+    strip_->setCount(static_cast<GLsizei>(points_->size()));
+    points_->dirty();
+    geometry_->dirtyBound();
+  }
+  void end_line() {
+    points_ = nullptr;
+    strip_ = nullptr;
+    geometry_ = nullptr;
+  }
+  void clear() {
+    end_line();
+    removeChildren(0, getNumChildren());
+  }
+
+ private:
+  static constexpr std::size_t piece_size = 1024;
+  void begin_piece() {
+    geometry_ = new osg::Geometry;
+    geometry_->setDataVariance(osg::Object::DYNAMIC);
+    geometry_->setUseDisplayList(false);
+    geometry_->setUseVertexBufferObjects(true);
+    points_ = new osg::Vec3Array;
+    points_->reserve(piece_size);
+    geometry_->setVertexArray(points_);
+    osg::ref_ptr<osg::Vec4Array> color = new osg::Vec4Array(1);
+    (*color)[0] = trail_color;
+    geometry_->setColorArray(color, osg::Array::BIND_OVERALL);
+    strip_ = new osg::DrawArrays(GL_LINE_STRIP, 0, 0);
+    geometry_->addPrimitiveSet(strip_);
+    addChild(geometry_);
+  }
+
+  osg::ref_ptr<osg::Geometry> geometry_;
+  osg::ref_ptr<osg::Vec3Array> points_;
+  osg::ref_ptr<osg::DrawArrays> strip_;
+};
+
+Overlay::Overlay(Frame& frame)
+    : parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group), trail_(new Trail) {
+  group_->setName("overlay");
+  osg::ref_ptr<osg::Group> content = new osg::Group;
+  content->addChild(marks_);
+  content->addChild(trail_);
+  make_state(*group_->getOrCreateStateSet());
+  group_->addChild(make_pass(false, content));
+  group_->addChild(make_pass(true, content));
+  parent_->addChild(group_);
+}
+
+Overlay::~Overlay() { parent_->removeChild(group_); }
+
+void Overlay::set_marks(const Marks& marks) {
+  Strokes lines(GL_LINES), faces(GL_TRIANGLES);
+  if (marks.body) draw_body(*marks.body, lines);
+  for (const ContactMark& contact : marks.contacts) draw_contact(contact, lines);
+  for (const std::array<Vec3, 3>& triangle : marks.triangles) draw_triangle(triangle, lines, faces);
+  marks_->removeChildren(0, marks_->getNumChildren());
+  faces.add_to(*marks_);
+  lines.add_to(*marks_);
+}
+
+void Overlay::add_to_trail(const Vec3& point) { trail_->add(point); }
+void Overlay::break_trail() { trail_->end_line(); }
+void Overlay::clear_trail() { trail_->clear(); }
+
+}  // namespace roam::graphics

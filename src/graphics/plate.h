@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Rectangles on the picture, with round corners and smooth edges.
+
+#include <osg/Geometry>
+#include <osg/StateSet>
+#include <osg/Vec4>
+#include <osg/ref_ptr>
+
+namespace roam::graphics {
+
+/// A rectangle in pixels from the lower left corner of the picture.
+struct Rectangle {
+  float x = 0, y = 0, width = 0, height = 0;
+};
+
+/// A filled rectangle; `radius` of its corners in pixels. Drawn below plate_state(), in any threading model.
+[[nodiscard]] osg::ref_ptr<osg::Geometry> make_plate(const Rectangle& where, float radius, const osg::Vec4& color);
+/// To be called between frames.
+void move_plate(osg::Geometry& plate, const Rectangle& where, float radius);
+
+/// The state that plates need: their program.
+[[nodiscard]] osg::ref_ptr<osg::StateSet> plate_state();
+
+}  // namespace roam::graphics
