@@ -1,0 +1,289 @@
+// What is to be seen is what is walked on: triangles, places, pages, errors. Looks are in import_display_looks.cpp.
+
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <osg/ComputeBoundsVisitor>
+#include <osg/PagedLOD>
+#include <string>
+#include <vector>
+
+#include "import/stream.h"
+#include "shown_scene.h"
+
+namespace roam::test {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+/// A scene of each family of readers, its geometry near (x, 0, 0).
+std::map<std::string, std::string> scenes_at(const std::string& x) {
+  const std::string obj = "v " + x + ".0123456 1 2\nv " + x + ".75 3 4\nv " + x + ".5 9 7.000001\nv " + x +
+                          ".25 0 1\no Wall\nf 1 2 3\ng Door\nf 1 2 3 4\n";
+  const std::string stl = "solid Wall\nfacet normal 0 0 1\nouter loop\nvertex " + x + ".0123456 1 2\nvertex " + x +
+                          ".75 3 4\nvertex " + x + ".5 9 7\nendloop\nendfacet\nendsolid Wall\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty "
+      "double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      x + ".0123456 1 2\n" + x + ".75 3 4\n" + x + ".5 9 7\n" + x + ".25 0 1\n4 0 1 2 3\n";
+  const std::string geode =
+      "Geode {\nUniqueID shared\nnum_drawables 1\nGeometry {\nPrimitives 2\n{\nDrawArrays TRIANGLE_STRIP 0 "
+      "4\nDrawElementsUByte QUADS 4 {\n3 2 1 0\n}\n}\nVertexArray Vec3dArray 4\n{\n0.0123456 0 0\n0 1 0\n0 0 1\n2 1 "
+      "3\n}\n}\n}\n";
+  const auto moved = [](const std::string& matrix, const std::string& child) {
+    return "MatrixTransform {\nMatrix {\n" + matrix + "\n}\nnum_children 1\n" + child + "}\n";
+  };
+  const std::string osg = "Group {\nnum_children 3\n" + moved("1 0 0 0\n0 1 0 0\n0 0 1 0\n" + x + " 0 0 1", geode) +
+                          moved("0 2 0 0\n-2 0 0 0\n0 0 -2 0\n" + x + ".5 7 8 1", "Use shared\n") +
+                          "Switch {\nNewChildDefaultValue TRUE\nValueList {\n0\n}\nnum_children 1\nUse shared\n}\n}\n";
+  const std::string off = "OFF\n4 1 0\n" + x + " 1 2\n" + x + " 3 4\n" + x + " 9 7\n" + x + " 0 1\n4 0 1 2 3\n";
+  return {{"scene.obj", obj}, {"scene.stl", stl}, {"scene.ply", ply}, {"scene.osg", osg}, {"scene.off", off}};
+}
+
+TEST(ImportDisplay, ShowsTheTrianglesThatAreWalkedOn) {
+  const TemporaryFolder folder;
+  for (const auto& [name, content] : scenes_at("12")) {
+    const auto file = folder.write(name, content);
+    for (const ImportOptions& options :
+         {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}, ImportOptions{.up = UpAxis::x}}) {
+      const Scene scene = import_scene(file, options);
+      const Shown shown = show({file}, options);
+      EXPECT_GT(shown.triangles.size(), 0u) << name;
+      EXPECT_EQ(not_shown(scene, shown, 2e-6), 0u) << name;
+      EXPECT_EQ(shown.report.triangles, scene.report.triangles) << name;
+      EXPECT_EQ(shown.report.origin, Vec3(0.0)) << name;
+      const Box box = bounds_of(scene);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(shown.report.bounds.lower[k], box.lower[k], 1e-5) << name;
+        EXPECT_NEAR(shown.report.bounds.upper[k], box.upper[k], 1e-5) << name;
+      }
+    }
+  }
+}
+
+TEST(ImportDisplay, KeepsMicrometresFarFromZero) {
+  const TemporaryFolder folder;
+  for (const auto& [name, content] : scenes_at("6400000")) {
+    const auto file = folder.write(name, content);
+    const Shown shown = show({file});
+    EXPECT_EQ(not_shown(import_scene(file), shown, 2e-5), 0u) << name;
+    EXPECT_EQ(shown.report.origin, Vec3(6400000, 0, 0)) << name;
+    for (const auto& geometry : shown.geometries) {
+      EXPECT_LT(geometry->getBoundingBox().radius(), 1000.0f) << name;
+      EXPECT_LT(geometry->getBoundingBox().center().length(), 1000.0f) << name;
+    }
+  }
+}
+
+TEST(ImportDisplay, PutsAllPathsIntoOneFrame) {
+  const TemporaryFolder folder;
+  const auto near = folder.write("near.obj", scenes_at("12")["scene.obj"]);
+  const auto far = folder.write("far.obj", scenes_at("6400000")["scene.obj"]);
+  for (const Paths& paths : {Paths{near, far}, Paths{far, near}}) {
+    const Shown shown = show(paths);
+    EXPECT_EQ(shown.report.origin, paths[0] == near ? Vec3(0.0) : Vec3(6400000, 0, 0));
+    for (const DisplayPart& part : shown.parts) EXPECT_EQ(part.origin, shown.report.origin);
+    EXPECT_EQ(not_shown(import_scene(paths), shown, 2e-5), 0u);
+  }
+}
+
+TEST(ImportDisplay, LeavesOutWhatIsIgnoredOrDamaged) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.obj", scenes_at("1")["scene.obj"] + "v nan 0 0\no Broken\nf 1 2 5\n");
+  const ImportOptions options{.ignore = {"Door", "Window"}};
+  const Shown shown = show({file}, options);
+  EXPECT_EQ(shown.triangles.size(), 1u);
+  EXPECT_EQ(shown.report.import.ignored_triangles, 2u);
+  EXPECT_EQ(shown.report.import.bad_triangles, 1u);
+  EXPECT_EQ(shown.report.import.notes, import_scene(file, options).report.notes);
+}
+
+/// A bumpy square of n by n quads, each 1 m wide, as binary PLY.
+std::string plane(std::uint32_t n) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string((n + 1) * (n + 1)) +
+                     "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(n * n) +
+                     "\nproperty list uchar uint vertex_indices\nend_header\n";
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      for (const float c : {float(i), float(j), float((i * 7 + j * 3) % 5)}) text += bytes_of(c);
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t v = i * (n + 1) + j;
+      text += '\4';
+      for (const std::uint32_t corner : {v, v + 1, v + n + 2, v + n + 1}) text += bytes_of(corner);
+    }
+  }
+  return text;
+}
+
+TEST(ImportDisplay, CutsLargeGeometryIntoChunksAndParts) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("plane.ply", plane(600));
+  const Shown shown = show({file});
+  EXPECT_EQ(not_shown(import_scene(file), shown, 2e-5), 0u);
+  EXPECT_GE(shown.parts.size(), 3u);
+  EXPECT_LE(shown.geometries.size(), 200u);
+  for (const auto& geometry : shown.geometries) {
+    const osg::BoundingBox& box = geometry->getBoundingBox();
+    EXPECT_LE(geometry->getPrimitiveSet(0)->getNumIndices(), 3 * 16384u);
+    // A part is at worst a strip across the square, and its chunks are pieces of it.
+    EXPECT_LT((box.xMax() - box.xMin()) * (box.yMax() - box.yMin()), 40000.0f);
+    EXPECT_TRUE(geometry->getUseVertexBufferObjects());
+    EXPECT_FALSE(geometry->getUseDisplayList());
+    EXPECT_TRUE(geometry->getColorArray()->getNormalize());
+  }
+}
+
+TEST(ImportDisplay, SaysTheSameErrorsAsImporting) {
+  const TemporaryFolder folder;
+  const Paths paths{folder.path() / "gone.obj",
+                    folder.write("bad.obj", "v 1 2\n"),
+                    folder.write("bad.ply", "ply\nformat ascii 1.0\n"),
+                    folder.write("points.obj", "v 1 2 3\nv 2 3 4\np 1 2\n"),
+                    folder.write("bad.osgb", "garbage"),
+                    folder.write("bad.glb", "garbage"),
+                    folder.write("scene.las", "garbage"),
+                    folder.path()};
+  for (const auto& path : paths) {
+    EXPECT_NE(display_error(path), "") << path;
+    EXPECT_EQ(display_error(path), import_error(path)) << path;
+  }
+  const auto good = folder.write("good.obj", scenes_at("1")["scene.obj"]);
+  EXPECT_EQ(display_error(good, {.ignore = {"*"}}), import_error(good, {.ignore = {"*"}}));
+}
+
+TEST(ImportDisplay, EndsTheReaderWhenNobodyWantsMore) {
+  const TemporaryFolder folder;
+  const Paths paths{folder.write("plane.ply", plane(600))};
+  int parts = 0;
+  EXPECT_THROW(read_display(paths, {}, [&](DisplayPart&&) { return ++parts < 2; }), Cancelled);
+  EXPECT_EQ(parts, 2);
+  ImportOptions options;
+  options.progress = [](const ImportProgress&) { return false; };
+  EXPECT_THROW(read_display(paths, options, [](DisplayPart&&) { return true; }), Cancelled);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+/// A tile whose page is in another file.
+std::string paged_tile(const std::string& x, const std::string& page) {
+  return "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::PagedLOD {\n UniqueID 1\n RangeMode "
+         "PIXEL_SIZE_ON_SCREEN\n RangeList 2 {\n  0 100\n  100 1e+30\n }\n DatabasePath FALSE\n RangeDataList 2 {\n  "
+         "\"\"\n  \"" +
+         page +
+         "\"\n }\n PriorityList 2 {\n  0 1\n  0 1\n }\n Children 1 {\n  osg::Geode {\n UniqueID 5\n Drawables 1 {\n  "
+         "osg::Geometry {\n   UniqueID 2\n   PrimitiveSetList 1 {\n    osg::DrawArrays {\n     UniqueID 3\n     Mode "
+         "TRIANGLES\n     Count 3\n    }\n   }\n   VertexArray TRUE {\n    osg::Vec3Array {\n     UniqueID 4\n     "
+         "Binding BIND_PER_VERTEX\n     vector 3 {\n      " +
+         x + " 0 0\n      " + x + " 2 0\n      " + x + " 0 4\n     }\n    }\n   }\n  }\n }\n}\n }\n}\n";
+}
+
+struct FoundPages : osg::NodeVisitor {
+  FoundPages() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+  void apply(osg::PagedLOD& lod) override {
+    files.push_back(lod.getFileName(0));
+    const osg::Matrixd matrix = osg::computeLocalToWorld(getNodePath());
+    centers.push_back(lod.getCenter() * matrix);
+    zeros.push_back(osg::Vec3d(0, 0, 0) * matrix);
+    radii.push_back(lod.getRadius());
+    EXPECT_EQ(lod.getMinRange(0), 0.0f);
+    EXPECT_GT(lod.getMaxRange(0), 1e30f);
+  }
+  std::vector<std::string> files;
+  std::vector<osg::Vec3d> centers, zeros;
+  std::vector<float> radii;
+};
+
+TEST(ImportDisplay, HandsOnPagesUnread) {
+  const TemporaryFolder folder;
+  folder.write("a/Data/Tile_1/Tile_1.osgb", paged_tile("10", "fine.osgb"));
+  folder.write("a/Data/Tile_1/fine.osgb", paged_tile("10", ""));
+  folder.write("a/Data/Tile_2/Tile_2.osgb", paged_tile("20", "gone.osgb"));
+  folder.write("a/Data/Tile_3/Tile_3.osgb", "garbage");
+  const auto tiles = folder.path() / "a";
+  const Shown shown = show({tiles}, {.up = UpAxis::y, .ignore = {"Tree"}});
+  EXPECT_TRUE(shown.report.paged);
+  FoundPages pages;
+  for (const auto& root : shown.roots) root->accept(pages);
+  ASSERT_EQ(pages.files.size(), 1u);
+  EXPECT_EQ(pages.files[0], (tiles / "Data/Tile_1/Tile_1.osgb").string());
+  EXPECT_LT((pages.centers[0] - osg::Vec3d(10, -2, 1)).length(), 1e-5);
+  EXPECT_GE(pages.radii[0], std::sqrt(5.0f));
+  // The tile whose only page is missing is shown as it is, and the broken one is told.
+  ASSERT_EQ(shown.triangles.size(), 1u);
+  EXPECT_EQ(shown.triangles[0].corners, (Triangle{Vec3(20, 0, 0), Vec3(20, 0, 2), Vec3(20, -4, 0)}));
+  EXPECT_EQ(shown.report.import.missing_pages, 2u);
+  EXPECT_EQ(shown.report.bounds.lower, Vec3(10, -4, 0));
+  EXPECT_EQ(shown.report.bounds.upper, Vec3(20, 0, 2));
+  ASSERT_EQ(shown.report.notes.size(), 1u);
+  EXPECT_TRUE(contains(shown.report.notes[0], "in pages they are still to be seen"));
+
+  FoundPages of_file;
+  for (const auto& root : show({tiles / "Data/Tile_1/Tile_1.osgb"}).roots) root->accept(of_file);
+  EXPECT_EQ(of_file.files, pages.files);
+}
+
+TEST(ImportDisplay, PlacesPagedFoldersByTheirOrigins) {
+  const TemporaryFolder folder;
+  Paths paths;
+  for (const auto& [name, origin] : {std::pair("a", "500000,5000000,0"), std::pair("b", "500100,5000200,5")}) {
+    folder.write(std::string(name) + "/Data/Tile_1/Tile_1.osgb", paged_tile("30000", "fine.osgb"));
+    folder.write(std::string(name) + "/Data/Tile_1/fine.osgb", paged_tile("30000", ""));
+    folder.write(std::string(name) + "/metadata.xml", "<ModelMetadata><SRS>EPSG:32632</SRS><SRSOrigin>" +
+                                                          std::string(origin) + "</SRSOrigin></ModelMetadata>");
+    paths.push_back(folder.path() / name);
+  }
+  const Shown shown = show(paths);
+  EXPECT_EQ(shown.report.origin, Vec3(30000, 0, 0));
+  FoundPages pages;
+  for (const auto& root : shown.roots) root->accept(pages);
+  ASSERT_EQ(pages.zeros.size(), 2u);
+  EXPECT_EQ(pages.zeros[0], osg::Vec3d(-30000, 0, 0));
+  EXPECT_EQ(pages.zeros[1], osg::Vec3d(-29900, 200, 5));
+}
+
+TEST(ImportDisplay, RefusesADamagedStream) {
+  using namespace reader;
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.obj", scenes_at("1")["scene.obj"]);
+  const auto frame = [](std::uint32_t number, FrameKind kind, const PayloadWriter& payload) {
+    const FrameHeader header{frame_magic, kind, 0, number, static_cast<std::uint32_t>(payload.bytes().size())};
+    return bytes_of(header) + std::string(reinterpret_cast<const char*>(payload.bytes().data()), header.bytes);
+  };
+  const std::string hello = frame(0, FrameKind::hello, PayloadWriter().add(stream_version));
+  const auto error_of = [&](const std::string& stream) {
+    const auto data = folder.write("stream", stream);
+    ImportOptions options;
+    options.reader = folder.write_script("reader.sh", "cat '" + data.string() + "' >&3\n");
+    return display_error(file, options);
+  };
+  const PartHeader good{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 7, 0, 4};
+  PartHeader nowhere = good, empty = good, huge = good;
+  nowhere.lower[1] = std::nan("");
+  empty.bytes = 0;
+  huge.origin[2] = 1e300;
+  const PayloadWriter four = PayloadWriter().add(std::uint32_t{0});
+  Totals totals;
+  totals.triangles = 7;
+  const auto begin = [&](const PartHeader& header) {
+    return hello + frame(1, FrameKind::part, PayloadWriter().add(header));
+  };
+  const auto end = [&](std::uint32_t number) {
+    return frame(number, FrameKind::end, PayloadWriter().add(totals).add(std::uint32_t{0}));
+  };
+  EXPECT_EQ(error_of(begin(good) + frame(2, FrameKind::part_bytes, four) + end(3)), "");
+  EXPECT_TRUE(contains(error_of(begin(nowhere)), "a part without a place"));
+  EXPECT_TRUE(contains(error_of(begin(huge)), "a part without a place"));
+  EXPECT_TRUE(contains(error_of(begin(empty)), "a frame of broken length"));
+  EXPECT_TRUE(contains(error_of(begin(good) + end(2)), "a part that is not whole"));
+  EXPECT_TRUE(contains(error_of(hello + frame(1, FrameKind::part_bytes, four)), "bytes of no part"));
+  EXPECT_TRUE(
+      contains(error_of(hello + frame(1, FrameKind::object, PayloadWriter().add_text("Wall"))), "unknown kind"));
+  totals.triangles = 8;
+  EXPECT_TRUE(contains(error_of(begin(good) + frame(2, FrameKind::part_bytes, four) + end(3)), "totals"));
+}
+
+}  // namespace
+}  // namespace roam::test
