@@ -14,6 +14,7 @@ constexpr double title_size = 40.0;
 constexpr double heading_size = 28.0;
 constexpr double text_size = 23.0;
 constexpr double small_size = 20.0;
+constexpr std::ptrdiff_t most_named_falls = 3;
 constexpr double axes_width = 150.0;  ///< in the upper right corner
 constexpr Colour pale_ink{0.36, 0.39, 0.45};
 
@@ -70,6 +71,8 @@ class Composer {
     if (r.mode != Mode::ghost) {
       text += fmt::format("  ·  least clearance {:.3f} m from the axis, certified", r.result.least_clearance);
     }
+    const auto falls = count_falls();
+    if (falls > 1) text += fmt::format("  ·  fell {} times", falls);
     if (c_.survey.narrowest) text += "  ·  narrowest " + length_text(c_.survey.narrowest->width);
     return text;
   }
@@ -138,8 +141,14 @@ class Composer {
     y_ += map.frame.height();
   }
 
+  [[nodiscard]] std::ptrdiff_t count_falls() const {
+    return std::count_if(c_.marks.begin(), c_.marks.end(), [](const Mark& m) { return m.kind == MarkKind::fell; });
+  }
+
   [[nodiscard]] std::vector<std::string> full_label(std::size_t i) const {
     const Mark& m = c_.marks[i];
+    // A few falls are named, many speak for themselves.
+    if (m.kind == MarkKind::fell && count_falls() > most_named_falls) return {};
     std::vector<std::string> lines{m.name};
     for (std::size_t from = 0; from < m.note.size();) {
       const std::size_t end = std::min(m.note.find('\n', from), m.note.size());
@@ -218,7 +227,9 @@ class Composer {
     distance_axis(map);
     painter_.section("section ", map);
     painter_.label_marks("section ", map, false, [&](std::size_t i) {
-      return c_.frames.details.empty() ? std::vector<std::string>{c_.marks[i].name} : lettered(i);
+      auto lines = c_.frames.details.empty() ? full_label(i) : lettered(i);
+      if (!lines.empty()) lines.resize(1);
+      return lines;
     });
     y_ += f.height() + 42.0;
   }

@@ -117,15 +117,27 @@ void frame_details(Frames& frames, const Survey& survey, const std::vector<Mark>
   // The measure of the narrowest place should be seen whole, unless it is as good as open.
   if (survey.narrowest) size = std::clamp(survey.narrowest->width / detail_height * 1.2, size, 1.6 * size);
   if (2.0 * settings.radius * frames.plan.scale_x >= least_body) return;
-  // What says how it ended comes first, then what was tight, then the start.
-  std::vector<std::size_t> order;
-  for (const auto& kinds :
-       {std::vector{MarkKind::blocked, MarkKind::fell, MarkKind::end}, std::vector{MarkKind::narrowest},
-        std::vector{MarkKind::nearest}, std::vector{MarkKind::start}}) {
-    for (std::size_t i = marks.size(); i-- > 0;) {
-      if (std::find(kinds.begin(), kinds.end(), marks[i].kind) != kinds.end()) order.push_back(i);
+  // How it ended comes first, then what was tight, then the start, then falls on the way.
+  const auto rank = [&](std::size_t i) {
+    if (i + 1 == marks.size()) return 0;
+    switch (marks[i].kind) {
+      case MarkKind::blocked:
+      case MarkKind::end:
+        return 0;
+      case MarkKind::narrowest:
+        return 1;
+      case MarkKind::nearest:
+        return 2;
+      case MarkKind::start:
+        return 3;
+      case MarkKind::fell:
+        return 4;
     }
-  }
+    return 4;
+  };
+  std::vector<std::size_t> order(marks.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   std::vector<std::size_t> about;
   std::vector<std::vector<std::size_t>> with;
   for (const std::size_t i : order) {

@@ -46,21 +46,33 @@ std::string printable(const std::string& text) {
 
 std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
                                  const MeasureText& measure) {
-  std::vector<std::string> lines;
-  std::string line;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find(' ', i), text.size());
-    const std::string word = text.substr(i, end - i);
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (!line.empty() && measure(printable(longer), size, bold).width() > width) {
-      lines.push_back(line);
-      line = word;
-    } else {
-      line = longer;
+  const auto fits = [&](const std::string& line) { return measure(line, size, bold).width() <= width; };
+  const std::string shown = printable(text);
+  std::vector<std::string> lines{""};
+  for (std::size_t i = 0; i < shown.size();) {
+    std::size_t end = std::min(shown.find(' ', i), shown.size());
+    const std::string longer = lines.back() + (lines.back().empty() ? "" : " ") + shown.substr(i, end - i);
+    if (fits(longer)) {
+      lines.back() = longer;
+      i = end + 1;
+      continue;
     }
-    i = end + 1;
+    if (!lines.back().empty()) {
+      lines.emplace_back();
+      continue;
+    }
+    // A word that is longer than a line: as many of its characters as fit.
+    std::size_t part = i;
+    while (part < end) {
+      const std::size_t next = part + character(shown, part);
+      if (part > i && !fits(shown.substr(i, next - i))) break;
+      part = next;
+    }
+    lines.back() = shown.substr(i, part - i);
+    lines.emplace_back();
+    i = part;
   }
-  if (!line.empty()) lines.push_back(line);
+  if (lines.back().empty()) lines.pop_back();
   return lines;
 }
 

@@ -15,7 +15,7 @@ inline constexpr Colour ink{0.11, 0.13, 0.17, 1.0};
 /// The text with everything that is no printable UTF-8 replaced by "?": file and object names may be any bytes.
 [[nodiscard]] std::string printable(const std::string& text);
 
-/// The text in lines, none wider than `width` unless it is one word.
+/// The printable text in lines that are not wider than `width`, broken at spaces, or within words that are too long.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
                                                const MeasureText& measure);
 

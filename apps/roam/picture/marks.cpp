@@ -39,7 +39,7 @@ std::string length_text(double metres) {
   const double size = std::abs(metres);
   if (size >= 1000.0) return fmt::format("{:.2f} km", metres * 1e-3);
   if (size >= 10.0) return fmt::format("{:.1f} m", metres);
-  if (size >= 0.01) return fmt::format("{:.2f} m", metres);
+  if (size >= 0.01 || size == 0.0) return fmt::format("{:.2f} m", metres);
   return fmt::format("{:.1f} mm", metres * 1e3);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <set>
 
 #include "lines.h"
 
@@ -12,7 +13,7 @@ namespace {
 constexpr std::size_t most_segments = 60'000;  ///< of each kind in one panel: some 3 MB of SVG
 constexpr double way_width = 4.0;
 constexpr double least_outline = 4.0;   ///< pixels; a body of a smaller radius is only a dot
-constexpr double touch_distance = 7.0;  ///< pixels; nearer touches are one dot
+constexpr double touch_distance = 8.0;  ///< pixels between two that are drawn, roughly
 constexpr double label_size = 22.0;
 constexpr double steepest_wall = 0.7;  ///< of a normal's z: a steeper one belongs to floor or ceiling
 
@@ -111,7 +112,8 @@ void PanelPainter::way(const std::string& prefix, const Map& map, const std::fun
 }
 
 void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_plan) {
-  std::vector<Point> drawn;
+  // A walk along a wall leaves many: one for each cell of a grid.
+  std::set<std::pair<int, int>> drawn;
   for (const Touch& touch : c_.record.touches) {
     if (c_.report.mode == Mode::walk && std::abs(touch.normal.z) > steepest_wall) continue;
     const Vec3& centre = c_.record.places[touch.place].position;
@@ -119,13 +121,8 @@ void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_pl
         is_plan ? c_.frames.turn.plan(touch.point) : unrolled(touch.point, centre, c_.way.along[touch.place]);
     if (!map.frame.view.contains(place)) continue;
     const Point p = map(place);
-    // Those that a walk along a wall leaves behind come one after the other.
-    bool near = false;
-    for (std::size_t k = drawn.size(); k-- > 0 && !near && drawn.size() - k < 400;) {
-      near = glm::distance(drawn[k], p) < touch_distance;
-    }
-    if (near) continue;
-    drawn.push_back(p);
+    const auto cell = [](double at) { return static_cast<int>(at / touch_distance); };
+    if (!drawn.emplace(cell(p.x), cell(p.y)).second) continue;
     sheet_.items.emplace_back(Disc{.what = prefix + "touch",
                                    .centre = p,
                                    .radius = 3.6,

@@ -69,8 +69,7 @@ class Surveyor {
     const double length = glm::length(way);
     // Steeper than some 84 degrees there is no telling left from right.
     if (length > 0.1 * std::abs(b.position.z - a.position.z)) s.heading = way / length;
-    if (mode_ == Mode::ghost) return s;
-    if (s.heading != Vec3(0.0)) measure_at(s, 0.0);
+    if (s.heading != Vec3(0.0) && mode_ != Mode::ghost) measure_at(s, 0.0);
     s.floor = height_at(s.centre, -1.0, s.height);
     s.ceiling = height_at(s.centre, 1.0, s.height);
     return s;
@@ -86,7 +85,7 @@ class Surveyor {
 
   /// Clear width where it is bounded on both sides; infinite where it is not.
   [[nodiscard]] double width(const Station& s) const {
-    const bool bounded = s.heading != Vec3(0.0) && s.left < reach() && s.right < reach();
+    const bool bounded = s.across != Vec3(0.0) && s.left < reach() && s.right < reach();
     return bounded ? s.left + s.right + 2.0 * settings_.radius : std::numeric_limits<double>::infinity();
   }
 

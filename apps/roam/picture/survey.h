@@ -17,7 +17,7 @@ struct Station {
   double along = 0.0;             ///< metres, as WayPoint::along
   bool jump = false;              ///< no way leads here from the station before
   Vec3 heading{0.0};              ///< level, unit length; 0 where the way leads straight up or down
-  Vec3 across{0.0};               ///< level, to the left, unit length, where there is a heading
+  Vec3 across{0.0};               ///< level, to the left, unit length; 0 where nothing was measured beside
   double left = 0.0;              ///< metres that are free beside the body along `across`, at most the survey's reach
   double right = 0.0;             ///< and the other way
   std::optional<double> floor;    ///< height in the scene of what is right below the centre, metres
