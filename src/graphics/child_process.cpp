@@ -25,13 +25,15 @@ namespace {
 /// Above every number that an Inheritance asks for.
 constexpr int first_free_descriptor = 16;
 constexpr int exec_failed = 127;
+/// Milliseconds for a child to end in order.
+constexpr int grace = 3000;
 
 /// What the child does between fork and exec: only what is allowed there in a program with threads.
 [[noreturn]] void become(const char* program, char* const* argv, const std::vector<Inheritance>& moved, int words,
                          Orphan orphan, pid_t parent) {
   setsid();
   if (orphan == Orphan::dies) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(exec_failed);
   }
   struct sigaction usual = {};
@@ -117,6 +119,9 @@ bool ChildProcess::wait(int milliseconds) {
 
 void ChildProcess::end() {
   if (collected_) return;
+  // Asked first: Xvfb removes its lock and its socket.
+  kill(pid_, SIGTERM);
+  if (wait(grace)) return;
   kill(pid_, SIGKILL);
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
   }

@@ -23,7 +23,7 @@ struct Inheritance {
 enum class Orphan { dies, lives_on };
 
 /// Owns one child. It runs in a session of its own, so that an interrupt typed at the terminal reaches only us, and we
-/// can end it in order. Destruction kills and collects it.
+/// can end it in order. Destruction ends and collects it.
 class ChildProcess {
  public:
   /// Starts `program` with `arguments` (without its own name). Throws roam::Error when it cannot be started.
@@ -38,7 +38,7 @@ class ChildProcess {
   bool wait(int milliseconds);
   /// Whether it ended by itself, with success. Means nothing before wait() was true.
   [[nodiscard]] bool succeeded() const { return succeeded_; }
-  /// Kills it when it still runs, and collects it.
+  /// Asks it to end when it still runs, kills it when it does not, and collects it.
   void end();
   /// The last line that it wrote to its standard output or error; may be empty.
   [[nodiscard]] std::string last_words() const;

@@ -124,7 +124,7 @@ osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
   osg::ref_ptr<osg::Group> pass = new osg::Group;
   osg::StateSet& state = *pass->getOrCreateStateSet();
   state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
-  // After everything that is transparent. Depth is compared and not written, by the function of the space around.
+  // After everything that is transparent. Depth is compared as everywhere in the space around.
   state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
   if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   pass->addChild(content);

@@ -1,0 +1,136 @@
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <osgDB/WriteFile>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "graphics/capture.h"
+#include "graphics/unfinished_file.h"
+
+namespace roam::graphics {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A frame that has not been drawn by then never will be.
+constexpr std::chrono::seconds frame_patience{10};
+
+void check_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return;
+  throw Error("cannot write the picture " + path.string() + ": its name must end in .png, .jpg or .jpeg");
+}
+
+}  // namespace
+
+void write_image(const osg::Image& image, const fs::path& path) {
+  check_extension(path);
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  std::error_code problem;
+  if (!fs::is_directory(folder, problem)) {
+    throw Error("cannot write the picture " + path.string() + ": there is no folder " + folder.string());
+  }
+  const fs::path unfinished = unfinished_name(path);
+  const auto result = osgDB::Registry::instance()->writeImage(image, unfinished.string(), nullptr);
+  if (!result.success()) {
+    fs::remove(unfinished, problem);
+    const std::string why = result.status() == osgDB::ReaderWriter::WriteResult::FILE_NOT_HANDLED
+                                ? "OpenSceneGraph has no plugin for this kind of file"
+                                : "the folder cannot be written to, or the disk is full";
+    throw Error("cannot write the picture " + path.string() + ": " + why);
+  }
+  fs::rename(unfinished, path, problem);
+  if (problem) {
+    const std::string why = problem.message();
+    fs::remove(unfinished, problem);
+    throw Error("cannot write the picture " + path.string() + ": " + why);
+  }
+}
+
+/// Shared by who asks, the thread that draws and the one that writes.
+struct Screenshot::State {
+  fs::path path;
+  std::mutex mutex;
+  std::condition_variable changed;
+  osg::ref_ptr<osg::Image> image;
+  bool given_up = false, written = false;
+  std::string problem;
+  std::thread writer;
+
+  void give(osg::ref_ptr<osg::Image> taken) {
+    const std::lock_guard lock(mutex);
+    image = std::move(taken);
+    changed.notify_all();
+  }
+
+  void run() {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return image || given_up; });
+    if (image) {
+      lock.unlock();
+      std::string why;
+      try {
+        write_image(*image, path);
+      } catch (const Error& e) {
+        why = e.what();
+      }
+      lock.lock();
+      problem = why;
+    } else {
+      problem = "no picture was drawn for " + path.string();
+    }
+    written = true;
+    changed.notify_all();
+  }
+
+  /// Waits for the picture for at most `patience`, and then for the file.
+  void end(std::chrono::seconds patience) {
+    {
+      std::unique_lock lock(mutex);
+      if (!changed.wait_for(lock, patience, [&] { return image || written; })) given_up = true;
+      changed.notify_all();
+    }
+    if (writer.joinable()) writer.join();
+  }
+};
+
+Screenshot::Screenshot(Frame& frame, fs::path path, bool with_display) : state_(std::make_shared<State>()) {
+  check_extension(path);
+  state_->path = std::move(path);
+  // The thread does not own the state: ~Screenshot waits for it. The request does: its frame may come later.
+  state_->writer = std::thread([state = state_.get()] { state->run(); });
+  frame.request_picture(with_display,
+                        [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); });
+}
+
+Screenshot::~Screenshot() {
+  if (state_) state_->end(std::chrono::seconds(0));
+}
+
+Screenshot::Screenshot(Screenshot&&) noexcept = default;
+
+Screenshot& Screenshot::operator=(Screenshot&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+bool Screenshot::done() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->written;
+}
+
+void Screenshot::finish() {
+  state_->end(frame_patience);
+  if (!state_->problem.empty()) throw Error(state_->problem);
+}
+
+const fs::path& Screenshot::path() const { return state_->path; }
+
+}  // namespace roam::graphics

@@ -1,0 +1,261 @@
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <osg/Image>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "graphics/capture.h"
+#include "graphics/child_process.h"
+#include "graphics/unfinished_file.h"
+
+namespace roam::graphics {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_waiting = 8;
+constexpr int least_side = 16, largest_side = 8192;
+/// For what is left to be encoded after the last picture; x264 looks ahead some dozens of pictures.
+constexpr int ending_patience = 120'000;  // milliseconds
+
+std::vector<std::string> arguments(const fs::path& out, int width, int height, int rate) {
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  // Images begin with their lowest row. Sizes must be even for yuv420p. Players take what says nothing of its colours
+  // for BT.709 when it is large, so that is what is made, and said.
+  const std::string filters = "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
+  // A file name that begins with a dash or holds a colon is no option and no protocol.
+  const std::string name = "file:" + out.string();
+  return {"-hide_banner",
+          "-loglevel",
+          "error",
+          "-nostdin",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pixel_format",
+          "rgb24",
+          "-video_size",
+          size,
+          "-framerate",
+          std::to_string(rate),
+          "-i",
+          "pipe:0",
+          "-an",
+          "-vf",
+          filters,
+          "-c:v",
+          "libx264",
+          "-preset",
+          "veryfast",
+          "-crf",
+          "18",
+          "-pix_fmt",
+          "yuv420p",
+          "-colorspace",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "bt709",
+          "-movflags",
+          "+faststart",
+          "-f",
+          "mp4",
+          name};
+}
+
+/// Two connected ends. A socket, not a pipe: writing to one whose reader has died is an error and no signal.
+struct Line {
+  int ours = -1, theirs = -1;
+  Line() {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw Error("cannot open a line to ffmpeg");
+    ours = ends[0];
+    theirs = ends[1];
+  }
+  ~Line() {
+    close_ours();
+    close_theirs();
+  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  void close_ours() {
+    if (ours >= 0) close(ours);
+    ours = -1;
+  }
+  void close_theirs() {
+    if (theirs >= 0) close(theirs);
+    theirs = -1;
+  }
+};
+
+fs::path find_ffmpeg() {
+  fs::path program = find_program("ffmpeg");
+  if (program.empty()) {
+    throw Error(
+        "films are made by the program ffmpeg, which is not on the PATH. Install it (Debian: apt-get install "
+        "ffmpeg)");
+  }
+  return program;
+}
+
+}  // namespace
+
+/// ffmpeg, and the thread that feeds it.
+class Video::Encoder {
+ public:
+  Encoder(fs::path path, int width, int height, int rate)
+      : path_(std::move(path)),
+        unfinished_(unfinished_name(path_)),
+        width_(width),
+        height_(height),
+        rate_(rate),
+        process_(find_ffmpeg(), arguments(unfinished_, width, height, rate), {{line_.theirs, STDIN_FILENO}},
+                 Orphan::lives_on) {
+    line_.close_theirs();
+    feeder_ = std::thread([this] { feed(); });
+  }
+
+  ~Encoder() {
+    if (feeder_.joinable()) {
+      {
+        const std::lock_guard lock(mutex_);
+        waiting_.clear();
+        ended_ = true;
+        changed_.notify_all();
+      }
+      process_.end();  // also wakes a feeder that is writing
+      feeder_.join();
+    }
+    std::error_code ignored;
+    fs::remove(unfinished_, ignored);
+  }
+
+  void add(osg::ref_ptr<osg::Image> image, std::int64_t times) {
+    if (times <= 0) return;
+    if (image->s() != width_ || image->t() != height_) {
+      throw Error("a picture of " + std::to_string(image->s()) + " x " + std::to_string(image->t()) +
+                  " does not fit the film " + path_.string() + " of " + std::to_string(width_) + " x " +
+                  std::to_string(height_) + ": end the film when the window is resized");
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return waiting_.size() < most_waiting || broken_; });
+    if (broken_) {
+      lock.unlock();
+      fail();
+    }
+    waiting_.emplace_back(std::move(image), times);
+    frames_ += times;
+    changed_.notify_all();
+  }
+
+  [[nodiscard]] std::int64_t frames() const {
+    const std::lock_guard lock(mutex_);
+    return frames_;
+  }
+  [[nodiscard]] int rate() const { return rate_; }
+
+  void finish() {
+    if (!feeder_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+      changed_.notify_all();
+    }
+    feeder_.join();
+    line_.close_ours();
+    if (!process_.wait(ending_patience) || !process_.succeeded() || broken_) fail();
+    if (frames_ == 0) throw Error("the film " + path_.string() + " has no picture");
+    std::error_code problem;
+    fs::rename(unfinished_, path_, problem);
+    if (problem) throw Error("cannot write the film " + path_.string() + ": " + problem.message());
+  }
+
+ private:
+  void feed() {
+    for (;;) {
+      std::pair<osg::ref_ptr<osg::Image>, std::int64_t> next;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return !waiting_.empty() || ended_; });
+        if (waiting_.empty()) return;
+        next = std::move(waiting_.front());
+        waiting_.pop_front();
+        changed_.notify_all();
+      }
+      for (std::int64_t i = 0; i < next.second; ++i) {
+        if (send_all(next.first->data(), next.first->getTotalSizeInBytes())) continue;
+        const std::lock_guard lock(mutex_);
+        broken_ = true;
+        changed_.notify_all();
+        return;
+      }
+    }
+  }
+
+  bool send_all(const unsigned char* bytes, std::size_t left) const {
+    while (left > 0) {
+      const ssize_t n = send(line_.ours, bytes, left, MSG_NOSIGNAL);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      bytes += n;
+      left -= static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+
+  [[noreturn]] void fail() {
+    process_.wait(1000);
+    const std::string words = process_.last_words();
+    throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words));
+  }
+
+  const fs::path path_, unfinished_;
+  const int width_, height_, rate_;
+  Line line_;
+  ChildProcess process_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<osg::ref_ptr<osg::Image>, std::int64_t>> waiting_;
+  std::int64_t frames_ = 0;
+  bool ended_ = false, broken_ = false;
+  std::thread feeder_;
+};
+
+Video::Video(fs::path path, int width, int height, int frames_per_second) {
+  if (path.extension() != ".mp4") {
+    throw Error("cannot write the film " + path.string() + ": its name must end in .mp4");
+  }
+  if (width < least_side || height < least_side || width > largest_side || height > largest_side) {
+    throw Error("a film of " + std::to_string(width) + " x " + std::to_string(height) +
+                " pixels cannot be made: each side must be in [16, 8192]");
+  }
+  if (frames_per_second < 1 || frames_per_second > 240) {
+    throw Error("a film of " + std::to_string(frames_per_second) +
+                " pictures a second cannot be made: it must be in [1, 240]");
+  }
+  encoder_ = std::make_unique<Encoder>(std::move(path), width, height, frames_per_second);
+}
+
+Video::~Video() = default;
+
+void Video::add(osg::ref_ptr<osg::Image> image) { encoder_->add(std::move(image), 1); }
+
+void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
+  // Picture k is shown from k / rate on: this one fills all that have begun by now.
+  const auto begun = static_cast<std::int64_t>(std::floor(seconds * encoder_->rate())) + 1;
+  encoder_->add(std::move(image), begun - encoder_->frames());
+}
+
+std::int64_t Video::frames() const { return encoder_->frames(); }
+
+void Video::finish() { encoder_->finish(); }
+
+}  // namespace roam::graphics
