@@ -1,0 +1,267 @@
+// Colours, images, normals and transparency of what is to be seen.
+
+#include <osg/AlphaFunc>
+#include <osg/Material>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "shown_scene.h"
+
+namespace roam::test {
+namespace {
+
+using Row = std::vector<std::array<std::uint8_t, 3>>;
+const Row two_texels{{255, 0, 0}, {0, 0, 255}};
+
+/// The colours of the lowest row of an image.
+Row row_of(const osg::Image& image) {
+  Row row;
+  for (int s = 0; s < image.s(); ++s) {
+    const osg::Vec4 c = image.getColor(s, 0);
+    row.push_back(
+        {std::uint8_t(c.r() * 255 + 0.5f), std::uint8_t(c.g() * 255 + 0.5f), std::uint8_t(c.b() * 255 + 0.5f)});
+  }
+  return row;
+}
+
+const std::string obj_vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n";
+
+TEST(ImportDisplayLooks, ReadsMaterialsOfObj) {
+  const TemporaryFolder folder;
+  folder.write("Images/Brick.BMP", bmp(two_texels));
+  folder.write(
+      "house.mtl",
+      "newmtl brick\nKd 0.2 0.2 0.2\nmap_Kd -s 1 1 1 C:\\work\\images\\brick.bmp\nnewmtl paint\nKd 1 0.5 0\nnewmtl "
+      "glass\nKd 0 0 1\nd 0.5\nnewmtl air\nd 0\nKd 0 1 0\n");
+  const auto file =
+      folder.write("house.obj", obj_vertices +
+                                    "mtllib house.mtl\nf 1 2 3\nusemtl brick\nf 1/1/1 2/2/1 -2/-2/-1\nusemtl "
+                                    "paint\nf 1/1 2/2 3/3\nusemtl glass\nf 1//1 2//1 3//1\nusemtl "
+                                    "nobody's\nf 1 2 4\nusemtl air\nf 1 3 4\n");
+  const Shown shown = show({file});
+  EXPECT_EQ(not_shown(import_scene(file), shown, 1e-6), 0u);
+  EXPECT_TRUE(shown.report.notes.empty());
+  std::multiset<std::string> seen;
+  for (const ShownTriangle& t : shown.triangles) {
+    const osg::Vec4ub c = t.colours[1];
+    const bool blended = t.state != nullptr && (t.state->getMode(GL_BLEND) & osg::StateAttribute::ON) != 0;
+    seen.insert(std::to_string(c.r()) + " " + std::to_string(c.g()) + " " + std::to_string(c.b()) + " " +
+                std::to_string(c.a()) + (t.image != nullptr ? " image" : "") + (blended ? " blended" : "") +
+                (t.normals[0] == osg::Vec3(0, 0, 1) ? " normal" : ""));
+    if (t.image == nullptr) continue;
+    EXPECT_EQ(row_of(*t.image), two_texels);
+    EXPECT_EQ(t.coordinates, (std::array{osg::Vec2(0, 0), osg::Vec2(1, 0), osg::Vec2(1, 1)}));
+  }
+  EXPECT_EQ(seen, (std::multiset<std::string>{"255 255 255 255", "255 255 255 255 image normal", "255 128 0 255",
+                                              "0 0 255 128 blended normal", "255 255 255 255", "0 255 0 255"}));
+  EXPECT_EQ(shown.report.textures, 1u);
+  EXPECT_EQ(shown.report.missing_textures, 0u);
+}
+
+TEST(ImportDisplayLooks, NamesWhatIsMissing) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl",
+               "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd broken.jpg\nnewmtl c\nmap_Kd http://localhost/x.png\n");
+  folder.write("broken.jpg", "\xff\xd8\xff garbage");
+  const std::string faces =
+      "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 3/3\nusemtl c\nf 1/1 2/2 3/3\nusemtl a\nf 1/1 3/3 4/4\n";
+  const Shown shown = show({folder.write("a.obj", obj_vertices + "mtllib a.mtl\n" + faces)});
+  EXPECT_EQ(shown.triangles.size(), 4u);
+  for (const ShownTriangle& t : shown.triangles) EXPECT_EQ(t.image, nullptr);
+  EXPECT_EQ(shown.report.missing_textures, 3u);
+  EXPECT_EQ(shown.report.missing_texture_files,
+            (std::vector<std::string>{"gone.png", "broken.jpg", "http://localhost/x.png"}));
+  ASSERT_EQ(shown.report.notes.size(), 1u);
+  EXPECT_TRUE(contains(shown.report.notes[0], "3 images that the scene refers to are absent or unreadable"));
+
+  const Shown without = show({folder.write("b.obj", obj_vertices + "mtllib gone.mtl\n" + faces)});
+  ASSERT_EQ(without.report.import.notes.size(), 1u);
+  EXPECT_TRUE(contains(without.report.import.notes[0], "gone.mtl: this file of materials is not there"));
+}
+
+TEST(ImportDisplayLooks, ReadsVertexColours) {
+  const TemporaryFolder folder;
+  const auto obj = folder.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 1 0 0 1\nv 2 2 2\nf 1 2 3\nf 1 2 4\n");
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto bytes = folder.write("b.ply", header + "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
+                                               "property uchar alpha\n" + faces +
+                                               "0 0 0 255 0 0 0\n1 0 0 0 255 0 0\n1 1 0 0 0 255 0\n3 0 1 2\n");
+  const auto floats = folder.write("c.ply", header + "property float red\nproperty float green\nproperty float blue\n" +
+                                                faces + "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n3 0 1 2\n");
+  const osg::Vec4ub red(255, 0, 0, 255), green(0, 255, 0, 255), blue(0, 0, 255, 255);
+  const auto colours_of = [](const std::filesystem::path& file) {
+    const Shown shown = show({file});
+    return shown.triangles.at(0).colours;
+  };
+  EXPECT_EQ(colours_of(obj), (std::array{red, green, blue}));
+  EXPECT_EQ(show({obj}).triangles.at(1).colours[2], osg::Vec4ub(255, 255, 255, 255));
+  EXPECT_EQ(colours_of(bytes), (std::array{red, green, blue}));
+  EXPECT_EQ(colours_of(floats), (std::array{red, green, blue}));
+}
+
+TEST(ImportDisplayLooks, ReadsTheImageAndNormalsOfPly) {
+  const TemporaryFolder folder;
+  folder.write("atlas.bmp", bmp(two_texels));
+  const Shown shown =
+      show({folder.write(
+               "a.ply",
+               "ply\nformat ascii 1.0\ncomment TextureFile atlas.bmp\nelement vertex 3\nproperty float x\nproperty "
+               "float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float "
+               "s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 3 0 "
+               "0 0\n1 0 0 0 3 0 1 0\n1 1 0 0 3 0 1 0.5\n3 0 1 2\n")},
+           {.up = UpAxis::y});
+  const ShownTriangle& t = shown.triangles.at(0);
+  ASSERT_NE(t.image, nullptr);
+  EXPECT_EQ(row_of(*t.image), two_texels);
+  EXPECT_EQ(t.coordinates[2], osg::Vec2(1, 0.5f));
+  // Turned with the scene.
+  EXPECT_EQ(t.normals[0], osg::Vec3(0, 0, 1));
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+/// A triangle with texture coordinates and that material.
+std::string gltf(const std::string& material, const std::string& image_uri) {
+  std::string buffer;
+  for (const float c : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 1.f, 0.f, 0.f})
+    buffer += bytes_of(c);
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"Door","mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+    "materials":[)" +
+         material + R"(],"textures":[{"source":0}],"images":[{"uri":")" + image_uri + R"("}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+    {"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],
+    "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24}],
+    "buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,)" +
+         base64(buffer) + "\"}]}";
+}
+
+TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
+  const TemporaryFolder folder;
+  folder.write("wood.bmp", bmp(two_texels));
+  const std::string inside = "data:image/bmp;base64," + base64(bmp(two_texels));
+  for (const std::string& uri : {std::string("wood.bmp"), inside}) {
+    const Shown shown = show({folder.write(
+        "a.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[1,0.2158605,0,1]},
+                           "alphaMode":"MASK","alphaCutoff":0.25})",
+                       uri))});
+    const ShownTriangle& t = shown.triangles.at(0);
+    ASSERT_NE(t.image, nullptr) << uri.substr(0, 20);
+    EXPECT_EQ(row_of(*t.image), two_texels);
+    // The file's zero is at the image's upper edge, ours at the lower; its factors are linear, ours as on the screen.
+    EXPECT_EQ(t.coordinates[0], osg::Vec2(0, 0));
+    EXPECT_EQ(t.coordinates[2], osg::Vec2(0, 1));
+    EXPECT_EQ(t.colours[0], osg::Vec4ub(255, 128, 0, 255));
+    const auto* cut = dynamic_cast<osg::AlphaFunc*>(t.state->getAttribute(osg::StateAttribute::ALPHAFUNC));
+    ASSERT_NE(cut, nullptr);
+    EXPECT_EQ(cut->getReferenceValue(), 0.25f);
+    EXPECT_EQ(shown.report.textures, 1u);
+  }
+  const Shown glass = show({folder.write(
+      "b.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]},"alphaMode":"BLEND"})", "wood.bmp"))});
+  EXPECT_EQ(glass.triangles.at(0).colours[0].a(), 128);
+  ASSERT_NE(glass.triangles[0].state, nullptr);
+  EXPECT_EQ(glass.triangles[0].state->getMode(GL_BLEND), osg::StateAttribute::ON);
+  EXPECT_EQ(glass.report.textures, 0u);
+}
+
+/// A square in OpenSceneGraph's text format with a state, colours and coordinates.
+std::string square(const std::string& state, const std::string& colours) {
+  return "Geode {\nnum_drawables 1\nGeometry {\n" + state +
+         "Primitives 2\n{\nDrawArrays TRIANGLES 0 3\nDrawElementsUShort TRIANGLES 3 {\n2 3 0\n}\n}\nVertexArray "
+         "Vec3Array "
+         "4\n{\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n}\nNormalBinding OVERALL\nNormalArray Vec3Array 1\n{\n0 0 1\n}\n" +
+         colours + "TexCoordArray 0 Vec2Array 4\n{\n0 0\n1 0\n1 1\n0 1\n}\n}\n}\n";
+}
+
+std::string material(const std::string& mode) {
+  return "Material {\nColorMode " + mode + "\ndiffuseColor 0 1 0 1\n}\n";
+}
+
+TEST(ImportDisplayLooks, MultipliesMaterialsAndColoursOfOpenSceneGraphAsItDoes) {
+  const TemporaryFolder folder;
+  const std::string by_set = "ColorBinding PER_PRIMITIVE_SET\nColorArray Vec4Array 2\n{\n1 0 0 1\n0 0 1 1\n}\n";
+  const auto colours_of = [&](const std::string& content) {
+    const Shown shown = show({folder.write("a.osg", content)});
+    return std::pair(shown.triangles.at(0).colours[0], shown.triangles.at(1).colours[1]);
+  };
+  const osg::Vec4ub red(255, 0, 0, 255), green(0, 255, 0, 255), blue(0, 0, 255, 255);
+  const auto state = [](const std::string& inside) { return "StateSet {\n" + inside + "}\n"; };
+  EXPECT_EQ(colours_of(square("", by_set)), std::pair(red, blue));
+  EXPECT_EQ(colours_of(square(state(material("OFF")), by_set)), std::pair(green, green));
+  EXPECT_EQ(colours_of(square(state(material("DIFFUSE")), by_set)), std::pair(red, blue));
+  EXPECT_EQ(colours_of(square(state("GL_LIGHTING OFF\n" + material("OFF")), by_set)), std::pair(red, blue));
+  // An ancestor that overrides goes before.
+  EXPECT_EQ(colours_of("Group {\nStateSet {\n0xb50 OVERRIDE|OFF\n}\nnum_children 1\n" +
+                       square(state("GL_LIGHTING ON\n" + material("OFF")), by_set) + "}\n"),
+            std::pair(red, blue));
+}
+
+TEST(ImportDisplayLooks, ReadsImagesBesideFilesOfOpenSceneGraph) {
+  const TemporaryFolder folder;
+  folder.write("wall.bmp", bmp(two_texels));
+  const auto textured = [](const std::string& image) {
+    return square("StateSet {\ntextureUnit 0 {\nGL_TEXTURE_2D ON\nTexture2D {\nfile \"" + image +
+                      "\"\nwrap_s CLAMP\nwrap_t REPEAT\n}\n}\n}\n",
+                  "");
+  };
+  const Shown shown = show({folder.write("a.osg",
+                                         "MatrixTransform {\nMatrix {\n1 0 0 0\n0 0 3 0\n0 -1 0 0\n5 0 0 1\n}\n"
+                                         "num_children 1\n" +
+                                             textured("wall.bmp") + "}\n")});
+  const ShownTriangle& t = shown.triangles.at(0);
+  ASSERT_NE(t.image, nullptr);
+  EXPECT_EQ(row_of(*t.image), two_texels);
+  EXPECT_EQ(t.coordinates[2], osg::Vec2(1, 1));
+  EXPECT_EQ(t.normals[0], osg::Vec3(0, -1, 0));
+  const auto* texture = dynamic_cast<osg::Texture2D*>(t.state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+  EXPECT_EQ(texture->getWrap(osg::Texture::WRAP_S), osg::Texture::CLAMP_TO_EDGE);
+  EXPECT_EQ(texture->getWrap(osg::Texture::WRAP_T), osg::Texture::REPEAT);
+  EXPECT_EQ(shown.report.textures, 1u);
+
+  const Shown without = show({folder.write("b.osg", textured("gone.bmp"))});
+  EXPECT_EQ(without.triangles.at(0).image, nullptr);
+  EXPECT_EQ(without.report.missing_texture_files, (std::vector<std::string>{"gone.bmp"}));
+}
+
+TEST(ImportDisplayLooks, SendsALargeImageOnce) {
+  const TemporaryFolder folder;
+  // 12 MB of texels, more than a part has otherwise.
+  std::string image = bmp(Row(2000, {9, 9, 9})), texels = image.substr(54);
+  image.resize(54);
+  const std::uint32_t rows = 2000;
+  image.replace(22, 4, bytes_of(rows));
+  for (std::uint32_t i = 0; i < rows; ++i) image += texels;
+  folder.write("large.bmp", image);
+  folder.write("small.bmp", bmp(two_texels));
+  folder.write("a.mtl",
+               "newmtl large\nmap_Kd large.bmp\nnewmtl small\nmap_Kd small.bmp\nnewmtl again\nmap_Kd large.bmp\n");
+  std::string content = obj_vertices + "mtllib a.mtl\n";
+  for (int i = 0; i < 20000; ++i) {
+    content += std::string("usemtl ") + std::array{"large", "small", "again"}[i % 3] + "\n";
+    content += "v " + std::to_string(i) + " 0 0\nv " + std::to_string(i) + " 1 0\nv " + std::to_string(i) + " 0 1\n";
+    content += "f -1/1 -2/2 -3/3\n";
+  }
+  const auto file = folder.write("a.obj", content);
+  const Shown shown = show({file});
+  EXPECT_EQ(not_shown(import_scene(file), shown, 1e-3), 0u);
+  std::set<osg::Image*> images;
+  for (const ShownTriangle& t : shown.triangles) images.insert(t.image);
+  EXPECT_EQ(images.size(), 2u);
+  EXPECT_EQ(shown.report.textures, 2u);
+}
+
+}  // namespace
+}  // namespace roam::test
