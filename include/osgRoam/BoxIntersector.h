@@ -65,6 +65,7 @@ class BoxIntersector : public osgUtil::Intersector {
     /// Which primitive of the drawable, counted as osgUtil's intersectors do: points, lines, triangles and quads each
     /// count as one, polygons and fans as their triangles.
     unsigned int primitiveIndex = 0;
+    unsigned int half = 0;  ///< of a quad: 0 or 1
     roam::Feature feature = roam::Feature::face;
     osg::Vec3d localIntersectionPoint;   ///< on the triangle, in the drawable's frame
     osg::Vec3d localIntersectionNormal;  ///< unit; the world normal brought into the drawable's frame as normals are

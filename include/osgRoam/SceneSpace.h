@@ -51,8 +51,9 @@ class SceneSpace final : public roam::Space {
   /// Of the bounding sphere of the graph.
   roam::Box bounds() const override;
   double largest_error() const override { return 0.0; }
-  /// Triangles are numbered by the node paths of their drawables, in the order in which queries came upon them, and
-  /// within those by twice the primitive index. The innermost name on that path.
+  /// The innermost name on the way to the triangle; of what is unknown, the file that is not loaded. Triangles are
+  /// numbered by their drawables, in the order in which queries came upon them, and within those as the primitives are.
+  /// A number whose drawable has gone gives "".
   std::string object_name(roam::TriangleId triangle) const override;
 
  private:

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "affine.h"
+#include "local_triangle.h"
 #include "osg_triangles/mesh_of.h"
 
 namespace osgRoam {
@@ -152,8 +153,12 @@ void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corner
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {
   if (plane_parts(below_._body, from_, motion_, triangle)) return;
-  const roam::SweepResult result = roam::sweep(below_._body, from_, motion_, triangle);
+  const double end = below_._intersectionLimit == LIMIT_NEAREST && !root_._intersections.empty()
+                         ? root_._intersections.begin()->time
+                         : 1.0;
+  roam::SweepResult result = roam::certified::sweep(below_._body, motion_, seen_from(from_, triangle), 0.0, end, 0.0);
   if (!result.hit) return;
+  result.point += from_;
   const auto earlier_than = [&](const Intersection& other) {
     return result.time != other.time ? result.time < other.time : result.distance < other.distance;
   };
@@ -185,6 +190,7 @@ void BoxIntersector::Search::keep(const roam::SweepResult& result, const roam::T
   i.nodePath = visitor_.getNodePath();
   i.drawable = &drawable_;
   i.primitiveIndex = corners.primitive;
+  i.half = corners.half;
   i.feature = result.feature;
   i.worldIntersectionPoint = to_osg(result.point);
   i.worldIntersectionNormal = to_osg(result.normal);

@@ -1,0 +1,107 @@
+#include "scene_visitor.h"
+
+#include <algorithm>
+#include <osg/Camera>
+#include <osg/PagedLOD>
+#include <osg/ProxyNode>
+#include <osg/Sequence>
+
+#include "affine.h"
+#include "osg_triangles/graph_walk.h"
+#include "osg_triangles/level_of_detail.h"
+#include "roam/space.h"
+
+namespace osgRoam {
+
+namespace triangles = roam::osg_triangles;
+
+void SceneVisitor::apply(osg::Camera& camera) {
+  if (!triangles::draws_elsewhere(camera)) apply(static_cast<osg::Transform&>(camera));
+}
+
+void SceneVisitor::apply(osg::Sequence& sequence) {
+  if (!enter(sequence)) return;
+  if (osg::Node* child = triangles::shown_child(sequence)) child->accept(*this);
+  leave();
+}
+
+bool SceneVisitor::continues_a_sibling(const osg::LOD& lod) const {
+  const auto& path = getNodePath();
+  const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
+  return parent != nullptr && triangles::continues_a_finer_sibling(lod, *parent);
+}
+
+void SceneVisitor::apply(osg::LOD& lod) {
+  if (continues_a_sibling(lod) || !enter(lod)) return;
+  for (const unsigned i : triangles::loaded_children(lod, true)) lod.getChild(i)->accept(*this);
+  leave();
+}
+
+osg::ref_ptr<osg::Node> SceneVisitor::read(const std::string& file) {
+  return getReadCallback() == nullptr ? nullptr : getReadCallback()->readNodeFile(file);
+}
+
+void SceneVisitor::apply(osg::PagedLOD& lod) {
+  if (continues_a_sibling(lod) || !enter(lod)) return;
+  std::vector<unsigned> absent;
+  std::string missing;
+  while (true) {
+    const std::vector<unsigned> finest = triangles::finest_children(lod, absent);
+    std::vector<osg::ref_ptr<osg::Node>> shown;
+    for (const unsigned i : finest) {
+      if (i < lod.getNumChildren()) {
+        shown.emplace_back(lod.getChild(i));
+      } else if (i < lod.getNumFileNames() && !lod.getFileName(i).empty()) {
+        const std::string file = lod.getDatabasePath() + lod.getFileName(i);
+        if (osg::ref_ptr<osg::Node> page = read(file)) {
+          shown.push_back(page);
+        } else if (missing.empty()) {
+          missing = file;
+        }
+      }
+    }
+    if (shown.size() == finest.size()) {
+      for (const auto& child : shown) child->accept(*this);
+      if (finest.empty() && !missing.empty()) add_unknown(lod, missing);
+      break;
+    }
+    // A level that is not whole would leave holes: the next coarser one stands in for all of it.
+    absent.insert(absent.end(), finest.begin(), finest.end());
+    std::sort(absent.begin(), absent.end());
+  }
+  leave();
+}
+
+void SceneVisitor::apply(osg::ProxyNode& proxy) {
+  if (!enter(proxy)) return;
+  for (unsigned i = 0; i < proxy.getNumChildren(); ++i) proxy.getChild(i)->accept(*this);
+  for (unsigned i = proxy.getNumChildren(); i < proxy.getNumFileNames(); ++i) {
+    if (proxy.getFileName(i).empty()) continue;
+    const std::string file = proxy.getDatabasePath() + proxy.getFileName(i);
+    if (osg::ref_ptr<osg::Node> page = read(file)) {
+      page->accept(*this);
+    } else {
+      add_unknown(proxy, file);
+    }
+  }
+  leave();
+}
+
+void SceneVisitor::add_unknown(const osg::Node& node, const std::string& file) {
+  const osg::BoundingSphere& sphere = node.getBound();
+  roam::Box box;
+  if (sphere.valid()) {
+    const osg::Matrixd matrix = getModelMatrix() == nullptr ? osg::Matrixd() : *getModelMatrix();
+    const osg::Vec3d centre = osg::Vec3d(sphere.center()) * matrix;
+    const double radius = sphere.radius() * greatestStretch(matrix);
+    for (const double side : {-radius, radius}) box.include(roam::Vec3(centre.x(), centre.y(), centre.z()) + side);
+  } else {
+    // It may be anywhere.
+    for (const double side : {-roam::Space::coordinate_limit, roam::Space::coordinate_limit}) {
+      box.include(roam::Vec3(side));
+    }
+  }
+  unknown_.push_back({box, getNodePath(), file});
+}
+
+}  // namespace osgRoam
