@@ -86,6 +86,7 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] const std::shared_ptr<const roam::Space>& space() const;
   /// Builds a world of the triangles of `scene` as the constructor does, and takes it as the space when it is ready.
   void buildSpace(osg::Node& scene);
+  [[nodiscard]] bool building() const;
   /// The fraction done of buildSpace, in [0, 1]; 1 when nothing is being built.
   [[nodiscard]] double buildProgress() const;
 
@@ -172,6 +173,9 @@ class Manipulator : public osgGA::CameraManipulator {
   /// How far a movement of the mouse by the height of the window turns the eye, radians; default pi / 2.
   void setLookSpeed(double angle);
   [[nodiscard]] double lookSpeed() const;
+  /// On: moving the mouse forwards looks down.
+  void setLookInverted(bool on);
+  [[nodiscard]] bool lookInverted() const;
 
   // --- watching
 

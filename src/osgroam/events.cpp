@@ -71,7 +71,7 @@ bool Manipulator::State::look(const Adapter& event) {
   const Pointer::Movement movement = pointer.move(event);
   if (movement.left == 0.0 && movement.up == 0.0) return false;
   pose.yaw = wrapped_yaw(pose.yaw + movement.left * look_speed);
-  pose.pitch = limited_pitch(pose.pitch + movement.up * look_speed);
+  pose.pitch = limited_pitch(pose.pitch + (look_inverted ? -1.0 : 1.0) * movement.up * look_speed);
   return true;
 }
 

@@ -42,6 +42,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   s.at_computed_home = from.at_computed_home;
   s.keys = from.keys;
   s.look_speed = from.look_speed;
+  s.look_inverted = from.look_inverted;
   s.make_walker(from.walker ? from.walker->position() : s.centre_under(s.pose.eye));
 }
 
@@ -75,6 +76,8 @@ void Manipulator::buildSpace(osg::Node& scene) {
   _state->build.reset();
   _state->build = std::make_unique<BackgroundBuild>(collectMeshes(scene, _state->origin));
 }
+
+bool Manipulator::building() const { return _state->build != nullptr; }
 
 double Manipulator::buildProgress() const { return _state->build ? _state->build->fraction() : 1.0; }
 
@@ -206,6 +209,8 @@ void Manipulator::setLookSpeed(double angle) {
 }
 
 double Manipulator::lookSpeed() const { return _state->look_speed; }
+void Manipulator::setLookInverted(bool on) { _state->look_inverted = on; }
+bool Manipulator::lookInverted() const { return _state->look_inverted; }
 
 // --- watching
 

@@ -52,6 +52,7 @@ struct Manipulator::State {
   double owed = 0.0;       ///< seconds that the pilot has not simulated yet
   double jump_left = 0.0;  ///< seconds for which a jump that was asked for may still begin
   double look_speed = 0.0;
+  bool look_inverted = false;
   std::optional<double> last_time;  ///< of the last frame, seconds
   bool continuous = false;          ///< has asked the viewer for continuous update
   HeldCommands held_before;         ///< as of the last frame
