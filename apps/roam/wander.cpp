@@ -112,7 +112,7 @@ Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, co
 
 }  // namespace
 
-Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode) {
+Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, const std::function<bool()>& goes_on) {
   const Box& box = space.bounds();
   const Vec3 size = box.size();
   Start best;
@@ -124,6 +124,7 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode)
         const double depth = top.z - box.lower.z + 1.0;
         const Impact down = depth > 0.0 ? space.ray(top, {0, 0, -depth}) : Impact{};
         if (!down.hit) break;
+        if (goes_on && !goes_on()) throw Cancelled();
         top.z -= down.time * depth;
         const Start start = start_at(space, settings, mode, top);
         if (start.room > best.room) best = start;

@@ -6,6 +6,7 @@
 /// it is the Walker that moves, as along any path. Nothing is random: the same scene and settings give the same walk.
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -16,8 +17,10 @@ namespace roam::app {
 
 /// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
 /// stride farthest in eight directions. A floor with a ceiling counts fourfold, so that one starts in a tunnel instead
-/// of on top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere.
-[[nodiscard]] Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode);
+/// of on top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere. `goes_on` is asked now
+/// and then, and ends it by false: roam::Cancelled.
+[[nodiscard]] Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
+                                const std::function<bool()>& goes_on = {});
 
 /// One walk without an aim. The walker must outlive it and be in walk or fly mode.
 class Wander {
