@@ -20,6 +20,7 @@ constexpr const char* help =
     "Results go to standard output, progress and notes to standard error.\n"
     "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 the answer is no.\n\n"
     "Examples:\n"
+    "  roam view mine.dae\n"
     "  roam make gallery -o gallery.ply\n"
     "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
     "  roam info mine.dae --json\n";
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(usage_message);
   Run chosen;
+  add_view(program, chosen);
   add_walk(program, chosen);
   add_sweep(program, chosen);
   add_info(program, chosen);

@@ -1,0 +1,94 @@
+// roam view: opens a window on a scene and lets a person roam in it.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <memory>
+#include <optional>
+
+#include "progress.h"
+#include "report.h"
+#include "roam/error.h"
+#include "verbs.h"
+#include "view/session.h"
+
+namespace roam::app {
+namespace {
+
+/// The settings, and usage errors for what is wrong in them: it is the command line, or this file, that must change.
+ViewSettings read_settings_for(const ViewOptions& options) {
+  try {
+    return find_settings(options.settings);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+ExitStatus print_keys(const ViewSettings& settings) {
+  const osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
+  try {
+    set_up(roamer->controls(), settings);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  print(key_table(roamer->controls()));
+  return done;
+}
+
+ExitStatus view(const ViewOptions& options) {
+  const ViewSettings settings = read_settings_for(options);
+  if (options.keys) return print_keys(settings);
+  if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
+  const ViewPlan plan = make_plan(options, settings);
+  std::optional<tbb::global_control> limit;
+  if (options.scene.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
+  }
+  ViewReport report;
+  {
+    Session session(options, plan, settings);
+    while (session.frame()) {
+    }
+    report = session.finish();
+  }
+  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  if (options.verify && report.roamed) {
+    Progress progress("verifying", "pieces");
+    report.verified = verify(report.meshes, report.pieces,
+                             [&](std::uint64_t checked) { return progress.goes_on(checked, report.pieces.size()); });
+  }
+  if (options.json) {
+    print(json_report(report));
+  } else {
+    print(text_report(report));
+  }
+  return report.result && report.result->outcome != Outcome::reached ? answer_no : done;
+}
+
+constexpr const char* help =
+    "Opens a window and lets you roam: W A S D and the mouse, H shows all keys. Gravity and walls hold you; what does\n"
+    "is told at the lower edge. The window opens at once, walls are there as soon as they are loaded: until then you\n"
+    "are held.\n\n"
+    "Positions are of the body's centre, in metres, as in the file. A body that you do not describe is a person, 0.3 "
+    "m\n"
+    "in radius and 1.8 m high; with --radius or --path alone it is a sphere, as for `roam walk`.\n\n"
+    "Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config; bookmarks are kept\n"
+    "beside it. --path, --screenshot and --time end by themselves, and work with --headless. Exit status 3 when a "
+    "path\n"
+    "does not reach its end.\n\n"
+    "Examples:\n"
+    "  roam view mine.dae\n"
+    "  roam view house.glb --mode fly --at 1,2,1.5,90\n"
+    "  roam view mine.dae --path tour.path --record tour.mp4\n"
+    "  roam view Terrain/ --headless --screenshot terrain.png --size 1920x1080\n";
+
+}  // namespace
+
+void add_view(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("view", "Opens a window on a scene and lets you roam in it");
+  verb->footer(help);
+  const auto options = std::make_shared<ViewOptions>();
+  options->add_to(*verb);
+  verb->callback([options, &run] { run = [options] { return view(*options); }; });
+}
+
+}  // namespace roam::app

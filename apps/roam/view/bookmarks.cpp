@@ -1,0 +1,148 @@
+#include "view/bookmarks.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  throw Error(fmt::format("{}: {}; correct the file, or move it away to begin a new one", file.string(), what));
+}
+
+Json read(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) return Json::array();
+  std::ifstream in(file);
+  if (!in) throw Error(file.string() + ": cannot be opened; may you read it?");
+  Json document;
+  try {
+    document = Json::parse(in);
+  } catch (const Json::exception& error) {
+    fail(file, std::string("is no JSON: ") + error.what());
+  }
+  if (!document.is_array()) fail(file, "must hold a list of scenes, [ ... ]");
+  return document;
+}
+
+double number(const Json& value, const std::filesystem::path& file) {
+  const double x = value.is_number() ? value.get<double>() : std::nan("");
+  if (!std::isfinite(x)) fail(file, fmt::format("{} must be a number", value.dump()));
+  return x;
+}
+
+std::vector<Bookmark> bookmarks_of(const Json& scene, const std::filesystem::path& file) {
+  std::vector<Bookmark> bookmarks;
+  const Json list = scene.value("bookmarks", Json::array());
+  if (!list.is_array()) fail(file, "\"bookmarks\" must be a list, [ ... ]");
+  for (const Json& item : list) {
+    const bool whole = item.is_object() && item.contains("name") && item["name"].is_string() &&
+                       item.contains("position") && item["position"].is_array() && item["position"].size() == 3;
+    if (!whole) fail(file, "a bookmark must have a \"name\" and a \"position\" [x, y, z]: " + item.dump());
+    Bookmark bookmark;
+    bookmark.name = item["name"].get<std::string>();
+    for (int k = 0; k < 3; ++k) bookmark.pose.position[k] = number(item["position"][static_cast<std::size_t>(k)], file);
+    bookmark.pose.yaw = number(item.value("yaw", Json(0.0)), file);
+    bookmark.pose.pitch = number(item.value("pitch", Json(0.0)), file);
+    bookmarks.push_back(std::move(bookmark));
+  }
+  return bookmarks;
+}
+
+Json to_json(const Bookmark& bookmark) {
+  const Vec3& p = bookmark.pose.position;
+  return {{"name", bookmark.name},
+          {"position", {p.x, p.y, p.z}},
+          {"yaw", bookmark.pose.yaw},
+          {"pitch", bookmark.pose.pitch}};
+}
+
+/// Writes a file so that nobody ever sees half of it.
+void replace(const std::filesystem::path& file, const std::string& text) {
+  std::error_code status;
+  std::filesystem::create_directories(file.parent_path(), status);
+  const std::filesystem::path beside = fmt::format("{}.{}", file.string(), ::getpid());
+  {
+    std::ofstream out(beside);
+    out << text;
+    out.close();
+    if (!out) {
+      std::filesystem::remove(beside, status);
+      throw Error(fmt::format("{}: cannot be written; is its folder yours, and the disk not full?", file.string()));
+    }
+  }
+  std::filesystem::rename(beside, file, status);
+  if (!status) return;
+  const std::string why = status.message();
+  std::filesystem::remove(beside, status);
+  throw Error(fmt::format("{}: cannot be replaced: {}", file.string(), why));
+}
+
+}  // namespace
+
+Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, std::string up,
+                     std::string unit)
+    : file_(std::move(file)), up_(std::move(up)), unit_(std::move(unit)) {
+  for (const auto& scene : scenes) {
+    std::error_code none;
+    const auto whole = std::filesystem::weakly_canonical(scene, none);
+    scenes_.push_back((none ? std::filesystem::absolute(scene) : whole).string());
+  }
+  const Json document = read(file_);
+  for (const Json& scene : document) {
+    if (!scene.is_object()) fail(file_, "each scene must be an object, { ... }");
+    if (scene.value("scene", Json::array()) != Json(scenes_)) continue;
+    if (scene.value("up", Json("")) != Json(up_) || scene.value("unit", Json("m")) != Json(unit_)) continue;
+    bookmarks_ = bookmarks_of(scene, file_);
+  }
+}
+
+std::optional<Bookmark> Bookmarks::find(const std::string& name) const {
+  const auto found =
+      std::find_if(bookmarks_.begin(), bookmarks_.end(), [&](const Bookmark& b) { return b.name == name; });
+  return found == bookmarks_.end() ? std::nullopt : std::optional(*found);
+}
+
+std::string Bookmarks::names() const {
+  std::string text;
+  for (const Bookmark& bookmark : bookmarks_) text += (text.empty() ? "" : ", ") + bookmark.name;
+  return text;
+}
+
+const Bookmark& Bookmarks::add(const Pose& pose) {
+  if (file_.empty()) throw Error("there is no folder for bookmarks: set HOME or XDG_CONFIG_HOME");
+  Json document = read(file_);
+  const auto is_ours = [&](const Json& scene) {
+    return scene.is_object() && scene.value("scene", Json::array()) == Json(scenes_) &&
+           scene.value("up", Json("")) == Json(up_) && scene.value("unit", Json("m")) == Json(unit_);
+  };
+  auto ours = std::find_if(document.begin(), document.end(), is_ours);
+  if (ours == document.end()) {
+    document.push_back({{"scene", scenes_}, {"up", up_}, {"unit", unit_}, {"bookmarks", Json::array()}});
+    ours = std::prev(document.end());
+  }
+  std::vector<Bookmark> bookmarks = bookmarks_of(*ours, file_);
+  const auto is_taken = [&](const std::string& name) {
+    return std::any_of(bookmarks.begin(), bookmarks.end(), [&](const Bookmark& b) { return b.name == name; });
+  };
+  Bookmark added{"1", pose};
+  for (int number = 2; is_taken(added.name); ++number) added.name = std::to_string(number);
+  bookmarks.push_back(added);
+  Json list = Json::array();
+  for (const Bookmark& bookmark : bookmarks) list.push_back(to_json(bookmark));
+  (*ours)["bookmarks"] = list;
+  replace(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  bookmarks_ = std::move(bookmarks);
+  return bookmarks_.back();
+}
+
+}  // namespace roam::app

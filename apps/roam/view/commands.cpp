@@ -1,0 +1,87 @@
+#include "view/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+using Kind = osgRoam::Controls::Kind;
+
+struct Line {
+  Command command;
+  const char* name;
+  const char* keys;
+  const char* help;
+};
+
+constexpr Line lines[] = {
+    {Command::help, "help", "H", "shows or hides this help"},
+    {Command::hud, "hud", "F1", "all of the display, the least of it, none"},
+    {Command::marks, "marks", "V", "shows the body, what it touches and the nearest triangles"},
+    {Command::fullscreen, "fullscreen", "F", "fills the screen, or leaves it"},
+    {Command::grab, "grab", "M", "the mouse looks without a button; Escape gives it back"},
+    {Command::bookmark, "bookmark", "B", "keeps this place as a bookmark"},
+    {Command::next_bookmark, "next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
+    {Command::picture, "picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
+    {Command::record, "record", "R", "begins or ends recording the way, as roam-1.path and so on"},
+    {Command::quit, "quit", "Ctrl+Q", "ends; so does Escape when the mouse is free"},
+};
+
+}  // namespace
+
+const std::vector<std::string>& camera_names() {
+  static const std::vector<std::string> names = {"roam",    "trackball", "flight",       "drive",
+                                                 "terrain", "orbit",     "first person", "spherical"};
+  return names;
+}
+
+Command parse_command(const std::string& name) {
+  const auto found =
+      std::find_if(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; });
+  return found == std::end(lines) ? Command::none : found->command;
+}
+
+void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
+  for (const Line& line : lines) controls.add(line.name, line.keys, line.help, Kind::pressed);
+  std::string cameras;
+  for (const std::string& name : camera_names()) cameras += (cameras.empty() ? "" : ", ") + name;
+  controls.add("cameras", fmt::format("1 to {}", camera_names().size()),
+               fmt::format("other cameras, as in osgviewer: {}; only the first meets walls", cameras), Kind::gesture);
+  std::string changes;
+  for (const auto& [command, keys] : settings.keys) changes += fmt::format("{} = {}\n", command, fmt::join(keys, ", "));
+  try {
+    controls.rebind(changes);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: keys: {}", settings.file.string(), error.what()));
+  }
+}
+
+std::vector<KeyLine> key_lines(const osgRoam::Controls& controls) {
+  std::vector<KeyLine> table;
+  for (const auto& command : controls.commands()) {
+    const std::string keys = osgRoam::Controls::keyText(command);
+    if (!keys.empty()) table.emplace_back(keys, command.help);
+  }
+  return table;
+}
+
+std::string key_table(const osgRoam::Controls& controls) {
+  std::size_t name_width = 0, key_width = 0;
+  for (const auto& command : controls.commands()) {
+    name_width = std::max(name_width, command.name.size());
+    key_width = std::max(key_width, osgRoam::Controls::keyText(command).size());
+  }
+  std::string text;
+  for (const auto& command : controls.commands()) {
+    text += fmt::format("{:<{}}  {:<{}}  {}\n", command.name, name_width, osgRoam::Controls::keyText(command),
+                        key_width, command.help);
+  }
+  return text;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// What keys do in `roam view` beside moving: the lines that it adds to the manipulator's table.
+
+#include <string>
+#include <vector>
+
+#include "osgRoam/Controls.h"
+#include "view/settings.h"
+
+namespace roam::app {
+
+/// The commands that are the viewer's own, by their names in the table.
+enum class Command : std::uint8_t {
+  help,
+  hud,
+  fullscreen,
+  record,
+  picture,
+  bookmark,
+  next_bookmark,
+  grab,
+  marks,
+  quit,
+  none,  ///< a name that is not the viewer's
+};
+
+[[nodiscard]] Command parse_command(const std::string& name);
+
+/// Adds the viewer's commands to the manipulator's, then gives all commands the keys of the settings. Throws
+/// roam::Error, naming the settings file, for a command or key that does not exist or two commands on one key.
+void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
+
+/// A key, or keys, and what they do; with an empty second, a heading.
+using KeyLine = std::pair<std::string, std::string>;
+/// The table for people.
+[[nodiscard]] std::vector<KeyLine> key_lines(const osgRoam::Controls& controls);
+/// The same as text, a line a command, with the command's name for the settings file.
+[[nodiscard]] std::string key_table(const osgRoam::Controls& controls);
+
+/// The cameras on the keys 1, 2, 3, ..., as people call them; the first is the body's.
+[[nodiscard]] const std::vector<std::string>& camera_names();
+
+}  // namespace roam::app

@@ -1,0 +1,54 @@
+#include "view/film.h"
+
+#include <mutex>
+#include <optional>
+
+#include "roam/error.h"
+
+namespace roam::app {
+
+struct Film::State {
+  std::mutex mutex;
+  std::optional<graphics::Video> video;
+  int width = 0, height = 0;
+  std::string problem;
+};
+
+Film::Film(graphics::Frame& frame, const std::filesystem::path& path)
+    : frame_(frame), path_(path), state_(std::make_shared<State>()) {
+  state_->width = frame.width();
+  state_->height = frame.height();
+  state_->video.emplace(path, state_->width, state_->height, frames_per_second);
+}
+
+void Film::before_frame(double seconds) {
+  if (begin_ < 0.0) begin_ = seconds;
+  next_ = seconds + 1.0 / frames_per_second;
+  frame_.request_picture(true, [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
+    const std::lock_guard lock(state->mutex);
+    if (!state->video || !state->problem.empty()) return;
+    if (image->s() != state->width || image->t() != state->height) {
+      state->problem = "the film has ended: the size of the window has changed";
+      return;
+    }
+    try {
+      state->video->add(std::move(image), time);
+    } catch (const Error& error) {
+      state->problem = error.what();
+    }
+  });
+}
+
+std::string Film::problem() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->problem;
+}
+
+void Film::finish() {
+  const std::lock_guard lock(state_->mutex);
+  if (!state_->video) return;
+  state_->video->finish();
+  state_->video.reset();
+}
+
+}  // namespace roam::app

@@ -1,0 +1,109 @@
+#include "view/hold.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "motion/opening.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double news_seconds = 4.0;      // to read a sentence
+constexpr double calm_seconds = 0.25;     // a shorter touch is no blockage, a shorter break no end of one
+constexpr double measuring_period = 0.5;  // s
+constexpr double opening_skins = 4.0;     // what is nearer than that counts as touched, as for a Route
+constexpr double level_cosine = 0.7071;   // 45 degrees: a wall, or a floor or ceiling
+
+/// What is touched that stands most against the way.
+const Contact& hindrance(const StepReport& report, const Vec3& wish) {
+  const Contact* most = &report.contacts.back();
+  for (const Contact& contact : report.contacts) {
+    if (glm::dot(contact.normal, wish) < glm::dot(most->normal, wish)) most = &contact;
+  }
+  return *most;
+}
+
+std::string describe(const Walker& walker, const Contact& contact, const Vec3& wish) {
+  std::string text = contact.normal.z > level_cosine ? "floor" : contact.normal.z < -level_cosine ? "ceiling" : "wall";
+  const std::string object = walker.space().object_name(contact.triangle);
+  if (!object.empty()) text += ", " + object;
+  const double length = glm::length(wish);
+  if (length <= 0.0) return text;
+  const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
+                                                opening_skins * walker.skin());
+  if (opening) {
+    text += fmt::format(", opening {:.2f} m for a body of {:.2f} m", *opening, 2.0 * walker.settings().radius);
+  }
+  return text;
+}
+
+}  // namespace
+
+void Hold::take(const Walker& walker, const Vec3& wish, double seconds) {
+  now_ += seconds;
+  const StepReport& report = walker.report();
+  held_ = report.held;
+  waiting_ = report.waiting;
+  note_events(walker);
+  look_at_blockage(walker, wish, seconds);
+  if (report.grounded) level_ = walker.feet().z;
+}
+
+void Hold::note_events(const Walker& walker) {
+  const auto tell = [&](std::string text, bool warning) {
+    news_ = {std::move(text), warning};
+    news_at_ = now_;
+  };
+  for (const Event& event : walker.report().events) {
+    switch (event.kind) {
+      case EventKind::fell:
+        tell("fell: the ground ends, or has a gap that is wider than the body bridges", true);
+        break;
+      case EventKind::landed:
+        if (const double drop = level_ - walker.feet().z; drop > walker.fall_limit()) {
+          tell(fmt::format("fell {:.1f} m", drop), true);
+        }
+        break;
+      case EventKind::freed:
+        tell("freed: the body did not fit there, and was put to the nearest free place", true);
+        break;
+      case EventKind::returned:
+        tell("returned: no ghost any more, and put to the nearest free place", false);
+        break;
+      case EventKind::held:
+        tell(walker.held() ? "held: the body does not fit here" : "put back: there is nothing below to stand on", true);
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double seconds) {
+  const StepReport& report = walker.report();
+  const bool wished = glm::dot(wish, wish) > 0.0;
+  if (report.blocked && wished && !report.contacts.empty()) {
+    // A pause does not start the count anew: bodies that rattle along a wall are blocked too.
+    blocked_for_ = now_ - blocked_at_ <= calm_seconds ? blocked_for_ + seconds : 0.0;
+    blocked_at_ = now_;
+    if (blocked_for_ < calm_seconds || now_ - measured_at_ < measuring_period) return;
+    measured_at_ = now_;
+    const Contact& contact = hindrance(report, wish);
+    blockage_ = contact.unknown ? std::string() : describe(walker, contact, wish);
+  } else if (now_ - blocked_at_ > calm_seconds || !wished) {
+    blocked_for_ = 0.0;
+    measured_at_ = -measuring_period;
+    blockage_.clear();
+  }
+}
+
+Told Hold::told() const {
+  if (waiting_) return {"waiting: loading ahead", true};
+  if (held_) return {"held: the body does not fit here", true};
+  if (!blockage_.empty()) return {"blocked: " + blockage_, true};
+  if (now_ - news_at_ <= news_seconds) return news_;
+  return {};
+}
+
+}  // namespace roam::app

@@ -1,0 +1,120 @@
+// What keys and people ask a session for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "roam/error.h"
+#include "view/session.h"
+#include "view/session_handler.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double news_seconds = 6.0;
+constexpr std::size_t most_news = 4;  // lines at a time
+
+}  // namespace
+
+bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& /*action*/) {
+  if (event.getEventType() == osgGA::GUIEventAdapter::CLOSE_WINDOW) {
+    session_.run(Command::quit);
+    return false;
+  }
+  if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getHandled() || session_.roamer_leads()) {
+    return false;
+  }
+  const int key = event.getUnmodifiedKey() != 0 ? event.getUnmodifiedKey() : event.getKey();
+  const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;
+  const auto* command = session_.roamer().controls().lookup(key, ctrl);
+  if (command == nullptr || parse_command(command->name) == Command::none) return false;
+  session_.run(parse_command(command->name));
+  return true;
+}
+
+void Session::run(Command command) {
+  try {
+    switch (command) {
+      case Command::help:
+        stage_->hud().show_help(!stage_->hud().help_shown());
+        break;
+      case Command::hud:
+        stage_->set_hud(stage_->hud_mode() == HudMode::full      ? HudMode::minimal
+                        : stage_->hud_mode() == HudMode::minimal ? HudMode::off
+                                                                 : HudMode::full);
+        break;
+      case Command::fullscreen:
+        stage_->toggle_fullscreen();
+        break;
+      case Command::record:
+        toggle_recording();
+        break;
+      case Command::picture:
+        stage_->take_picture(unused_name(".", "png"));
+        break;
+      case Command::bookmark:
+        add_bookmark();
+        break;
+      case Command::next_bookmark:
+        next_bookmark(roamer_->down("fast"));
+        break;
+      case Command::grab:
+        roamer_->setMouseGrab(!roamer_->mouseGrab());
+        break;
+      case Command::marks:
+        marks_ = !marks_;
+        break;
+      case Command::quit:
+        quits_ = true;
+        break;
+      case Command::none:
+        break;
+    }
+  } catch (const Error& error) {
+    tell(error.what());
+  }
+  status_at_ = -1.0;
+}
+
+void Session::tell(std::string note) {
+  news_.push_back({note, now_ + news_seconds});
+  if (news_.size() > most_news) news_.erase(news_.begin());
+  // The report keeps each sentence once, however often it was told.
+  if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(std::move(note));
+}
+
+void Session::toggle_recording() {
+  if (recorder_) {
+    recorder_->close();
+    tell("written: " + recorder_->file().string());
+    recorder_.reset();
+  } else if (placed_) {
+    recorder_.emplace(unused_name(".", "path"));
+  }
+}
+
+void Session::record_way() {
+  if (!recorder_) return;
+  const osg::Quat q = roamer_->getMatrix().getRotate();
+  recorder_->add(now_, roamer_->walker()->position(), {q.x(), q.y(), q.z(), q.w()});
+}
+
+void Session::add_bookmark() {
+  if (!placed_) return;
+  if (!bookmarks_) throw Error(bookmark_problem_);
+  tell(fmt::format("bookmark {}", bookmarks_->add(pose()).name));
+}
+
+void Session::next_bookmark(bool backwards) {
+  if (!placed_) return;
+  const std::size_t count = bookmarks_ ? bookmarks_->all().size() : 0;
+  if (count == 0) {
+    tell("this scene has no bookmarks yet; the key B keeps one");
+    return;
+  }
+  bookmark_ = bookmark_ >= count ? (backwards ? count - 1 : 0) : (bookmark_ + (backwards ? count - 1 : 1)) % count;
+  const Bookmark& bookmark = bookmarks_->all()[bookmark_];
+  go_to(bookmark.pose);
+  tell(fmt::format("bookmark {}", bookmark.name));
+}
+
+}  // namespace roam::app

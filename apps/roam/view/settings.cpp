@@ -1,0 +1,173 @@
+#include "view/settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+using nlohmann::json;
+
+/// An object of the file, whose entries are taken out one by one; what is left at the end is unknown.
+class Section {
+ public:
+  Section(const std::filesystem::path& file, std::string where, json object)
+      : file_(file), where_(std::move(where)), object_(std::move(object)) {
+    if (object_.is_object()) return;
+    fail("", where_.empty() ? "the file must hold one JSON object, { ... }" : "must be an object, { ... }");
+  }
+
+  [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
+    const std::string path = where_.empty() || entry.empty() ? where_ + entry : where_ + "." + entry;
+    throw Error(path.empty() ? fmt::format("{}: {}", file_.string(), what)
+                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), path, what));
+  }
+
+  [[nodiscard]] std::optional<json> take(const std::string& entry) {
+    known_ += (known_.empty() ? "" : ", ") + entry;
+    const auto found = object_.find(entry);
+    if (found == object_.end()) return std::nullopt;
+    json value = *found;
+    object_.erase(found);
+    return value;
+  }
+
+  std::optional<double> number(const std::string& entry, double least, double most) {
+    const std::optional<json> value = take(entry);
+    if (!value) return std::nullopt;
+    const double x = value->is_number() ? value->get<double>() : std::nan("");
+    if (!(x >= least && x <= most)) fail(entry, fmt::format("must be a number from {:g} to {:g}", least, most));
+    return x;
+  }
+
+  std::optional<bool> flag(const std::string& entry) {
+    const std::optional<json> value = take(entry);
+    if (!value) return std::nullopt;
+    if (!value->is_boolean()) fail(entry, "must be true or false");
+    return value->get<bool>();
+  }
+
+  std::optional<Section> section(const std::string& entry) {
+    std::optional<json> value = take(entry);
+    if (!value) return std::nullopt;
+    return Section(file_, where_.empty() ? entry : where_ + "." + entry, std::move(*value));
+  }
+
+  void end() const {
+    if (!object_.empty()) fail(object_.begin().key(), "is not known; there are: " + known_);
+  }
+
+  [[nodiscard]] const json& object() const { return object_; }
+
+ private:
+  const std::filesystem::path& file_;
+  std::string where_;
+  json object_;
+  std::string known_;
+};
+
+std::map<std::string, std::vector<std::string>> keys_of(const Section& section) {
+  constexpr const char* what = "must be the name of a key, or a list of them: [\"W\", \"Up\"]";
+  std::map<std::string, std::vector<std::string>> keys;
+  for (const auto& [command, value] : section.object().items()) {
+    std::vector<std::string>& names = keys[command];
+    if (value.is_string()) {
+      names.push_back(value.get<std::string>());
+      continue;
+    }
+    if (!value.is_array()) section.fail(command, what);
+    for (const json& key : value) {
+      if (!key.is_string()) section.fail(command, what);
+      names.push_back(key.get<std::string>());
+    }
+  }
+  return keys;
+}
+
+}  // namespace
+
+const char* name(HudMode mode) {
+  switch (mode) {
+    case HudMode::full:
+      return "full";
+    case HudMode::minimal:
+      return "minimal";
+    case HudMode::off:
+      return "off";
+  }
+  return "";
+}
+
+std::optional<HudMode> parse_hud_mode(const std::string& text) {
+  for (const HudMode mode : {HudMode::full, HudMode::minimal, HudMode::off}) {
+    if (text == name(mode)) return mode;
+  }
+  return std::nullopt;
+}
+
+std::filesystem::path settings_folder() {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  // The standard of the XDG folders: a path that is not absolute is to be ignored.
+  if (const auto config = folder("XDG_CONFIG_HOME"); config.is_absolute()) return config / "roam";
+  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".config" / "roam";
+  return {};
+}
+
+ViewSettings read_settings(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw Error(file.string() + ": cannot be opened; is the path right, and may you read it?");
+  json document;
+  try {
+    document = json::parse(in, nullptr, true, true);
+  } catch (const json::exception& error) {
+    throw Error(fmt::format("{}: is no JSON: {}", file.string(), error.what()));
+  }
+  // Far wider than anything sensible: what they bound exactly is for those who use them to say.
+  constexpr double metres = 1000.0;
+  constexpr double least = 1e-3;
+  ViewSettings settings;
+  settings.file = file;
+  Section all(file, "", std::move(document));
+  if (const auto keys = all.section("keys")) settings.keys = keys_of(*keys);
+  if (auto mouse = all.section("mouse")) {
+    settings.sensitivity = mouse->number("sensitivity", 0.01, 100.0);
+    settings.invert_y = mouse->flag("invert_y");
+    mouse->end();
+  }
+  if (auto body = all.section("body")) {
+    settings.radius = body->number("radius", least, metres);
+    settings.height = body->number("height", least, metres);
+    settings.eye = body->number("eye", 0.0, metres);
+    settings.step = body->number("step", 0.0, metres);
+    settings.slope = body->number("slope", 0.0, 89.0);
+    body->end();
+  }
+  settings.speed = all.number("speed", least, 1e4);
+  settings.fov = all.number("fov", least_fov, largest_fov);
+  if (const auto hud = all.take("hud")) {
+    settings.hud = hud->is_string() ? parse_hud_mode(hud->get<std::string>()) : std::nullopt;
+    if (!settings.hud) all.fail("hud", "must be \"full\", \"minimal\" or \"off\"");
+  }
+  all.end();
+  return settings;
+}
+
+ViewSettings find_settings(const std::filesystem::path& asked) {
+  if (!asked.empty()) return read_settings(asked);
+  const std::filesystem::path folder = settings_folder();
+  std::error_code none;
+  if (folder.empty() || !std::filesystem::exists(folder / "settings.json", none)) return {};
+  return read_settings(folder / "settings.json");
+}
+
+}  // namespace roam::app

@@ -1,0 +1,128 @@
+#include "view/stage.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
+  if (options.headless) return graphics::open_headless(plan.width, plan.height);
+  std::string title = "roam: " + options.scene.names();
+  return graphics::open_window(title, plan.width, plan.height);
+}
+
+graphics::Detail detail(HudMode mode) {
+  switch (mode) {
+    case HudMode::full:
+      return graphics::Detail::full;
+    case HudMode::minimal:
+      return graphics::Detail::minimal;
+    case HudMode::off:
+      break;
+  }
+  return graphics::Detail::off;
+}
+
+}  // namespace
+
+Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
+    : context_(open(options, plan)), viewer_(new osgViewer::Viewer) {
+  // One thread: events, steps and drawing follow each other, and what is seen is never older than one frame.
+  viewer_->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+  graphics::FrameSettings settings;
+  settings.vertical_fov = plan.fov;
+  settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
+  frame_.emplace(*viewer_, context_, settings);
+  frame_->space()->addChild(graphics::make_sky());
+  hud_.emplace(*frame_);
+  overlay_.emplace(*frame_);
+  set_hud(plan.hud);
+  viewer_->realize();
+  if (options.fullscreen && !context_.headless) toggle_fullscreen();
+}
+
+void Stage::show(const Status& status) {
+  std::vector<graphics::StatusLine> lines;
+  for (const StatusText& line : status_lines(status)) {
+    lines.push_back({line.label, line.value, line.warning ? graphics::Tone::warning : graphics::Tone::info});
+  }
+  hud_->set_status(std::move(lines));
+  const Told message = status_message(status);
+  hud_->set_message(message.text, message.warning ? graphics::Tone::warning : graphics::Tone::info);
+  hud_->set_progress(load_share(status.display, status.collision));
+  hud_->set_crosshair(status.mode.has_value() && status.camera.empty());
+}
+
+void Stage::set_hud(HudMode mode) {
+  hud_mode_ = mode;
+  hud_->set_detail(detail(mode));
+}
+
+void Stage::toggle_fullscreen() {
+  if (context_.headless) return;
+  osgViewer::GraphicsWindow& window = *context_.window;
+  if (fullscreen_) {
+    window.setWindowDecoration(true);
+    window.setWindowRectangle(left_, top_, width_, height_);
+  } else {
+    auto* screens = osg::GraphicsContext::getWindowingSystemInterface();
+    if (screens == nullptr) return;
+    unsigned int across = 0, down = 0;
+    screens->getScreenResolution(*window.getTraits(), across, down);
+    window.getWindowRectangle(left_, top_, width_, height_);
+    window.setWindowDecoration(false);
+    window.setWindowRectangle(0, 0, static_cast<int>(across), static_cast<int>(down));
+  }
+  fullscreen_ = !fullscreen_;
+}
+
+void Stage::start_film(const std::filesystem::path& path) { film_.emplace(*frame_, path); }
+
+void Stage::take_picture(const std::filesystem::path& path) { pictures_.emplace_back(*frame_, path, true); }
+
+std::vector<std::string> Stage::poll_pictures() {
+  std::vector<std::string> told;
+  std::erase_if(pictures_, [&](graphics::Screenshot& picture) {
+    if (!picture.done()) return false;
+    try {
+      picture.finish();
+      told.push_back("written: " + picture.path().string());
+    } catch (const Error& error) {
+      told.emplace_back(error.what());
+    }
+    return true;
+  });
+  return told;
+}
+
+void Stage::draw(double seconds) {
+  if (film_ && film_->is_due(seconds)) film_->before_frame(seconds);
+  const auto begin = Clock::now();
+  viewer_->updateTraversal();
+  viewer_->renderingTraversals();
+  const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
+  times_.add(ns);
+  last_ms_ = ns * 1e-6;
+}
+
+void Stage::draw_picture(const std::filesystem::path& path, double seconds) {
+  graphics::Screenshot picture(*frame_, path, true);
+  draw(seconds);
+  picture.finish();
+}
+
+void Stage::finish() {
+  for (graphics::Screenshot& picture : pictures_) picture.finish();
+  pictures_.clear();
+  if (!film_) return;
+  film_->finish();
+  film_.reset();
+}
+
+}  // namespace roam::app

@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Where a session is shown: window or none, picture, display, pictures and films of it.
+
+#include <filesystem>
+#include <optional>
+#include <osgViewer/Viewer>
+#include <string>
+#include <vector>
+
+#include "graphics/capture.h"
+#include "graphics/context.h"
+#include "graphics/frame.h"
+#include "graphics/hud.h"
+#include "graphics/overlay.h"
+#include "graphics/shading.h"
+#include "roam/math.h"
+#include "view/film.h"
+#include "view/histogram.h"
+#include "view/options.h"
+#include "view/status.h"
+
+namespace roam::app {
+
+/// Opens a place to draw to and draws there. All of it belongs to one thread.
+class Stage {
+ public:
+  /// Throws roam::Error when there is no display or no OpenGL; the message says what to do.
+  Stage(const ViewOptions& options, const ViewPlan& plan);
+
+  [[nodiscard]] osgViewer::Viewer& viewer() { return *viewer_; }
+  [[nodiscard]] graphics::Frame& frame() { return *frame_; }
+  [[nodiscard]] graphics::Hud& hud() { return *hud_; }
+  [[nodiscard]] graphics::Overlay& overlay() { return *overlay_; }
+  [[nodiscard]] bool headless() const { return context_.headless; }
+
+  /// Shows the lines and the message; changes nothing when they are what is shown.
+  void show(const Status& status);
+  void set_hud(HudMode mode);
+  [[nodiscard]] HudMode hud_mode() const { return hud_mode_; }
+  void toggle_fullscreen();
+
+  /// Starts a film. Throws roam::Error when it can not be made.
+  void start_film(const std::filesystem::path& path);
+  [[nodiscard]] const std::optional<Film>& film() const { return film_; }
+  /// Takes a picture of the next frame; `poll_pictures` tells when it is written.
+  void take_picture(const std::filesystem::path& path);
+  /// What has been written since last asked, and what could not be, as sentences.
+  [[nodiscard]] std::vector<std::string> poll_pictures();
+
+  /// Updates and draws one frame. `seconds` since the session began. Events must have been seen to.
+  void draw(double seconds);
+  /// Draws one frame into a file and waits for it. Throws roam::Error when it can not be written.
+  void draw_picture(const std::filesystem::path& path, double seconds);
+  /// Ends film and pictures. Throws roam::Error when one of them could not be written.
+  void finish();
+
+  [[nodiscard]] const Histogram& frame_times() const { return times_; }  ///< ns
+  [[nodiscard]] double last_frame_ms() const { return last_ms_; }
+
+ private:
+  graphics::Context context_;
+  osg::ref_ptr<osgViewer::Viewer> viewer_;
+  std::optional<graphics::Frame> frame_;
+  std::optional<graphics::Hud> hud_;
+  std::optional<graphics::Overlay> overlay_;
+  std::optional<Film> film_;
+  std::vector<graphics::Screenshot> pictures_;
+  HudMode hud_mode_ = HudMode::full;
+  Histogram times_;
+  double last_ms_ = 0.0;
+  bool fullscreen_ = false;
+  int left_ = 0, top_ = 0, width_ = 0, height_ = 0;  ///< of the window before it filled the screen
+};
+
+}  // namespace roam::app

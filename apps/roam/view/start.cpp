@@ -1,0 +1,84 @@
+#include "view/start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "roam/error.h"
+#include "wander.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr int headings = 32;
+constexpr double overview_yaw = 60.0;     // degrees: two sides of a building are seen, none of them face on
+constexpr double overview_pitch = -30.0;  // degrees
+
+Vec3 direction(double yaw, double pitch) {
+  return {std::cos(yaw * degree) * std::cos(pitch * degree), std::sin(yaw * degree) * std::cos(pitch * degree),
+          std::sin(pitch * degree)};
+}
+
+}  // namespace
+
+double open_yaw(const Space& space, const Vec3& eye) {
+  // The open is not what one came to see: a way out of the scene counts as long as the scene is.
+  const Box box = space.bounds();
+  const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), 1e6);
+  double farthest = -1.0;
+  double best = 0.0;
+  for (int i = 0; i < headings; ++i) {
+    const double yaw = 360.0 * i / headings;
+    const Impact wall = space.ray(eye, reach * direction(yaw, 0.0));
+    const Vec3 end = eye + (wall.hit ? wall.time : 1.0) * reach * direction(yaw, 0.0);
+    const double inside = glm::distance(glm::clamp(end, box.lower, box.upper), eye);
+    if (inside > farthest) {
+      farthest = inside;
+      best = yaw;
+    }
+  }
+  return best;
+}
+
+Pose overview(const Box& box, double fov) {
+  const double radius = box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-3);
+  const Vec3 centre = box.empty() ? Vec3(0.0) : box.center();
+  const double distance = radius / std::sin(0.5 * fov * degree);
+  return {centre - distance * direction(overview_yaw, overview_pitch), overview_yaw, overview_pitch};
+}
+
+StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
+                      const std::function<bool()>& goes_on) {
+  StartPlace start;
+  start.mode = mode;
+  const auto look_around = [&](const Vec3& centre) {
+    const Vec3 eye = centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height);
+    start.pose = {centre, open_yaw(space, eye), 0.0};
+    return start;
+  };
+  std::string why;
+  for (const Mode way : {Mode::walk, Mode::fly}) {
+    if (way == Mode::walk && mode != Mode::walk) continue;
+    try {
+      const Vec3 place = wander_start(space, settings, way, goes_on);
+      if (way != mode && mode == Mode::walk) {
+        start.mode = Mode::fly;
+        start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";
+      }
+      return look_around(place);
+    } catch (const Error& error) {
+      why = error.what();
+    }
+  }
+  constexpr double fov = 60.0;
+  start.pose = overview(space.bounds(), fov);
+  if (mode != Mode::ghost) start.mode = Mode::fly;
+  start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
+  return start;
+}
+
+}  // namespace roam::app

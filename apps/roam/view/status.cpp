@@ -1,0 +1,121 @@
+#include "view/status.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "progress.h"
+
+namespace roam::app {
+namespace {
+
+using Phase = LoadState::Phase;
+
+/// How much of the loading of the collision is reading, and reading and indexing; the rest looks for a start.
+constexpr double reading_share = 0.6;
+constexpr double indexing_share = 0.95;
+
+double share_of(const LoadState& state) {
+  switch (state.phase) {
+    case Phase::reading:
+      return reading_share * state.share;
+    case Phase::indexing:
+      return reading_share + (indexing_share - reading_share) * state.share;
+    case Phase::looking:
+      return indexing_share;
+    default:
+      return 1.0;
+  }
+}
+
+bool is_over(const LoadState& state) { return state.phase == Phase::done || state.phase == Phase::failed; }
+
+std::string body_text(const Status& status) {
+  const WalkerSettings& body = status.body;
+  std::string text = body.height > 2.0 * body.radius
+                         ? fmt::format("radius {:.2f} m, height {:.2f} m", body.radius, body.height)
+                         : fmt::format("sphere, radius {:.2f} m", body.radius);
+  if (status.crouched) text += ", crouched";
+  return text;
+}
+
+std::string mode_text(const Status& status) {
+  if (!status.camera.empty()) return status.camera;
+  if (!status.mode) return "loading";
+  std::string text = fmt::format("{}  {:.1f} m/s", name(*status.mode), status.speed);
+  if (*status.mode == Mode::walk && !status.grounded) text += "  in the air";
+  return text;
+}
+
+}  // namespace
+
+std::string load_text(const char* what, const LoadState& state) {
+  if (state.phase == Phase::done) return {};
+  if (state.phase == Phase::failed) return fmt::format("{} failed: {}", what, state.error);
+  if (state.phase == Phase::looking) return fmt::format("{}: looking for a place to start", what);
+  std::string text = fmt::format("{} {:.0f} %", what, 100.0 * share_of(state));
+  if (state.triangles > 0) text += fmt::format(": {} triangles", short_count(static_cast<double>(state.triangles)));
+  if (state.seconds_left >= 0.0) {
+    text += fmt::format("{} {} left", state.triangles > 0 ? "," : ":", short_time(state.seconds_left));
+  }
+  return text;
+}
+
+double load_share(const LoadState& display, const LoadState& collision) {
+  if (is_over(display) && is_over(collision)) return -1.0;
+  // The body waits for the collision; what is to be seen comes beside it.
+  return is_over(collision) ? display.share : share_of(collision);
+}
+
+std::vector<StatusText> status_lines(const Status& status) {
+  std::vector<StatusText> lines;
+  lines.push_back({"", mode_text(status), false});
+  if (status.mode && status.camera.empty()) {
+    const Vec3& p = status.place;
+    lines.push_back({"body", body_text(status), false});
+    lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false});
+    lines.push_back({"place", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z), false});
+    lines.push_back({"look", fmt::format("{:.0f}\u00b0, {:+.0f}\u00b0", status.yaw, status.pitch), false});
+  }
+  if (status.triangles > 0) lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false});
+  std::string memory = byte_text(status.resident);
+  if (status.world_bytes > 0) memory += fmt::format(", collision {}", byte_text(status.world_bytes));
+  lines.push_back({"memory", memory, false});
+  std::string frame = fmt::format("{:.1f} ms", status.frame_ms);
+  if (status.mode) frame += fmt::format(", collision {:.0f} \u00b5s", status.collision_us);
+  lines.push_back({"frame", frame, false});
+  if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
+  const std::string display = load_text("scene", status.display);
+  if (!display.empty()) lines.push_back({"", display, status.display.phase == Phase::failed});
+  const std::string collision = load_text("collision", status.collision);
+  if (!collision.empty()) lines.push_back({"", collision, status.collision.phase == Phase::failed});
+  for (const std::string& note : status.notes) lines.push_back({"", note, true});
+  return lines;
+}
+
+Told status_message(const Status& status) {
+  if (status.collision.phase == Phase::failed) {
+    return {"The collision could not be loaded: this is a ghost that passes through walls.", true};
+  }
+  if (!status.mode) {
+    return {fmt::format("held until the walls are known\n{}", load_text("collision", status.collision)), false};
+  }
+  return status.camera.empty() ? status.hold : Told{};
+}
+
+std::string byte_text(std::uint64_t bytes) {
+  constexpr double mega = 1e6;
+  const double count = static_cast<double>(bytes) / mega;
+  return count < 1000.0 ? fmt::format("{:.0f} MB", count) : fmt::format("{:.2f} GB", count / 1000.0);
+}
+
+std::uint64_t resident_bytes() {
+  // The second number of statm: pages in RAM.
+  std::ifstream in("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  in >> all >> resident;
+  return in ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+}  // namespace roam::app

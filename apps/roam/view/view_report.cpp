@@ -1,0 +1,90 @@
+#include "view/view_report.h"
+
+#include <fmt/format.h>
+
+#include "progress.h"
+
+namespace roam::app {
+namespace {
+
+Json to_json(const Times& times) { return {{"median", times.median}, {"p99", times.p99}, {"max", times.max}}; }
+
+Json to_json(const Pose& pose) {
+  return {{"position", app::to_json(pose.position)}, {"yaw", pose.yaw}, {"pitch", pose.pitch}};
+}
+
+Json blockage(const ViewReport& report) {
+  if (!report.result || !report.result->blocked_at) return nullptr;
+  const Blockage& at = *report.result->blocked_at;
+  Json json = {{"point", app::to_json(at.point)},
+               {"normal", app::to_json(at.normal)},
+               {"triangle", at.triangle},
+               {"object", report.object},
+               {"opening_m", nullptr}};
+  if (at.opening) json["opening_m"] = *at.opening;
+  return json;
+}
+
+}  // namespace
+
+Json json_report(const ViewReport& report) {
+  Json json = {{"scene", report.scene},
+               {"triangles", report.triangles},
+               {"mode", name(report.mode)},
+               {"radius", report.settings.radius},
+               {"height", report.settings.height},
+               {"outcome", nullptr},
+               {"roamed", report.roamed},
+               {"length_m", report.length},
+               {"steps", report.steps},
+               {"simulated_s", report.simulated},
+               {"collision_ns", to_json(report.collision_ns)},
+               {"frames", report.frames},
+               {"frame_ms", to_json(report.frame_ms)},
+               {"least_clearance_m", nullptr},
+               {"violations", nullptr},
+               {"throttled", report.throttled},
+               {"blocked_at", blockage(report)},
+               {"start", nullptr},
+               {"end", to_json(report.end)},
+               {"memory", {{"resident_bytes", report.resident_bytes}, {"world_bytes", report.world_bytes}}},
+               {"renderer", report.renderer},
+               {"hud", report.hud},
+               {"notes", report.notes},
+               {"missing_textures", report.missing_textures},
+               {"missing_texture_files", report.missing_texture_files},
+               {"missing_pages", report.missing_pages},
+               {"written", report.written}};
+  json["end"]["eye"] = app::to_json(report.eye);
+  if (report.start) json["start"] = to_json(*report.start);
+  if (report.least_clearance) json["least_clearance_m"] = *report.least_clearance;
+  if (report.result) {
+    json["outcome"] = name(report.result->outcome);
+    json["waypoints_reached"] = report.result->waypoints;
+  }
+  if (report.verified) {
+    json["violations"] = report.verified->violations;
+    json["verified"] = {{"pieces", report.verified->pieces},
+                        {"distances", report.verified->distances},
+                        {"least_gap_m", nullptr},
+                        {"overstated_clearances", report.verified->overstated}};
+    if (report.verified->least_gap) json["verified"]["least_gap_m"] = *report.verified->least_gap;
+  }
+  return json;
+}
+
+std::string text_report(const ViewReport& report) {
+  std::string text;
+  if (report.result) {
+    text += fmt::format("{}: {} of {} waypoints, {:.2f} m in {:.1f} s\n", name(report.result->outcome),
+                        report.result->waypoints, report.waypoints, report.length, report.simulated);
+  }
+  if (report.verified) {
+    text += fmt::format("verified: {} violations in {} straight pieces against all triangles\n",
+                        report.verified->violations, report.verified->pieces);
+  }
+  for (const std::string& file : report.written) text += fmt::format("written: {}\n", file);
+  return text;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// What `roam view` tells when it ends.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report.h"
+#include "roam/route.h"
+#include "verification.h"
+#include "view/pose.h"
+
+namespace roam::app {
+
+/// Median, 99th percentile and largest.
+struct Times {
+  double median = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+struct ViewReport {
+  std::string scene;
+  std::uint64_t triangles = 0;  ///< of the collision; 0 when it did not come
+  WalkerSettings settings;
+  Mode mode = Mode::walk;             ///< at the end
+  std::optional<RouteResult> result;  ///< of a path
+  std::string object;                 ///< what blocked on the path, by name
+  std::size_t waypoints = 0;          ///< of the path
+  bool roamed = false;                ///< the body came into the scene
+  std::optional<Pose> start;          ///< home
+  Pose end;
+  Vec3 eye{0.0};
+  std::uint64_t steps = 0;
+  double simulated = 0.0;
+  double length = 0.0;
+  std::uint64_t throttled = 0;
+  std::optional<double> least_clearance;
+  std::uint64_t frames = 0;
+  Times frame_ms;
+  Times collision_ns;  ///< a frame
+  std::uint64_t resident_bytes = 0;
+  std::uint64_t world_bytes = 0;
+  std::string renderer;
+  std::vector<std::string> hud;    ///< as shown in the last frame, line by line
+  std::vector<std::string> notes;  ///< what is not as it should be
+  std::uint64_t missing_textures = 0;
+  std::vector<std::string> missing_texture_files;
+  std::uint64_t missing_pages = 0;
+  std::vector<std::string> written;  ///< files
+  std::vector<Mesh> meshes;          ///< for --verify
+  std::vector<Piece> pieces;         ///< for --verify
+  std::optional<Verification> verified;
+};
+
+[[nodiscard]] Json json_report(const ViewReport& report);
+[[nodiscard]] std::string text_report(const ViewReport& report);
+
+}  // namespace roam::app

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// What is kept of a session's steps: the trace, the pieces for --verify, times, the least clearance.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "roam/walker.h"
+#include "view/histogram.h"
+#include "walk_record.h"
+
+namespace roam::app {
+
+/// Takes down every step of a body that a person leads. Without a trace and --verify it takes the same memory for a
+/// minute and for a day.
+class WalkLog {
+ public:
+  /// An empty path: no trace. `keep_pieces`: for verify().
+  WalkLog(const std::filesystem::path& trace, bool keep_pieces);
+
+  /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost and of a body that is held
+  /// stand in the trace, but are nothing that could be verified.
+  void take(const StepReport& report, const WalkerSettings& settings, Mode mode, double seconds);
+  /// The time that all steps of a frame took.
+  void take_frame(std::int64_t collision_nanoseconds);
+  /// Writes what is left. Throws roam::Error when not all of the trace could be written.
+  void finish();
+
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  [[nodiscard]] double simulated() const { return simulated_; }  ///< seconds
+  [[nodiscard]] double length() const { return length_; }        ///< metres moved, placements left out
+  [[nodiscard]] std::uint64_t throttled() const { return throttled_; }
+  /// Metres, certified, of all that was neither ghost nor held; none before the first such step.
+  [[nodiscard]] const std::optional<double>& least_clearance() const { return least_clearance_; }
+  /// For verify(), once.
+  [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
+  [[nodiscard]] const Histogram& collision_times() const { return collision_; }  ///< ns a frame with steps
+
+ private:
+  std::optional<TraceFile> trace_;
+  bool keep_pieces_;
+  std::vector<Piece> pieces_;
+  Histogram collision_;
+  std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
+  std::uint64_t steps_ = 0;
+  std::uint64_t throttled_ = 0;
+  double simulated_ = 0.0;
+  double length_ = 0.0;
+  std::optional<double> least_clearance_;
+};
+
+}  // namespace roam::app
