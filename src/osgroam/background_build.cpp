@@ -1,5 +1,6 @@
 #include "osgroam/background_build.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -9,7 +10,7 @@ BackgroundBuild::BackgroundBuild(std::vector<roam::Mesh> meshes) {
   world_ = std::async(std::launch::async, [this, meshes = std::move(meshes)]() -> std::shared_ptr<const roam::World> {
     roam::BuildOptions options;
     options.progress = [this](double fraction) {
-      fraction_ = fraction;
+      fraction_ = std::min(fraction, 1.0);
       return !cancelled_;
     };
     return std::make_shared<const roam::World>(roam::World::build(meshes, options));

@@ -1,0 +1,411 @@
+// Keys, time and frames: how long a key was down counts, and nothing else.
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "osg_rig.h"
+
+namespace {
+
+using namespace scenes;
+using rig::Adapter;
+using rig::Rig;
+
+/// A floor of 400 m by 400 m.
+Mesh plain() {
+  Mesh m;
+  add_floor(m, -200.0, -200.0, 200.0, 200.0, 0.0);
+  return m;
+}
+
+/// Somebody who stands at the origin of a plain and looks along +x.
+struct Standing : Rig {
+  explicit Standing(roam::Mode mode = roam::Mode::walk) : Rig(plain(), {}, mode) {
+    manipulator->setFeet({0.0, 0.0, mode == roam::Mode::walk ? 0.0 : 5.0}, 0.0, 0.0);
+    frames(0.5);
+  }
+  [[nodiscard]] Vec3 at() const { return manipulator->walker()->position(); }
+};
+
+TEST(ManipulatorKeys, EachKeyGoesItsWay) {
+  const std::pair<int, Vec3> ways[] = {{'w', {1, 0, 0}},
+                                       {'s', {-1, 0, 0}},
+                                       {'a', {0, 1, 0}},
+                                       {'d', {0, -1, 0}},
+                                       {'e', {0, 0, 1}},
+                                       {'q', {0, 0, -1}},
+                                       {Adapter::KEY_Up, {1, 0, 0}},
+                                       {Adapter::KEY_KP_Right, {0, -1, 0}},
+                                       {Adapter::KEY_Page_Up, {0, 0, 1}},
+                                       {Adapter::KEY_Page_Down, {0, 0, -1}}};
+  for (const auto& [key, way] : ways) {
+    Standing r(roam::Mode::fly);
+    const Vec3 before = r.at();
+    r.down(key);
+    EXPECT_TRUE(r.taken);
+    r.frames(1.0);
+    EXPECT_LT(glm::length(r.at() - before - 1.4 * way), 1e-6) << key;
+    r.up(key);
+    r.frames(1.0);
+    EXPECT_LT(glm::length(r.at() - before - 1.4 * way), 1e-6) << key;
+  }
+}
+
+TEST(ManipulatorKeys, FlyingGoesWhereOneLooksAndWalkingStaysLevel) {
+  for (const roam::Mode mode : {roam::Mode::fly, roam::Mode::walk}) {
+    Standing r(mode);
+    r->look(0.0, 0.5);
+    const Vec3 before = r.at();
+    r.down('w');
+    r.frames(1.0);
+    const Vec3 gone = r.at() - before;
+    EXPECT_NEAR(glm::length(gone), 1.4, 1e-3);
+    EXPECT_NEAR(gone.z, mode == roam::Mode::fly ? 1.4 * std::sin(0.5) : 0.0, 1e-3);
+  }
+}
+
+TEST(ManipulatorKeys, TwoKeysAreNoFasterThanOne) {
+  Standing r;
+  r.down('w');
+  r.down('d');
+  r.frames(1.0);
+  EXPECT_NEAR(glm::length(r.at() - Vec3(0.0, 0.0, r.at().z)), 1.4, 1e-3);
+  EXPECT_NEAR(r.at().x, -r.at().y, 1e-3);
+}
+
+TEST(ManipulatorKeys, KeyRepeatChangesNothing) {
+  Standing quiet, repeating;
+  quiet.down('w');
+  repeating.down('w');
+  for (int i = 0; i < 60; ++i) {
+    quiet.frame(frame);
+    repeating.down('w');
+    repeating.down('w');
+    repeating.frame(frame);
+  }
+  EXPECT_EQ(quiet.at(), repeating.at());
+  int jumps = 0;
+  repeating->setStepCallback([&](const roam::StepReport& report, double) { jumps += report.has(EventKind::jumped); });
+  for (int i = 0; i < 120; ++i) {
+    repeating.down(' ');
+    repeating.frame(frame);
+  }
+  EXPECT_EQ(jumps, 1);
+}
+
+TEST(ManipulatorKeys, ShiftAndItsLetterAreTheLetterHurried) {
+  Standing r;
+  r.down(Adapter::KEY_Shift_L);
+  r.down('W', 'w');
+  r.frames(1.0);
+  EXPECT_NEAR(r.at().x, 7.0, 1e-3);
+  r.up(Adapter::KEY_Shift_L);
+  const double before = r.at().x;
+  r.frames(1.0);  // W is down still, now without Shift
+  EXPECT_NEAR(r.at().x - before, 1.4, 1e-3);
+  r.up('w', 'w');
+  r.frames(0.5);
+  EXPECT_NEAR(r.at().x - before, 1.4, 1e-3);
+}
+
+TEST(ManipulatorKeys, WhereNoUnmodifiedKeyIsToldTheKeyItselfCounts) {
+  Standing r;
+  r.down('W', 0);
+  r.frames(1.0);
+  r.up('w', 0);  // Shift was let go in between
+  r.frames(1.0);
+  EXPECT_NEAR(r.at().x, 1.4, 1e-3);
+}
+
+TEST(ManipulatorKeys, CtrlIsSlow) {
+  Standing r;
+  r.down(Adapter::KEY_Control_L);
+  r.down('w');
+  r.frames(1.0);
+  EXPECT_NEAR(r.at().x, 1.4 * osgRoam::Manipulator::slow_factor, 1e-3);
+}
+
+TEST(ManipulatorKeys, AltLetsGoOfAllKeys) {
+  for (const int key :
+       {int(Adapter::KEY_Alt_L), int(Adapter::KEY_Alt_R), int(Adapter::KEY_Super_L), int(Adapter::KEY_Meta_L)}) {
+    Standing r;
+    r.down('w');
+    r.frames(0.5);
+    r->setMouseGrab(true);
+    r.down(key);  // and the window manager keeps the rest to itself
+    const Vec3 before = r.at();
+    r.frames(1.0);
+    EXPECT_EQ(r.at(), before);
+    EXPECT_FALSE(r->down("forward"));
+    EXPECT_FALSE(r->mouseGrab());
+  }
+}
+
+TEST(ManipulatorKeys, KeysGoneWithTheWindowAreLetGo) {
+  Standing r;
+  r.down('w');
+  r.queue->closeWindow(r.time);
+  r.deliver();
+  const Vec3 before = r.at();
+  r.frames(1.0);
+  EXPECT_EQ(r.at(), before);
+  r.down('w');
+  r->releaseKeys();
+  r.frames(1.0);
+  EXPECT_EQ(r.at(), before);
+}
+
+TEST(ManipulatorKeys, WhatAnotherHandlerHasTakenIsLeftToItButLettingGoIsSeen) {
+  Standing r;
+  const auto handled = [&](bool press) {
+    const osg::ref_ptr<Adapter> event =
+        press ? r.queue->keyPress('s', r.time, 's') : r.queue->keyRelease('s', r.time, 's');
+    event->setHandled(true);
+    r.deliver();
+  };
+  handled(true);
+  const Vec3 before = r.at();
+  r.frames(0.5);
+  EXPECT_EQ(r.at(), before);
+  r.down('s');
+  handled(false);
+  r.frames(0.5);
+  EXPECT_EQ(r.at(), before);
+}
+
+TEST(ManipulatorKeys, ATapBetweenTwoFramesCountsForAsLongAsItWas) {
+  Standing r;
+  r.time += 0.02;
+  r.down('w');
+  r.time += 0.05;
+  r.up('w');
+  r.frame(0.03);
+  EXPECT_NEAR(r.at().x, 1.4 * 0.05, 1e-4);
+}
+
+TEST(ManipulatorKeys, AfterALongRestOnlyTheTimeSinceThePressCounts) {
+  Standing r;
+  r.time += 9.9;
+  r.down('w');
+  r.frame(0.1);
+  EXPECT_NEAR(r.at().x, 1.4 * 0.1, 1e-4);
+}
+
+TEST(ManipulatorKeys, ALongFrameIsCutShort) {
+  Standing r;
+  r.down('w');
+  r.frame(20.0);
+  EXPECT_NEAR(r.at().x, 1.4 * osgRoam::Manipulator::longest_frame, 1e-4);
+}
+
+TEST(ManipulatorKeys, EveryFrameIsCutIntoShortSteps) {
+  Standing r;
+  double longest = 0.0, sum = 0.0;
+  int count = 0;
+  r->setStepCallback([&](const roam::StepReport&, double seconds) {
+    longest = std::max(longest, seconds);
+    sum += seconds;
+    ++count;
+  });
+  for (const double dt : {0.001, 0.01, 0.0166, 0.017, 0.04, 0.1, 0.25, 3.0}) {
+    const double before = sum;
+    count = 0;
+    r.frame(dt);
+    EXPECT_LE(longest, osgRoam::Manipulator::longest_step + 1e-12);
+    EXPECT_NEAR(sum - before, std::min(dt, 0.25), 1e-9);
+    EXPECT_EQ(r->steps(), count);
+    EXPECT_GT(r->collisionNanoseconds(), 0);
+  }
+}
+
+TEST(ManipulatorKeys, TimeThatStandsStillOrRunsBackwardsMovesNothing) {
+  Standing r;
+  r.down('w');
+  r.frame(0.0);
+  const Vec3 before = r.at();
+  for (const double dt : {0.0, -5.0, 0.0, -1e9}) r.frame(dt);
+  EXPECT_EQ(r.at(), before);
+  r.queue->frame(NAN);
+  r.deliver();
+  r.frames(1.0);  // and goes on from where it stands now
+  EXPECT_NEAR(r.at().x - before.x, 1.4, 1e-3);
+  EXPECT_EQ(r->problem(), "");
+}
+
+TEST(ManipulatorKeys, EventsWithNonsensicalTimesAreHarmless) {
+  Standing r;
+  for (const double when : {0.0, 1e300, -1e300, double(NAN), double(INFINITY)}) {
+    r.queue->keyPress('w', when, 'w');
+    r.deliver();
+    r.frames(0.1);
+    r.queue->keyRelease('w', when, 'w');
+    r.deliver();
+    r.frames(0.1);
+  }
+  EXPECT_TRUE(std::isfinite(r.at().x));
+  EXPECT_LE(r.at().x, 1.4 * 5 * 0.21);
+  EXPECT_EQ(r->problem(), "");
+}
+
+TEST(ManipulatorKeys, AJumpIsEquallyHighAtAnyFrameRate) {
+  for (const double dt : {0.002, 0.01, 1.0 / 60.0, 0.04, 0.1, 0.2}) {
+    Standing r;
+    const double ground = r->walker()->feet().z;
+    double top = 0.0;
+    r->setStepCallback([&](const roam::StepReport& report, double) {
+      for (const roam::Corner& c : report.corners) top = std::max(top, c.position.z - 0.5 * c.height - ground);
+    });
+    r.press(' ');
+    r.frames(1.0, dt);
+    EXPECT_NEAR(top, 0.5, 0.01) << dt;
+    EXPECT_TRUE(r->walker()->grounded());
+  }
+}
+
+TEST(ManipulatorKeys, AJumpAskedForJustBeforeLandingIsMade) {
+  Standing r;
+  r.press(' ');
+  r.frames(0.5);
+  ASSERT_FALSE(r->walker()->grounded());  // 0.64 s in the air
+  r.press(' ');
+  int jumps = 0;
+  r->setStepCallback([&](const roam::StepReport& report, double) { jumps += report.has(EventKind::jumped); });
+  r.frames(1.0);
+  EXPECT_EQ(jumps, 1);
+  r.frames(2.0);
+  EXPECT_EQ(jumps, 1);
+}
+
+TEST(ManipulatorKeys, CrouchingLastsAsLongAsItsKey) {
+  Standing r;
+  r.down('c');
+  r.frames(1.0);
+  EXPECT_TRUE(r->walker()->crouched());
+  EXPECT_LT(r->eye().z, 1.0);
+  r.up('c');
+  r.frames(1.0);
+  EXPECT_FALSE(r->walker()->crouched());
+  EXPECT_NEAR(r->eye().z, 1.6, near_ground);
+}
+
+TEST(ManipulatorKeys, GravityAndGhostAreSwitches) {
+  Standing r(roam::Mode::fly);
+  r.press('g');
+  EXPECT_EQ(r->mode(), roam::Mode::walk);
+  r.frames(2.0);
+  EXPECT_TRUE(r->walker()->grounded());
+  r.press('n');
+  EXPECT_EQ(r->mode(), roam::Mode::ghost);
+  r.down('q');
+  r.frames(1.0);
+  EXPECT_LT(r->walker()->feet().z, -1.0);
+  r.up('q');
+  r.press('n');  // back to what it was, and out of the ground
+  EXPECT_EQ(r->mode(), roam::Mode::walk);
+  r.frames(1.0);
+  EXPECT_FALSE(r->held());
+  EXPECT_GE(Judge(plain()).distance(r->walker()->body(), r.at(), 1.0), 0.3 - 1e-6);
+  r.press('g');
+  EXPECT_EQ(r->mode(), roam::Mode::fly);
+}
+
+TEST(ManipulatorKeys, AViewersOwnCommandsAreCalledOnceAPress) {
+  Standing r;
+  std::vector<std::string> called;
+  r->controls().add("record", "R, Ctrl+F", "records", osgRoam::Controls::Kind::pressed);
+  r->setCommandCallback([&](const std::string& name) { called.push_back(name); });
+  r.down('r');
+  EXPECT_TRUE(r.taken);
+  r.down('r');
+  r.up('r');
+  r.press('f');
+  r.down(Adapter::KEY_Control_R);
+  r.press('f');
+  r.press('g');  // the manipulator's own
+  EXPECT_EQ(called, (std::vector<std::string>{"record", "record"}));
+}
+
+TEST(ManipulatorKeys, KeysThatDoNothingAreLeftToOthers) {
+  Standing r;
+  for (const int key : {int('1'), int('x'), int(Adapter::KEY_F12), int(Adapter::KEY_Escape)}) {
+    r.down(key);
+    EXPECT_FALSE(r.taken) << key;
+  }
+}
+
+TEST(ManipulatorKeys, OtherKeysWorkAfterRebinding) {
+  Standing r;
+  r->controls().rebind("forward = Z");
+  r.down('w');
+  EXPECT_FALSE(r.taken);
+  r.frames(0.5);
+  EXPECT_LT(std::abs(r.at().x), 1e-6);
+  r.down('z');
+  EXPECT_TRUE(r->down("forward"));
+  r.frames(0.5);
+  EXPECT_NEAR(r.at().x, 0.7, 1e-3);
+}
+
+TEST(ManipulatorKeys, TheViewerIsKeptDrawingWhileAnythingMovesAndNoLonger) {
+  Standing r;
+  EXPECT_FALSE(r.viewer.continuous);
+  r.down('w');
+  r.frame(frame);
+  EXPECT_TRUE(r.viewer.continuous);
+  r.up('w');
+  r.frames(1.0);
+  EXPECT_FALSE(r.viewer.continuous);
+  r.press(' ');
+  r.frame(frame);
+  r.frame(frame);
+  EXPECT_TRUE(r.viewer.continuous);  // in the air
+  r.frames(2.0);
+  EXPECT_FALSE(r.viewer.continuous);
+}
+
+TEST(ManipulatorKeys, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
+  struct Failing final : roam::Space {
+    roam::Impact sweep(const roam::Body&, const Vec3&, const Vec3&) const override {
+      if (broken) throw roam::Error("the disk is gone");
+      return {};
+    }
+    std::size_t contacts(const roam::Body&, const Vec3&, const Vec3&, double, std::span<roam::Contact>) const override {
+      return 0;
+    }
+    roam::Clearance clearance(const roam::Body&, const Vec3&, const Vec3&, double reach) const override {
+      roam::Clearance c;
+      c.distance = reach;
+      return c;
+    }
+    roam::Box bounds() const override { return {Vec3(-1.0), Vec3(1.0)}; }
+    double largest_error() const override { return 0.0; }
+    std::string object_name(roam::TriangleId) const override { return {}; }
+    bool broken = false;
+  };
+  const auto space = std::make_shared<Failing>();
+  Rig r;
+  r->setSpace(std::shared_ptr<const roam::Space>(space));
+  r.down('w');
+  r.frames(0.5);
+  const Vec3 before = r->eye();
+  space->broken = true;
+  r.frames(0.5);
+  EXPECT_EQ(r->problem(), "the disk is gone");
+  EXPECT_TRUE(r->held());
+  space->broken = false;
+  r.frames(0.5);
+  EXPECT_EQ(r->eye(), before);
+  r->setPose({0.0, 0.0, 0.0}, 0.0, 0.0);
+  EXPECT_EQ(r->problem(), "");
+  r.frames(0.5);
+  EXPECT_GT(glm::length(r->eye()), 0.5);
+}
+
+TEST(ManipulatorKeys, ACallbackThatThrowsDoesNotReachTheViewer) {
+  Standing r;
+  r->setStepCallback([](const roam::StepReport&, double) { throw roam::Error("the trace is full"); });
+  r.down('w');
+  EXPECT_NO_THROW(r.frames(0.1));
+  EXPECT_EQ(r->problem(), "the trace is full");
+}
+
+}  // namespace
