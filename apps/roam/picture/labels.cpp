@@ -8,7 +8,6 @@ namespace roam::app::picture {
 namespace {
 
 constexpr double padding = 5.0;       ///< pixels around the lines of a label
-constexpr double line_step = 1.15;    ///< of the size, from line to line
 constexpr double avoided_step = 8.0;  ///< pixels between the points of a line that is kept clear
 
 /// Number of bytes of the UTF-8 character at the beginning of `s`; 0 where there is none.
@@ -115,8 +114,8 @@ bool Labels::place(const Label& label, const Point& anchor, const Rect& panel) {
     width = std::max(width, measured(label.lines[i], label.size, i == 0).width());
   }
   const Rect line = measured("x", label.size, true);
-  const double step = line_step * label.size;
-  const double height = line.height() + step * static_cast<double>(label.lines.size() - 1);
+  const double step = line.height();
+  const double height = step * static_cast<double>(label.lines.size());
   const Point size(width + 2.0 * padding, height + 2.0 * padding);
 
   constexpr std::array<std::array<double, 2>, 8> directions{

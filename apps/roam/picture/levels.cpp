@@ -12,6 +12,8 @@ constexpr std::size_t most_looked_at = 2'000;
 /// What is within so many storeys of two parts of the way shows both.
 constexpr double beside = 1.5;
 
+/// Windows whose parts of the way differ by less than this hold as much.
+constexpr double evenness = 1e-3;
 /// Where the way is steeper, the body falls, or flies straight up or down: seen from above it is where it was.
 constexpr double steepest = 1.5;  ///< height per length
 
@@ -42,10 +44,11 @@ Levels find_levels(std::span<const Station> stations, double body_height) {
   std::vector<std::pair<double, std::size_t>> cuts;  // height, and the number under which stations know it
   while (!open.empty()) {
     std::size_t best_from = 0, best_to = 0;
-    double best = -1.0, sum = 0.0;
+    double best = 0.0, sum = 0.0;
     for (std::size_t from = 0, to = 0; from < open.size(); ++from) {
       while (to < open.size() && open[to].z <= open[from].z + window) sum += open[to++].weight;
-      if (sum > best) {
+      // The lowest of those that hold as much, so that a ramp is cut at even steps.
+      if (sum > best * (1.0 + evenness)) {
         best = sum;
         best_from = from;
         best_to = to;

@@ -1,0 +1,281 @@
+// The sheet of a walk: that its marks are where things happened, its measures true and its texts readable.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "picture/labels.h"
+#include "picture/picture.h"
+#include "roam/generate.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace roam::app;
+using picture::Disc;
+using picture::Lines;
+using picture::Point;
+using picture::Sheet;
+using picture::Text;
+using roam::Mesh;
+using roam::Mode;
+using roam::Vec3;
+
+/// A walk along waypoints, and its sheet.
+struct Drawn {
+  picture::Record record;
+  WalkReport report;
+  Sheet sheet;
+
+  Drawn(const std::vector<Mesh>& meshes, const std::vector<Vec3>& path, Mode mode, roam::WalkerSettings settings = {},
+        double speed = 1.4, const std::string& title = "scene.obj along p.path") {
+    const roam::World world = roam::World::build(meshes);
+    roam::Walker walker(world, settings, mode, path[0]);
+    if (mode == Mode::ghost) {
+      append(record, walker.report(), true);
+      const Vec3 way = path[1] - path[0];
+      for (int i = 0; i < 50; ++i) append(record, walker.step({.velocity = 0.02 * way}, 1.0), false);
+      report.result.end = walker.position();
+    } else {
+      roam::Route route(walker, path, {.speed = speed});
+      append(record, walker.report(), true);
+      while (!route.done()) append(record, route.advance(), false);
+      report.result = route.result();
+    }
+    report.scene = "scene.obj";
+    report.mode = mode;
+    report.settings = settings;
+    report.waypoints = path.size();
+    if (report.result.blocked_at) report.object = world.object_name(report.result.blocked_at->triangle);
+    sheet = picture::make_sheet({title, report, record, world, meshes});
+  }
+
+  template <class Item>
+  [[nodiscard]] std::vector<Item> all(const std::string& what) const {
+    std::vector<Item> found;
+    for (const auto& item : sheet.items) {
+      const Item* one = std::get_if<Item>(&item);
+      if (one != nullptr && one->what == what) found.push_back(*one);
+    }
+    return found;
+  }
+  template <class Item>
+  [[nodiscard]] Item only(const std::string& what) const {
+    const auto found = all<Item>(what);
+    EXPECT_EQ(found.size(), 1u) << what;
+    return found.empty() ? Item{} : found[0];
+  }
+  [[nodiscard]] bool says(const std::string& text) const {
+    return std::any_of(sheet.items.begin(), sheet.items.end(), [&](const auto& item) {
+      const Text* t = std::get_if<Text>(&item);
+      return t != nullptr && t->text.find(text) != std::string::npos;
+    });
+  }
+  /// Pixels per metre, from a scale bar and the length that stands at it.
+  [[nodiscard]] double scale(const std::string& what) const {
+    const picture::Polyline bar = only<Lines>(what + " bar").lines.at(0);
+    const Text text = only<Text>(what + " length");
+    char* unit = nullptr;
+    const double length = std::strtod(text.text.c_str(), &unit) * (std::string(unit) == " km" ? 1000.0 : 1.0);
+    EXPECT_TRUE(std::string(unit) == " m" || std::string(unit) == " km") << text.text;
+    return glm::distance(bar.at(1), bar.at(2)) / length;
+  }
+};
+
+Mesh part(const std::string& name) {
+  Mesh mesh;
+  mesh.name = name;
+  return mesh;
+}
+
+/// A corridor along x, 4 m wide and 3 m high, with a door of the given width in its middle, 10 m from its beginning.
+std::vector<Mesh> corridor(double door) {
+  std::vector<Mesh> meshes{part("corridor"), part("Door_12/left"), part("Door_12/right")};
+  scenes::add_box(meshes[0], {0, 0, 0}, {20, 4, 3});
+  scenes::add_box(meshes[1], {10, 2 + 0.5 * door, 0}, {10.2, 4, 3});
+  scenes::add_box(meshes[2], {10, 0, 0}, {10.2, 2 - 0.5 * door, 3});
+  return meshes;
+}
+
+std::vector<Mesh> floors_with_gap(double width) {
+  std::vector<Mesh> meshes{part("near"), part("far"), part("bottom")};
+  scenes::add_floor(meshes[0], 0, -2, 5, 2, 0);
+  scenes::add_floor(meshes[1], 5 + width, -2, 15, 2, 0);
+  scenes::add_floor(meshes[2], 0, -2, 15, 2, -10);
+  return meshes;
+}
+
+const std::vector<Vec3> along_corridor{{2, 2, 0.9}, {18, 2, 0.9}};
+
+/// Every kind of picture: one scale and details, all outcomes, all modes, names that are hard to set.
+std::vector<Drawn> drawings() {
+  std::vector<Drawn> all;
+  all.emplace_back(corridor(1.2), along_corridor, Mode::walk);
+  all.emplace_back(corridor(0.5), along_corridor, Mode::walk);
+  all.emplace_back(corridor(1.2), along_corridor, Mode::fly, roam::WalkerSettings::sphere(0.5));
+  all.emplace_back(corridor(0.5), along_corridor, Mode::ghost);
+  all.emplace_back(floors_with_gap(1.5), std::vector<Vec3>{{2, 0, 0.9}, {12, 0, 0.9}}, Mode::walk);
+  all.emplace_back(corridor(1.2), std::vector<Vec3>{{2, 2, 0.9}}, Mode::walk);
+  const auto gallery = roam::generate::collect(roam::generate::gallery({.triangles = 10'000}));
+  const auto& straight = roam::generate::gallery_paths[0];
+  all.emplace_back(gallery, std::vector<Vec3>{straight.from, straight.to}, Mode::fly, roam::WalkerSettings::sphere(0.3),
+                   50.0);
+  all.emplace_back(gallery, std::vector<Vec3>{straight.from, straight.to}, Mode::walk, roam::WalkerSettings{}, 50.0);
+  auto odd = corridor(0.5);
+  for (Mesh& mesh : odd) {
+    mesh.name = std::string(300, 'W') + "\xff\x01 Tür";
+    scenes::shift(mesh, {6.378e6, -6.378e6, 123456.7});
+  }
+  std::vector<Vec3> far_path = along_corridor;
+  for (Vec3& p : far_path) p += Vec3(6.378e6, -6.378e6, 123456.7);
+  all.emplace_back(odd, far_path, Mode::walk, roam::WalkerSettings{}, 1.4, std::string(400, 'W') + "\xff.obj");
+  return all;
+}
+
+TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
+  for (const Drawn& drawn : drawings()) {
+    std::vector<Text> texts;
+    for (const auto& item : drawn.sheet.items) {
+      if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
+    }
+    EXPECT_GT(texts.size(), 10u);
+    const picture::Rect sheet{{0, 0}, {drawn.sheet.width, drawn.sheet.height}};
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const picture::Rect extent = picture::measure_text(texts[i].text, texts[i].size, texts[i].bold);
+      EXPECT_NEAR(texts[i].box.width(), extent.width(), 1e-9);
+      EXPECT_TRUE(sheet.contains(texts[i].box)) << texts[i].what << ": " << texts[i].text;
+      for (std::size_t k = 0; k < i; ++k) {
+        EXPECT_FALSE(texts[i].box.overlaps(texts[k].box))
+            << texts[i].what << ": " << texts[i].text << "\n over " << texts[k].what << ": " << texts[k].text;
+      }
+    }
+  }
+}
+
+TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
+  for (const Drawn& drawn : drawings()) {
+    for (const char* what : {"plan frame", "plan way", "plan start", "section frame", "section way", "section walls",
+                             "plan scale bar", "section scale bar", "axis x", "axis y"}) {
+      const bool shown = !drawn.all<Lines>(what).empty() || !drawn.all<Disc>(what).empty();
+      // A body that stays where it is has no way.
+      const bool stands = drawn.record.places.size() == 1 && std::string(what).ends_with("way");
+      EXPECT_EQ(shown, !stands) << what;
+    }
+    EXPECT_FALSE(drawn.all<Text>("title").empty());
+    EXPECT_FALSE(drawn.all<Text>("legend").empty());
+    EXPECT_TRUE(drawn.says(std::string(name(drawn.report.result.outcome)) + ":"));
+  }
+}
+
+TEST(PictureSheet, MarksWhatBlocksWhereItWasTouched) {
+  const Drawn drawn(corridor(0.5), along_corridor, Mode::walk);
+  ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::blocked);
+  const double scale = drawn.scale("plan scale");
+  const Point start = drawn.only<Disc>("plan start").centre;
+  const Vec3 way = drawn.report.result.blocked_at->point - drawn.record.places[0].position;
+  const Lines cross = drawn.only<Lines>("plan blocked");
+  const Point centre = 0.5 * (cross.lines.at(0).at(0) + cross.lines.at(0).at(1));
+  EXPECT_NEAR(centre.x, start.x + scale * way.x, 0.5);
+  EXPECT_NEAR(centre.y, start.y - scale * way.y, 0.5);  // a sheet's y points down
+  EXPECT_TRUE(drawn.says("by \"Door_12/"));
+  EXPECT_TRUE(drawn.says("opening 0.50 m"));
+  EXPECT_TRUE(drawn.all<Text>("plan narrowest label").empty() || !drawn.says("0.60 m clear"));
+}
+
+TEST(PictureSheet, ShowsBodiesAndWallsToScale) {
+  const Drawn drawn(corridor(1.2), along_corridor, Mode::walk);
+  const double scale = drawn.scale("plan scale");
+  const auto bodies = drawn.all<Disc>("plan body");
+  ASSERT_EQ(bodies.size(), 3u);  // start, narrowest, end
+  for (const Disc& body : bodies) EXPECT_NEAR(body.radius, 0.3 * scale, 1e-6);
+  picture::Rect walls;
+  for (const auto& line : drawn.only<Lines>("plan walls").lines) {
+    for (const Point& p : line) walls.include(p);
+  }
+  EXPECT_NEAR(walls.width(), 20.0 * scale, 0.3);
+  EXPECT_NEAR(walls.height(), 4.0 * scale, 0.3);
+  EXPECT_TRUE(drawn.says("1.20 m clear") || drawn.says("1.19 m clear"));
+}
+
+TEST(PictureSheet, UnrollsTheSectionToItsScale) {
+  const Drawn drawn(corridor(1.2), along_corridor, Mode::walk);
+  const double scale = drawn.scale("section scale");
+  EXPECT_DOUBLE_EQ(scale, drawn.scale("plan scale"));
+  EXPECT_TRUE(drawn.says("lengths to the scale of the plan, heights to the same scale"));
+  const Point start = drawn.only<Disc>("section start").centre, end = drawn.only<Disc>("section end").centre;
+  EXPECT_NEAR(end.x - start.x, 16.0 * scale, 1.0);
+  EXPECT_NEAR(start.x, drawn.only<Disc>("plan start").centre.x, 1e-6);  // below its part of the plan
+  picture::Rect walls;
+  for (const auto& line : drawn.only<Lines>("section walls").lines) {
+    for (const Point& p : line) walls.include(p);
+  }
+  EXPECT_NEAR(walls.height(), 3.0 * scale, 0.3);  // floor and ceiling
+}
+
+TEST(PictureSheet, NamesTheLeastCertifiedClearanceOfAFlight) {
+  const Drawn drawn(corridor(1.2), along_corridor, Mode::fly, roam::WalkerSettings::sphere(0.5));
+  double least = 1e9;
+  Vec3 where(0.0);
+  for (const auto& place : drawn.record.places) {
+    if (place.clearance < least) where = place.position;
+    least = std::min(least, place.clearance);
+  }
+  EXPECT_DOUBLE_EQ(least, drawn.report.result.least_clearance);  // what --trace and the report say
+  const Lines mark = drawn.only<Lines>("plan nearest");
+  const Point centre = 0.5 * (mark.lines.at(0).at(0) + mark.lines.at(0).at(2));
+  const Point start = drawn.only<Disc>("plan start").centre;
+  EXPECT_NEAR(centre.x - start.x, drawn.scale("plan scale") * (where.x - drawn.record.places[0].position.x), 0.5);
+}
+
+TEST(PictureSheet, TurnsALongWayAndShowsItsPlacesMagnified) {
+  const auto gallery = roam::generate::collect(roam::generate::gallery({.triangles = 10'000}));
+  const auto& straight = roam::generate::gallery_paths[0];
+  const Drawn drawn(gallery, {straight.from, straight.to}, Mode::fly, roam::WalkerSettings::sphere(0.3), 50.0);
+  const Point start = drawn.only<Disc>("plan start").centre, end = drawn.only<Disc>("plan end").centre;
+  EXPECT_GT(end.x - start.x, 1500.0);
+  EXPECT_NEAR(end.y, start.y, 20.0);
+  EXPECT_NEAR(glm::distance(start, end), drawn.scale("plan scale") * glm::distance(straight.from, straight.to), 2.0);
+  // The axes say how it was turned: the way leads along x + y.
+  const auto axis = [&](const char* name) {
+    const auto line = drawn.only<Lines>(name).lines.at(0);
+    return (line.at(1) - line.at(0)) / glm::distance(line.at(0), line.at(1));
+  };
+  const Vec3 way = glm::normalize(straight.to - straight.from);
+  const Point on_sheet = way.x * axis("axis x") + way.y * axis("axis y");
+  EXPECT_NEAR(on_sheet.x, 1.0, 0.01);
+  EXPECT_NEAR(on_sheet.y, 0.0, 0.02);
+  EXPECT_FALSE(drawn.all<Lines>("detail A plan walls").empty());
+  EXPECT_FALSE(drawn.all<Lines>("detail A section walls").empty());
+  EXPECT_NEAR(drawn.only<Disc>("detail A plan body").radius, 0.3 * drawn.scale("detail scale"), 1e-6);
+  EXPECT_TRUE(drawn.says("heights exaggerated"));
+}
+
+TEST(PictureSheet, SaysWhereItFell) {
+  const Drawn drawn(floors_with_gap(1.5), {{2, 0, 0.9}, {12, 0, 0.9}}, Mode::walk);
+  ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::fell);
+  EXPECT_EQ(drawn.all<Lines>("plan fell").size(), 1u);
+  EXPECT_EQ(drawn.all<Text>("section fell label").size(), 1u);
+}
+
+TEST(PictureLabels, BreakTextThatIsTooLong) {
+  const auto width = [](const std::string& text) { return picture::measure_text(text, 20, false).width(); };
+  const std::string text = "a few words and " + std::string(200, 'W') + " at the end";
+  std::string joined;
+  for (const std::string& line : picture::wrapped(text, 300, 20, false, picture::measure_text)) {
+    EXPECT_LE(width(line), 300.0) << line;
+    for (const char c : line) joined += c == ' ' ? "" : std::string(1, c);
+  }
+  EXPECT_EQ(joined, "afewwordsand" + std::string(200, 'W') + "attheend");
+}
+
+TEST(PictureLabels, ShowWhatIsNoTextAsQuestionMarks) {
+  EXPECT_EQ(picture::printable("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
+  EXPECT_EQ(picture::printable("a\xff"
+                               "b\x01\n"),
+            "a?b??");
+  EXPECT_EQ(picture::printable("\xc3"), "?");
+  EXPECT_EQ(picture::printable("\xed\xa0\x80"), "???");  // half of a surrogate pair
+}
+
+}  // namespace
