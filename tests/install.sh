@@ -2,7 +2,6 @@
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
-#   install.sh picture SOURCE PREFIX WORK CXX   builds examples/draw_a_walk outside the tree and draws with it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
 #   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
@@ -38,14 +37,6 @@ case $what in
     printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
     # The package was configured for another prefix than this: it tells its programs where its reader is.
     expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
-    ;;
-  picture)
-    build draw_a_walk
-    printf 'v 5 -9 0\nv 5 9 0\nv 5 0 9\no wall\nf 1 2 3\n' > "$work/wall.obj"
-    printf '0 0 1\n4 0 1\n' > "$work/ahead.path"
-    "$prefix/bin/roam" walk "$work/wall.obj" --path "$work/ahead.path" --mode fly --trace "$work/ahead.csv"
-    # The wall as the plane through the start cuts it, 1 m above the ground.
-    expect 'M5.00 -8.00L5.00 8.00' "$work/build/draw_a_walk" "$work/wall.obj" "$work/ahead.csv"
     ;;
   readme)
     sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"
