@@ -9,47 +9,37 @@ namespace {
 
 bool by_distance(const osg::LOD& lod) { return lod.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT; }
 
-/// A range that nothing can fall into hides its child.
-bool shows_something(const osg::LOD::MinMaxPair& range) { return range.first < range.second; }
-
-/// The children at one end of all ranges that count: just beyond the least first value, or just below the largest
-/// second one.
-std::vector<unsigned> children_at_end(const osg::LOD& lod, const std::vector<unsigned>& absent, bool least) {
-  const auto& ranges = lod.getRangeList();
-  const auto counts = [&](unsigned i) {
-    return shows_something(ranges[i]) && !std::binary_search(absent.begin(), absent.end(), i);
-  };
-  float place = least ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
-  for (unsigned i = 0; i < ranges.size(); ++i) {
-    if (counts(i)) place = least ? std::min(place, ranges[i].first) : std::max(place, ranges[i].second);
-  }
-  std::vector<unsigned> shown;
-  for (unsigned i = 0; i < ranges.size(); ++i) {
-    const bool at_place = least ? ranges[i].first <= place : ranges[i].second >= place;
-    if (counts(i) && at_place) shown.push_back(i);
-  }
-  return shown;
-}
-
 }  // namespace
 
-std::vector<unsigned> finest_children(const osg::LOD& lod, const std::vector<unsigned>& absent) {
-  return children_at_end(lod, absent, by_distance(lod));
-}
-
-std::vector<unsigned> coarsest_children(const osg::LOD& lod, const std::vector<unsigned>& absent) {
-  return children_at_end(lod, absent, !by_distance(lod));
-}
-
-std::vector<unsigned> loaded_children(const osg::LOD& lod, bool finest) {
-  std::vector<unsigned> absent;
-  while (true) {
-    const std::vector<unsigned> shown = finest ? finest_children(lod, absent) : coarsest_children(lod, absent);
-    // Numbers are ascending: the last one decides.
-    if (shown.empty() || shown.back() < lod.getNumChildren()) return shown;
-    absent.insert(absent.end(), shown.begin(), shown.end());
-    std::sort(absent.begin(), absent.end());
+std::vector<Level> levels(const osg::LOD& lod) {
+  // Between two neighbouring ends of ranges the same children are shown; who stands at the lower one sees them.
+  const auto& ranges = lod.getRangeList();
+  std::vector<float> ends;
+  for (const auto& [first, second] : ranges) {
+    // A range that nothing can fall into hides its child; so does one that is not a number.
+    if (first < second) ends.insert(ends.end(), {first, second});
   }
+  std::sort(ends.begin(), ends.end());
+  if (!by_distance(lod)) std::reverse(ends.begin(), ends.end());
+  std::vector<Level> all;
+  for (const float end : ends) {
+    Level shown;
+    for (unsigned i = 0; i < ranges.size(); ++i) {
+      if (ranges[i].first <= end && end < ranges[i].second) shown.push_back(i);
+    }
+    if (!shown.empty() && (all.empty() || all.back() != shown)) all.push_back(std::move(shown));
+  }
+  return all;
+}
+
+Level loaded_level(const osg::LOD& lod, bool finest) {
+  std::vector<Level> all = levels(lod);
+  if (!finest) std::reverse(all.begin(), all.end());
+  for (Level& level : all) {
+    // Numbers are ascending: the last one decides.
+    if (level.back() < lod.getNumChildren()) return std::move(level);
+  }
+  return {};
 }
 
 bool continues_a_finer_sibling(const osg::LOD& lod, const osg::Group& parent) {

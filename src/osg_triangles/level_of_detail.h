@@ -1,22 +1,22 @@
 #pragma once
 /// \file
-/// Which children of a level-of-detail node somebody sees who stands in front of it.
+/// Which children of a level-of-detail node somebody sees who comes nearer to it.
 
 #include <osg/LOD>
 #include <vector>
 
 namespace roam::osg_triangles {
 
-/// The children that are shown together at the finest level that has any child not in `absent` (ascending): nearest
-/// for ranges of distance, largest for ranges of size on screen. Numbers of ranges, ascending; empty when none is left.
-[[nodiscard]] std::vector<unsigned> finest_children(const osg::LOD& lod, const std::vector<unsigned>& absent);
+/// Numbers of children that are shown together, ascending.
+using Level = std::vector<unsigned>;
 
-/// The same, seen from farthest away.
-[[nodiscard]] std::vector<unsigned> coarsest_children(const osg::LOD& lod, const std::vector<unsigned>& absent);
+/// The levels that a node goes through, finest first: nearest for ranges of distance, largest for ranges of size on
+/// screen. A child may be of several levels.
+[[nodiscard]] std::vector<Level> levels(const osg::LOD& lod);
 
-/// The children shown at the finest (or coarsest) level that is loaded: a level that is not whole would leave holes,
-/// the next one stands in for all of it. Empty when no level is loaded.
-[[nodiscard]] std::vector<unsigned> loaded_children(const osg::LOD& lod, bool finest);
+/// The finest (or coarsest) level whose children are all loaded: a level that is not whole would leave holes. Empty
+/// when there is none.
+[[nodiscard]] Level loaded_level(const osg::LOD& lod, bool finest);
 
 /// Whether `lod` is the coarser continuation of another one among its parent's children: some modellers, and
 /// OpenFlight, give each level a node of its own.

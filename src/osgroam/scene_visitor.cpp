@@ -1,6 +1,6 @@
 #include "scene_visitor.h"
 
-#include <algorithm>
+#include <map>
 #include <osg/Camera>
 #include <osg/PagedLOD>
 #include <osg/ProxyNode>
@@ -33,7 +33,7 @@ bool SceneVisitor::continues_a_sibling(const osg::LOD& lod) const {
 
 void SceneVisitor::apply(osg::LOD& lod) {
   if (continues_a_sibling(lod) || !enter(lod)) return;
-  for (const unsigned i : triangles::loaded_children(lod, true)) lod.getChild(i)->accept(*this);
+  for (const unsigned i : triangles::loaded_level(lod, true)) lod.getChild(i)->accept(*this);
   leave();
 }
 
@@ -43,32 +43,30 @@ osg::ref_ptr<osg::Node> SceneVisitor::read(const std::string& file) {
 
 void SceneVisitor::apply(osg::PagedLOD& lod) {
   if (continues_a_sibling(lod) || !enter(lod)) return;
-  std::vector<unsigned> absent;
   std::string missing;
-  while (true) {
-    const std::vector<unsigned> finest = triangles::finest_children(lod, absent);
-    std::vector<osg::ref_ptr<osg::Node>> shown;
-    for (const unsigned i : finest) {
-      if (i < lod.getNumChildren()) {
-        shown.emplace_back(lod.getChild(i));
-      } else if (i < lod.getNumFileNames() && !lod.getFileName(i).empty()) {
-        const std::string file = lod.getDatabasePath() + lod.getFileName(i);
-        if (osg::ref_ptr<osg::Node> page = read(file)) {
-          shown.push_back(page);
-        } else if (missing.empty()) {
-          missing = file;
-        }
-      }
+  bool shown = false;
+  std::map<unsigned, osg::ref_ptr<osg::Node>> pages;  // also those that cannot be read
+  const auto child = [&](unsigned i) -> osg::ref_ptr<osg::Node> {
+    if (i < lod.getNumChildren()) return lod.getChild(i);
+    if (i >= lod.getNumFileNames() || lod.getFileName(i).empty()) return nullptr;
+    const std::string file = lod.getDatabasePath() + lod.getFileName(i);
+    const auto [page, is_new] = pages.try_emplace(i);
+    if (is_new) page->second = read(file);
+    if (page->second == nullptr && missing.empty()) missing = file;
+    return page->second;
+  };
+  // A level that is not whole would leave holes: the next coarser one stands in for all of it.
+  for (const triangles::Level& level : triangles::levels(lod)) {
+    std::vector<osg::ref_ptr<osg::Node>> children;
+    for (const unsigned i : level) {
+      if (const auto node = child(i)) children.push_back(node);
     }
-    if (shown.size() == finest.size()) {
-      for (const auto& child : shown) child->accept(*this);
-      if (finest.empty() && !missing.empty()) add_unknown(lod, missing);
-      break;
-    }
-    // A level that is not whole would leave holes: the next coarser one stands in for all of it.
-    absent.insert(absent.end(), finest.begin(), finest.end());
-    std::sort(absent.begin(), absent.end());
+    if (children.size() != level.size()) continue;
+    for (const auto& node : children) node->accept(*this);
+    shown = true;
+    break;
   }
+  if (!shown && !missing.empty()) add_unknown(lod, missing);
   leave();
 }
 

@@ -25,7 +25,7 @@ class MeshCollector : public triangles::GraphWalk {
   }
 
   void meet(osg::LOD& lod, osg::PagedLOD*) override {
-    for (const unsigned i : triangles::loaded_children(lod, finest_)) lod.getChild(i)->accept(*this);
+    for (const unsigned i : triangles::loaded_level(lod, finest_)) lod.getChild(i)->accept(*this);
   }
 
   bool finest_;
