@@ -24,12 +24,11 @@ constexpr Line lines[] = {
     {Command::hud, "hud", "F1", "all of the display, the least of it, none"},
     {Command::marks, "marks", "V", "shows the body, what it touches and the nearest triangles"},
     {Command::fullscreen, "fullscreen", "F", "fills the screen, or leaves it"},
-    {Command::grab, "grab", "M", "the mouse looks without a button; Escape gives it back"},
     {Command::bookmark, "bookmark", "B", "keeps this place as a bookmark"},
     {Command::next_bookmark, "next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
     {Command::picture, "picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
     {Command::record, "record", "R", "begins or ends recording the way, as roam-1.path and so on"},
-    {Command::quit, "quit", "Ctrl+Q", "ends; so does Escape when the mouse is free"},
+    {Command::quit, "quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 
 }  // namespace

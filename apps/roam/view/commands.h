@@ -19,7 +19,6 @@ enum class Command : std::uint8_t {
   picture,
   bookmark,
   next_bookmark,
-  grab,
   marks,
   quit,
   none,  ///< a name that is not the viewer's

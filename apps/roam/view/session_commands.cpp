@@ -57,9 +57,6 @@ void Session::run(Command command) {
       case Command::next_bookmark:
         next_bookmark(roamer_->down("fast"));
         break;
-      case Command::grab:
-        roamer_->setMouseGrab(!roamer_->mouseGrab());
-        break;
       case Command::marks:
         marks_ = !marks_;
         break;
