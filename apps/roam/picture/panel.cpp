@@ -252,11 +252,18 @@ void PanelPainter::section(const std::string& prefix, const Map& map) {
     top.clear();
     bottom.clear();
   };
-  for (const Station& s : stations) {
-    if (s.jump || s.along < seen.lower.x || s.along > seen.upper.x) close();
-    if (s.along < seen.lower.x || s.along > seen.upper.x) continue;
-    top.push_back(map({s.along, s.centre.z + 0.5 * s.height}));
-    bottom.push_back(map({s.along, s.centre.z - 0.5 * s.height}));
+  const auto visible_at = [&](const Station& s) { return s.along >= seen.lower.x && s.along <= seen.upper.x; };
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    const Station &from = stations[i], &to = stations[i + 1];
+    if (to.jump || !visible_at(from) || !visible_at(to)) {
+      close();
+      continue;
+    }
+    // A body keeps its height from station to station; where it crouches the next piece begins with another.
+    for (const Station* s : {&from, &to}) {
+      top.push_back(map({s->along, s->centre.z + 0.5 * from.height}));
+      bottom.push_back(map({s->along, s->centre.z - 0.5 * from.height}));
+    }
   }
   close();
   if (!band.empty()) {

@@ -13,7 +13,7 @@ namespace roam::app::picture {
 /// A place at which was measured.
 struct Station {
   Vec3 centre{0.0};               ///< of the body, metres
-  double height = 0.0;            ///< of the body, metres
+  double height = 0.0;            ///< of the body on the way to the next station, metres
   double along = 0.0;             ///< metres, as WayPoint::along
   bool jump = false;              ///< no way leads here from the station before
   Vec3 heading{0.0};              ///< level, unit length; 0 where the way leads straight up or down
