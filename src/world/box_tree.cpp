@@ -1,27 +1,63 @@
 #include "world/box_tree.h"
 
 namespace roam {
+namespace {
 
-void BoxTree::build(std::vector<Item> items) {
-  nodes_.clear();
-  if (items.empty()) return;
-  nodes_.reserve(2 * items.size() - 1);
-  split(items, 0, items.size());
+double surface(const Box& box) {
+  const Vec3 s = box.size();
+  return s.x * s.y + s.y * s.z + s.z * s.x;
 }
 
-void BoxTree::split(std::vector<Item>& items, std::size_t begin, std::size_t end) {
-  const std::size_t self = nodes_.size();
-  nodes_.emplace_back();
-  Box box, middles;
-  for (std::size_t i = begin; i < end; ++i) {
-    box.include(items[i].box);
-    middles.include(items[i].box.center());
+Box united(const Box& a, const Box& b) {
+  Box both = a;
+  both.include(b);
+  return both;
+}
+
+}  // namespace
+
+void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased) {
+  if ((put.size() + erased.size()) * kManyPart > size_) {
+    for (const std::uint32_t number : erased) erase(number);
+    for (const Item& item : put) erase(item.number);
+    std::vector<Item> all = items();
+    all.insert(all.end(), put.begin(), put.end());
+    return build(std::move(all));
   }
-  nodes_[self].box = box;
-  if (end - begin == 1) {
-    nodes_[self].number = items[begin].number;
-    return;
+  for (const std::uint32_t number : erased) erase(number);
+  for (const Item& item : put) {
+    erase(item.number);
+    insert(item);
+    if (nodes_[root_].height >= kDeepest) build(items());
   }
+}
+
+std::uint32_t BoxTree::leaf_of(std::uint32_t number) const { return number < leaves_.size() ? leaves_[number] : none; }
+
+std::vector<BoxTree::Item> BoxTree::items() const {
+  std::vector<Item> all;
+  all.reserve(size_);
+  for (std::uint32_t number = 0; number < leaves_.size(); ++number) {
+    if (leaves_[number] != none) all.push_back({nodes_[leaves_[number]].box, number});
+  }
+  return all;
+}
+
+// Halves the items at the median along their longest extent, again and again.
+void BoxTree::build(std::vector<Item> items) {
+  nodes_.clear();
+  unused_.clear();
+  root_ = none;
+  size_ = items.size();
+  if (items.empty()) return;
+  nodes_.reserve(2 * items.size() - 1);
+  root_ = split(items, 0, items.size());
+}
+
+std::uint32_t BoxTree::split(std::vector<Item>& items, std::size_t begin, std::size_t end) {
+  if (end - begin == 1) return make({items[begin].box, none, none, none, items[begin].number, 0});
+  Box middles;
+  for (std::size_t i = begin; i < end; ++i) middles.include(items[i].box.center());
   const Vec3 size = middles.size();
   const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   const auto place = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -30,9 +66,91 @@ void BoxTree::split(std::vector<Item>& items, std::size_t begin, std::size_t end
     const double x = a.box.lower[axis] + a.box.upper[axis], y = b.box.lower[axis] + b.box.upper[axis];
     return x != y ? x < y : a.number < b.number;
   });
-  split(items, begin, middle);
-  nodes_[self].right = static_cast<std::uint32_t>(nodes_.size());
-  split(items, middle, end);
+  const std::uint32_t left = split(items, begin, middle), right = split(items, middle, end);
+  const std::uint32_t self = make({{}, none, left, right, none, 0});
+  nodes_[left].parent = nodes_[right].parent = self;
+  fit(self);
+  return self;
+}
+
+std::uint32_t BoxTree::make(const Node& node) {
+  std::uint32_t index = static_cast<std::uint32_t>(nodes_.size());
+  if (unused_.empty()) {
+    nodes_.push_back(node);
+  } else {
+    index = unused_.back();
+    unused_.pop_back();
+    nodes_[index] = node;
+  }
+  if (node.leaf()) {
+    if (node.number >= leaves_.size()) leaves_.resize(node.number + 1, none);
+    leaves_[node.number] = index;
+  }
+  return index;
+}
+
+// Beside the leaf to which the way down adds least surface (Goldsmith and Salmon, "Automatic creation of object
+// hierarchies for ray tracing", 1987).
+void BoxTree::insert(const Item& item) {
+  ++size_;
+  const std::uint32_t leaf = make({item.box, none, none, none, item.number, 0});
+  if (root_ == none) {
+    root_ = leaf;
+    return;
+  }
+  std::uint32_t beside = root_;
+  while (!nodes_[beside].leaf()) {
+    const auto growth = [&](std::uint32_t child) {
+      const Box& box = nodes_[child].box;
+      return surface(united(box, item.box)) - surface(box);
+    };
+    const Node& node = nodes_[beside];
+    beside = growth(node.left) <= growth(node.right) ? node.left : node.right;
+  }
+  const std::uint32_t above = nodes_[beside].parent;
+  const std::uint32_t both = make({{}, above, beside, leaf, none, 0});
+  link(above, beside, both);
+  nodes_[beside].parent = nodes_[leaf].parent = both;
+  fit_upward(both);
+}
+
+void BoxTree::erase(std::uint32_t number) {
+  const std::uint32_t leaf = leaf_of(number);
+  if (leaf == none) return;
+  leaves_[number] = none;
+  --size_;
+  const std::uint32_t above = nodes_[leaf].parent;
+  unused_.push_back(leaf);
+  if (above == none) {
+    root_ = none;
+    return;
+  }
+  const std::uint32_t other = nodes_[above].left == leaf ? nodes_[above].right : nodes_[above].left;
+  const std::uint32_t top = nodes_[above].parent;
+  unused_.push_back(above);
+  nodes_[other].parent = top;
+  link(top, above, other);
+  fit_upward(top);
+}
+
+void BoxTree::link(std::uint32_t parent, std::uint32_t old_child, std::uint32_t child) {
+  if (parent == none) {
+    root_ = child;
+  } else {
+    (nodes_[parent].left == old_child ? nodes_[parent].left : nodes_[parent].right) = child;
+  }
+}
+
+void BoxTree::fit(std::uint32_t index) {
+  Node& node = nodes_[index];
+  const Node& left = nodes_[node.left];
+  const Node& right = nodes_[node.right];
+  node.box = united(left.box, right.box);
+  node.height = 1 + std::max(left.height, right.height);
+}
+
+void BoxTree::fit_upward(std::uint32_t node) {
+  for (; node != none; node = nodes_[node].parent) fit(node);
 }
 
 }  // namespace roam

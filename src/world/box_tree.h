@@ -64,9 +64,13 @@ class BoxTree {
     std::uint32_t number;
   };
 
-  /// Halves the items at the median along their longest extent, again and again. The same set of items makes the same
-  /// tree, whatever their order.
-  void build(std::vector<Item> items);
+  /// Takes the items `put`, each in place of the one of the same number, and forgets those numbered `erased`; no number
+  /// is named twice. A few changes cost a walk down the tree each; many, or a tree that has become too deep, make it
+  /// anew.
+  void change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased);
+
+  /// The box of all items; empty when there is none.
+  [[nodiscard]] Box bounds() const { return root_ == none ? Box{} : nodes_[root_].box; }
 
   /// Visits the items that the sweep may meet, earliest first, as far as `until` (a time, which the visitor may
   /// lessen): visit(number, when).
@@ -92,17 +96,23 @@ class BoxTree {
   }
 
  private:
+  static constexpr std::uint32_t none = UINT32_MAX;
   struct Node {
     Box box;
-    std::uint32_t right = 0;   ///< the second child; the first follows its parent. 0: a leaf
-    std::uint32_t number = 0;  ///< of a leaf
+    std::uint32_t parent = none;
+    std::uint32_t left = none, right = none;  ///< none: a leaf
+    std::uint32_t number = none;              ///< of a leaf
+    std::uint32_t height = 0;                 ///< of the tree below it
+    [[nodiscard]] bool leaf() const { return left == none; }
   };
   struct Key {
     Interval when;
     double order;
   };
-  /// Halving 2^32 items ends in less.
-  static constexpr std::size_t kDeepest = 40;
+  /// A tree of more levels is made anew. Halving 2^32 items makes 33.
+  static constexpr std::uint32_t kDeepest = 40;
+  /// Changes, as a part of all items, from which on a new tree costs less than to mend the old one.
+  static constexpr std::size_t kManyPart = 4;
 
   template <class Look, class Still, class Visit>
   void traverse(const Look& look, const Still& still, Visit& visit) const {
@@ -110,32 +120,44 @@ class BoxTree {
       std::uint32_t node;
       Interval when;
     };
-    if (nodes_.empty()) return;
-    std::array<Entry, kDeepest> stack;
+    if (root_ == none) return;
+    std::array<Entry, kDeepest + 2> stack;
     std::size_t size = 0;
-    if (const Key root = look(nodes_[0].box); !root.when.empty()) stack[size++] = {0, root.when};
+    if (const Key root = look(nodes_[root_].box); !root.when.empty()) stack[size++] = {root_, root.when};
     while (size > 0) {
       const Entry entry = stack[--size];
       const Node& node = nodes_[entry.node];
       if (!still(entry.when)) continue;
-      if (node.right == 0) {
+      if (node.leaf()) {
         // The visitor may have learned more since the box was looked at.
         if (const Key again = look(node.box); !again.when.empty()) visit(node.number, again.when);
         continue;
       }
-      const std::uint32_t left = entry.node + 1;
-      const Key a = look(nodes_[left].box), b = look(nodes_[node.right].box);
+      const Key a = look(nodes_[node.left].box), b = look(nodes_[node.right].box);
       const bool left_first = a.order <= b.order;
-      const Entry first = left_first ? Entry{left, a.when} : Entry{node.right, b.when};
-      const Entry second = left_first ? Entry{node.right, b.when} : Entry{left, a.when};
+      const Entry first = left_first ? Entry{node.left, a.when} : Entry{node.right, b.when};
+      const Entry second = left_first ? Entry{node.right, b.when} : Entry{node.left, a.when};
       if (!second.when.empty()) stack[size++] = second;
       if (!first.when.empty()) stack[size++] = first;
     }
   }
 
-  void split(std::vector<Item>& items, std::size_t begin, std::size_t end);
+  void build(std::vector<Item> items);
+  std::uint32_t split(std::vector<Item>& items, std::size_t begin, std::size_t end);
+  void insert(const Item& item);
+  void erase(std::uint32_t number);
+  std::uint32_t make(const Node& node);
+  void link(std::uint32_t parent, std::uint32_t old_child, std::uint32_t child);
+  void fit_upward(std::uint32_t node);
+  void fit(std::uint32_t node);
+  [[nodiscard]] std::vector<Item> items() const;
+  [[nodiscard]] std::uint32_t leaf_of(std::uint32_t number) const;
 
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> unused_;  ///< nodes
+  std::vector<std::uint32_t> leaves_;  ///< by number; none where it is not there
+  std::uint32_t root_ = none;
+  std::size_t size_ = 0;  ///< items
 };
 
 }  // namespace roam

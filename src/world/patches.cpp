@@ -6,6 +6,8 @@
 namespace roam {
 namespace {
 
+constexpr std::uint64_t minus_one = ~std::uint64_t{0};  // counts wrap
+
 std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch) - 1; }
 
 }  // namespace
@@ -22,7 +24,7 @@ void Patches::expect(const Box& where, PatchId refines) {
     patches_[patch.parent].finer.push_back(self);
   }
   patches_.push_back(std::move(patch));
-  ++coming_;
+  ++stats_.coming;
   if (patches_[self].role == Patch::Role::shown) show(self);
 }
 
@@ -30,20 +32,22 @@ void Patches::deliver(PatchId id, World world) {
   const std::uint32_t self = index_of(id);
   Patch& patch = patches_[self];
   if (patch.failed) {
-    --failed_;
+    --stats_.failed;
     patch.failed = false;
     patch.reason.clear();
   } else {
-    --coming_;
+    --stats_.coming;
   }
-  bytes_ += world.stats().bytes;
+  stats_.bytes += world.stats().bytes;
+  if (patch.role == Patch::Role::shown) count_shown(patch, minus_one);
   patch.world = std::move(world);
   switch (patch.role) {
     case Patch::Role::replaced:
       retire(self);
       break;
     case Patch::Role::shown:
-      changed_ = true;
+      count_shown(patch, 1);
+      changed_.push_back(self);
       break;
     case Patch::Role::finer:
       touch(self);
@@ -54,8 +58,8 @@ void Patches::deliver(PatchId id, World world) {
 void Patches::fail(PatchId id, std::string reason) {
   Patch& patch = patches_[index_of(id)];
   if (!patch.failed) {
-    ++failed_;
-    --coming_;
+    ++stats_.failed;
+    --stats_.coming;
   }
   patch.failed = true;
   patch.reason = std::move(reason);
@@ -93,7 +97,7 @@ bool Patches::find_finer(std::uint32_t index, const Fits& fits, Cut& cut) const 
   return true;
 }
 
-bool Patches::settle(const Fits& fits) {
+std::vector<std::uint32_t> Patches::settle(const Fits& fits) {
   Cut touched = std::exchange(touched_, {});
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
@@ -110,7 +114,7 @@ bool Patches::settle(const Fits& fits) {
       touched_.push_back(index);
     }
   }
-  return std::exchange(changed_, false);
+  return std::exchange(changed_, {});
 }
 
 void Patches::replace(std::uint32_t index, const Cut& cut) {
@@ -127,31 +131,35 @@ void Patches::replace(std::uint32_t index, const Cut& cut) {
 void Patches::retire(std::uint32_t index) {
   Patch& patch = patches_[index];
   if (patch.role == Patch::Role::shown) {
-    patches_[shown_.back()].place = patch.place;
-    shown_[patch.place] = shown_.back();
-    shown_.pop_back();
-    changed_ = true;
+    count_shown(patch, minus_one);
+    changed_.push_back(index);
   }
   patch.role = Patch::Role::replaced;
   if (!patch.world) return;
-  bytes_ -= patch.world->stats().bytes;
+  stats_.bytes -= patch.world->stats().bytes;
   replaced_.push_back(std::move(*patch.world));
   patch.world.reset();
 }
 
 void Patches::show(std::uint32_t index) {
   patches_[index].role = Patch::Role::shown;
-  patches_[index].place = static_cast<std::uint32_t>(shown_.size());
-  shown_.push_back(index);
-  changed_ = true;
+  count_shown(patches_[index], 1);
+  changed_.push_back(index);
+}
+
+void Patches::count_shown(const Patch& patch, std::uint64_t one) {
+  (patch.world ? stats_.patches : stats_.unknown) += one;
+  if (patch.world) stats_.triangles += one * patch.world->stats().triangles;
 }
 
 std::vector<World> Patches::take_replaced() { return std::exchange(replaced_, {}); }
 
-std::uint64_t Patches::waiting() const {
+PatchworkStats Patches::stats() const {
   Cut cut;
   for (const std::uint32_t index : touched_) find_finer(index, {}, cut);
-  return cut.size();
+  PatchworkStats stats = stats_;
+  stats.waiting = cut.size();
+  return stats;
 }
 
 }  // namespace roam

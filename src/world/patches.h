@@ -24,7 +24,6 @@ struct Patch {
   std::vector<std::uint32_t> finer;  ///< what refines it
   std::optional<World> world;        ///< what was delivered, until it is replaced
   std::string reason;                ///< why it failed
-  std::uint32_t place = 0;           ///< of a shown one, in Patches::shown()
 };
 
 class Patches {
@@ -37,21 +36,19 @@ class Patches {
   void fail(PatchId patch, std::string reason);
 
   /// Replaces what can be replaced, by the finest for which `fits` holds, or for everything where it is empty. What was
-  /// unknown is replaced at once. Returns whether what is shown has changed since the last call.
-  bool settle(const Fits& fits);
-  /// Whether settle() would have something to do.
-  [[nodiscard]] bool unsettled() const { return changed_ || !touched_.empty(); }
+  /// unknown is replaced at once. Returns those that came to be shown or known, or ceased to be shown, since the last
+  /// call; some perhaps more than once.
+  [[nodiscard]] std::vector<std::uint32_t> settle(const Fits& fits);
+  /// Whether some wait until the body is free in them.
+  [[nodiscard]] bool unsettled() const { return !touched_.empty(); }
 
   [[nodiscard]] const Patch& operator[](std::uint32_t index) const { return patches_[index]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(patches_.size()); }
-  [[nodiscard]] const std::vector<std::uint32_t>& shown() const { return shown_; }
   /// The worlds that are of no more use since this was called last.
   [[nodiscard]] std::vector<World> take_replaced();
 
-  [[nodiscard]] std::uint64_t failed() const { return failed_; }
-  [[nodiscard]] std::uint64_t coming() const { return coming_; }
-  [[nodiscard]] std::uint64_t waiting() const;
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< of all worlds that are held
+  /// Bytes are those of all worlds that are held.
+  [[nodiscard]] PatchworkStats stats() const;
 
  private:
   static constexpr std::uint32_t no_parent = UINT32_MAX;
@@ -64,14 +61,14 @@ class Patches {
   void replace(std::uint32_t index, const Cut& cut);
   void retire(std::uint32_t index);
   void show(std::uint32_t index);
+  void count_shown(const Patch& patch, std::uint64_t one);
   void touch(std::uint32_t index);
 
   std::vector<Patch> patches_;
-  std::vector<std::uint32_t> shown_;
   std::vector<std::uint32_t> touched_;  ///< shown ones that may be replaced, each perhaps more than once
+  std::vector<std::uint32_t> changed_;
   std::vector<World> replaced_;
-  bool changed_ = false;
-  std::uint64_t failed_ = 0, coming_ = 0, bytes_ = 0;
+  PatchworkStats stats_;  ///< but for `waiting`
 };
 
 }  // namespace roam

@@ -1,5 +1,6 @@
 #include "roam/patchwork.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <utility>
@@ -74,7 +75,6 @@ struct Patchwork::State {
   // Of the thread that moves the body.
   Patches patches;
   BoxTree tree;
-  Box bounds;
   std::uint64_t revision = 0;
 
   /// Takes a message, and what is to be freed. The caller holds the lock, and frees it when it has let it go.
@@ -100,30 +100,30 @@ struct Patchwork::State {
     }
   }
 
-  /// The tree and the counts of what is shown.
-  void rebuild(PatchworkStats& counts) {
-    bounds = {};
-    std::vector<BoxTree::Item> items;
-    items.reserve(patches.shown().size());
-    for (const std::uint32_t index : patches.shown()) {
+  /// Mends the tree where something came or went.
+  void mend(std::vector<std::uint32_t> changed) {
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    std::vector<BoxTree::Item> put;
+    std::vector<std::uint32_t> erased;
+    for (const std::uint32_t index : changed) {
       const Patch& patch = patches[index];
-      counts.patches += patch.world ? 1U : 0U;
-      counts.unknown += patch.world ? 0U : 1U;
-      bounds.include(patch.world ? patch.world->bounds() : patch.where);
-      const Box reach = patch.world ? patch.world->data_->reach : patch.where;
-      if (patch.world) counts.triangles += patch.world->stats().triangles;
-      if (!reach.empty()) items.push_back({reach, index});
+      const Box box = patch.world ? patch.world->data_->reach : patch.where;
+      if (patch.role == Patch::Role::shown && !box.empty()) {
+        put.push_back({box, index});
+      } else {
+        erased.push_back(index);
+      }
     }
-    tree.build(std::move(items));
+    tree.change(put, erased);
+    ++revision;
   }
 
   bool update(const Patchwork& self, const Body* body, const Vec3& place) {
     std::vector<Message> messages;
-    PatchworkStats counts;
     {
       const std::lock_guard lock(mutex);
       messages.swap(inbox);
-      counts = stats;
     }
     if (messages.empty() && !patches.unsettled()) return false;
     // A body that does not fit where it is has nothing to lose.
@@ -133,31 +133,28 @@ struct Patchwork::State {
     if (guarded) {
       fits = [&](const World& world) { return world.clearance(*body, place, kRoom).distance >= kRoom; };
     }
-    const bool changed = patches.settle(fits);
-    if (changed) {
-      counts.patches = counts.unknown = counts.triangles = 0;
-      rebuild(counts);
-      ++revision;
-    }
-    counts.failed = patches.failed();
-    counts.coming = patches.coming();
-    counts.waiting = patches.waiting();
+    const std::vector<std::uint32_t> changed = patches.settle(fits);
+    if (!changed.empty()) mend(changed);
+    PatchworkStats counts = patches.stats();
     std::vector<World> gone = patches.take_replaced();
     const std::lock_guard lock(mutex);
     for (World& world : gone) replaced.push_back(std::move(world));
-    counts.bytes = patches.bytes();
     for (const World& world : replaced) counts.bytes += world.stats().bytes;
     stats = counts;
-    return changed;
+    return !changed.empty();
   }
 
   /// Offers the collector everything within its reach of the way.
-  void collect(const Body& body, const Vec3& from, const Vec3& motion, query::Collector& collector) const {
+  void collect(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+               query::Collector& collector) const {
+    // Which part of the way is looked at must not depend on what was found before, or the last bits would, too.
+    const Sweep whole = swept(body, from, motion, reach);
     Sweep look = swept(body, from, motion, collector.reach());
-    tree.near(look, [&](std::uint32_t index, const Interval& when) {
+    tree.near(look, [&](std::uint32_t index, const Interval&) {
       const Patch& patch = patches[index];
       if (patch.world) {
-        query::collect(*patch.world->data_, part(body, from, motion, when), first_id(index), collector);
+        const WorldData& data = *patch.world->data_;
+        query::collect(data, part(body, from, motion, whole.meets(data.reach)), first_id(index), collector);
       } else {
         Contact c = unknown::nearest(patch.where, margin, body, from, motion);
         c.triangle += first_id(index) + kFirstSide;
@@ -238,7 +235,7 @@ std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& 
   query::check_reach(reach);
   if (contacts.empty()) return 0;
   query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
-  state_->collect(body, from, motion, collector);
+  state_->collect(body, from, motion, reach, collector);
   collector.sort();
   return collector.count();
 }
@@ -249,12 +246,12 @@ Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& m
   Contact nearest;
   query::Collector collector(reach, {&nearest, 1}, true);
   // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  state_->collect(body, from, Vec3(0.0), collector);
-  if (motion != Vec3(0.0)) state_->collect(body, from, motion, collector);
+  state_->collect(body, from, Vec3(0.0), reach, collector);
+  if (motion != Vec3(0.0)) state_->collect(body, from, motion, reach, collector);
   return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
 }
 
-Box Patchwork::bounds() const { return state_->bounds; }
+Box Patchwork::bounds() const { return state_->tree.bounds(); }
 
 std::uint64_t Patchwork::revision() const { return state_->revision; }
 
