@@ -165,6 +165,39 @@ TEST(ManipulatorMouse, ADoubleClickGoesThere) {
   }
 }
 
+TEST(ManipulatorMouse, TwoClicksAreADoubleClickWhereNobodySaysSo) {
+  const auto clicks = [](double apart, float moved, unsigned int button) {
+    Standing r;
+    r->look(0.0, -0.3);
+    for (int i = 0; i < 2; ++i) {
+      const float x = 600.0f + static_cast<float>(i) * moved;
+      r.queue->mouseButtonPress(x, 350, button, r.time);
+      r.deliver();
+      EXPECT_TRUE(r.taken);
+      r.time += 0.05;
+      r.queue->mouseButtonRelease(x, 350, button, r.time);
+      r.deliver();
+      r.time += apart - 0.05;
+    }
+    return r->going();
+  };
+  EXPECT_TRUE(clicks(0.2, 0.0f, 1));
+  EXPECT_TRUE(clicks(0.3, 3.0f, 1));
+  EXPECT_FALSE(clicks(0.6, 0.0f, 1));
+  EXPECT_FALSE(clicks(0.2, 30.0f, 1));
+  EXPECT_FALSE(clicks(0.2, 0.0f, 3));
+}
+
+TEST(ManipulatorMouse, InvertedTheMouseLooksDownWhenItGoesUp) {
+  Rig r;
+  r->look(0.0, 0.0);
+  r->setLookInverted(true);
+  EXPECT_TRUE(r->lookInverted());
+  r.push(400, 300);
+  r.mouse(400, 200);
+  EXPECT_LT(r->pitch(), -0.1);
+}
+
 TEST(ManipulatorMouse, GoingStopsBeforeTheWallThatWasClicked) {
   Standing r;
   const osg::Vec2d at = pixel(r, {8.0, 3.0, 1.5});

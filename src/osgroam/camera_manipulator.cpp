@@ -114,8 +114,8 @@ bool Manipulator::handle(const Adapter& event, osgGA::GUIActionAdapter& viewer) 
       if (std::exchange(s.home_wanted, false)) home(event, viewer);
       break;
     case Adapter::PUSH:
-      s.pointer.push(event);
-      return true;
+      taken = !s.pointer.push(event) || s.go_to_clicked(event);
+      break;
     case Adapter::DOUBLECLICK:
       s.pointer.push(event);
       taken = s.go_to_clicked(event);

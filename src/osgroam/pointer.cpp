@@ -14,6 +14,10 @@ constexpr double leash = 0.25;
 /// Pixels: a warped pointer may land this far from the centre, because windows round.
 constexpr double rounding = 2.0;
 
+/// Seconds and heights of the window between the two clicks of a double click, at most.
+constexpr double double_click_time = 0.4;
+constexpr double double_click_distance = 0.01;
+
 double ratio(double value, double least, double greatest) {
   return greatest != least ? (value - least) / (greatest - least) : 0.5;
 }
@@ -42,15 +46,23 @@ Pointer::Place Pointer::place(const osgGA::GUIEventAdapter& event) {
   return {ratio(event.getX(), event.getXmin(), event.getXmax()) * aspect(event), upwards ? y : 1.0 - y};
 }
 
-Pointer::Place Pointer::centre(const osgGA::GUIEventAdapter& event) { return {0.5 * aspect(event), 0.5}; }
-
-void Pointer::push(const osgGA::GUIEventAdapter& event) {
+bool Pointer::push(const osgGA::GUIEventAdapter& event) {
+  const Place now = place(event);
+  const double since = event.getTime() - click_time_;
+  const bool left = event.getButton() == osgGA::GUIEventAdapter::LEFT_MOUSE_BUTTON;
+  const bool again = left && clicked_once_ && !dragging_ && since >= 0.0 && since <= double_click_time &&
+                     std::hypot(now.x - clicked_.x, now.y - clicked_.y) <= double_click_distance;
+  clicked_once_ = left && !again;
+  clicked_ = now;
+  click_time_ = event.getTime();
   dragging_ = true;
-  if (!grabbed_) last_ = place(event);
+  if (!grabbed_) last_ = now;
+  return again;
 }
 
 Pointer::Movement Pointer::move(const osgGA::GUIEventAdapter& event) {
   const Place now = place(event);
+  middle_ = {0.5 * aspect(event), 0.5};
   if (!grabbed_ && (!dragging_ || event.getEventType() != osgGA::GUIEventAdapter::DRAG)) return {};
   if (grabbed_ && !known_) {
     known_ = true;
@@ -59,12 +71,11 @@ Pointer::Movement Pointer::move(const osgGA::GUIEventAdapter& event) {
   }
   if (grabbed_ && warped_) {
     // Events from before the warp come still; the first one that is nearer to the centre is from after it.
-    const Place middle = centre(event);
-    const double from_middle = std::hypot(now.x - middle.x, now.y - middle.y);
+    const double from_middle = std::hypot(now.x - middle_.x, now.y - middle_.y);
     if (from_middle < std::hypot(now.x - last_.x, now.y - last_.y)) {
       warped_ = false;
       const double pixel = event.getWindowHeight() > 0 ? 1.0 / event.getWindowHeight() : 0.0;
-      last_ = from_middle <= rounding * pixel ? now : middle;
+      last_ = from_middle <= rounding * pixel ? now : middle_;
     }
   }
   const Movement movement{last_.x - now.x, now.y - last_.y};
@@ -87,8 +98,7 @@ void Pointer::keep_grab(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAda
   } else if (!grabbed_) {
     start(event, viewer, controls);
   } else if (known_ && !warped_) {
-    const Place middle = centre(event);
-    if (std::hypot(last_.x - middle.x, last_.y - middle.y) > leash) warp(event, viewer);
+    if (std::hypot(last_.x - middle_.x, last_.y - middle_.y) > leash) warp(event, viewer);
   }
 }
 
@@ -128,8 +138,9 @@ void Pointer::show() {
 }
 
 void Pointer::give_back_key() {
-  osg::ref_ptr<osgViewer::ViewerBase> viewer;
-  if (kept_open_.lock(viewer) && viewer->getKeyEventSetsDone() == 0) viewer->setKeyEventSetsDone(closing_key_);
+  // Not by a reference: many a viewer lives on the stack, and none can be had to it.
+  osgViewer::ViewerBase* viewer = kept_open_.get();
+  if (viewer && viewer->getKeyEventSetsDone() == 0) viewer->setKeyEventSetsDone(closing_key_);
   kept_open_ = nullptr;
 }
 

@@ -21,8 +21,10 @@ class Pointer {
 
   ~Pointer();
 
-  /// A button went down, or the last one up: the mouse drags between the two.
-  void push(const osgGA::GUIEventAdapter& event);
+  /// A button went down: the mouse drags from here on. Returns whether that was the second click of a double click,
+  /// which OpenSceneGraph's X11 windows do not tell.
+  bool push(const osgGA::GUIEventAdapter& event);
+  /// The last button went up.
   void let_go() { dragging_ = false; }
   /// How far the mouse moved, as far as that looks.
   [[nodiscard]] Movement move(const osgGA::GUIEventAdapter& event);
@@ -39,13 +41,16 @@ class Pointer {
     double x = 0.0, y = 0.0;  ///< heights of the window, from its lower left corner
   };
   [[nodiscard]] static Place place(const osgGA::GUIEventAdapter& event);
-  [[nodiscard]] static Place centre(const osgGA::GUIEventAdapter& event);
   void start(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer, const Controls& controls);
   void show();
   void give_back_key();
   void warp(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer);
 
   Place last_;
+  Place middle_;  ///< of the window, as the last event of the mouse has it: those of frames may know an older size
+  Place clicked_;
+  double click_time_ = 0.0;  ///< seconds
+  bool clicked_once_ = false;
   bool dragging_ = false;
   bool wanted_ = false, grabbed_ = false;
   bool warped_ = false;  ///< what the mouse did before it was warped may still be on its way
