@@ -92,7 +92,8 @@ class Patchwork final : public Space {
 
   /// Takes into use what has been delivered. `body` at `place` is where a finer patch must leave room. Returns whether
   /// any triangle or unknown box came or went. Holds the lock that deliver() takes only to swap lists. Costs next to
-  /// nothing when nothing came and nothing waits, else a few sweeps and about 0.2 us a patch in use.
+  /// nothing when nothing came and nothing waits, else a few looks for the nearest triangle, and some microseconds for
+  /// what changed; only where a quarter of all is new is the tree over the patches made anew, 1 us a patch.
   bool update(const Body& body, const Vec3& place);
   /// The same before there is a body.
   bool update();
@@ -104,6 +105,7 @@ class Patchwork final : public Space {
   using Space::clearance;
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
+  /// Of what is known to within error_limit, never less.
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return error_limit; }
   [[nodiscard]] std::uint64_t revision() const override;
