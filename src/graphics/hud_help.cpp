@@ -7,7 +7,7 @@
 namespace roam::graphics {
 namespace {
 
-const osg::Vec4 panel_color(0.055f, 0.065f, 0.08f, 0.88f);
+const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.90f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 text_color(0.86f, 0.89f, 0.92f, 1.0f);

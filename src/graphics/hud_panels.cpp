@@ -8,10 +8,10 @@ namespace {
 
 // On the darkest and on the lightest picture the panel stays so dark that the text's contrast is above 7 : 1, which
 // the Web Content Accessibility Guidelines ask for in their strictest level.
-const osg::Vec4 panel_color(0.055f, 0.065f, 0.08f, 0.80f);
-const osg::Vec4 text_color(0.96f, 0.97f, 0.98f, 1.0f);
+const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.87f);
+const osg::Vec4 text_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 label_color(0.72f, 0.79f, 0.86f, 1.0f);
-const osg::Vec4 warning_color(1.0f, 0.78f, 0.30f, 1.0f);
+const osg::Vec4 warning_color(1.0f, 0.83f, 0.40f, 1.0f);
 const osg::Vec4 accent_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 groove_color(0.96f, 0.97f, 0.98f, 0.18f);
 const osg::Vec4 rim_color(0.0f, 0.0f, 0.0f, 0.55f);

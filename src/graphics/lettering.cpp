@@ -34,9 +34,9 @@ osg::ref_ptr<osgText::Font> load_font(bool bold) {
 
 osgText::Font* font_for(bool bold) {
   // Never given back: at the program's end their textures would outlive what OpenSceneGraph manages textures with.
-  static osgText::Font* const regular = load_font(false).release();
-  static osgText::Font* const heavy = load_font(true).release();
-  return bold ? heavy : regular;
+  static const auto& regular = *new osg::ref_ptr<osgText::Font>(load_font(false));
+  static const auto& heavy = *new osg::ref_ptr<osgText::Font>(load_font(true));
+  return bold ? heavy.get() : regular.get();
 }
 
 constexpr std::string_view ellipsis = "…";
@@ -49,8 +49,8 @@ osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look
   // The other techniques' shaders need GLSL 1.30 and do not compile everywhere.
   text->setShaderTechnique(osgText::GREYSCALE);
   text->setFont(font_for(look.bold));
-  // One texel a pixel: nothing is sharper.
-  text->setFontResolution(static_cast<unsigned>(look.size), static_cast<unsigned>(look.size));
+  // Two texels a pixel. One would be sharper if the letters lay on whole pixels, which OpenSceneGraph's do not.
+  text->setFontResolution(2 * static_cast<unsigned>(look.size), 2 * static_cast<unsigned>(look.size));
   text->setCharacterSize(static_cast<float>(look.size));
   text->setAlignment(osgText::Text::LEFT_BASE_LINE);
   text->setPosition(osg::Vec3(x, y, 0));

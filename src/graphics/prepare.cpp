@@ -17,8 +17,7 @@ constexpr Attribute::Type unwanted_attributes[] = {
     Attribute::PROGRAM,    Attribute::DEPTH,    Attribute::CLIPCONTROL, Attribute::CULLFACE,
     Attribute::FRONTFACE,  Attribute::FOG,      Attribute::LIGHTMODEL,  Attribute::COLORMASK,
     Attribute::SHADEMODEL, Attribute::VIEWPORT, Attribute::SCISSOR,     Attribute::POLYGONOFFSET};
-constexpr osg::StateAttribute::GLMode unwanted_modes[] = {GL_LIGHTING, GL_CULL_FACE,    GL_DEPTH_TEST,
-                                                          GL_FOG,      GL_SCISSOR_TEST, GL_COLOR_MATERIAL};
+constexpr Attribute::GLMode unwanted_modes[] = {GL_LIGHTING, GL_CULL_FACE, GL_DEPTH_TEST, GL_FOG, GL_SCISSOR_TEST};
 constexpr const char* textured = "ROAM_TEXTURED";
 constexpr auto insistence = static_cast<Attribute::OverrideValue>(Attribute::OVERRIDE | Attribute::PROTECTED);
 
@@ -41,6 +40,13 @@ bool can_be_drawn(const osg::StateAttribute* texture) {
   return flat && flat->getImage() && flat->getImage()->valid();
 }
 
+/// The old wrapping mixes a border into the texels at the edge, black where none is set: a dark seam between tiles.
+void prepare_edges(osg::Texture& texture) {
+  for (const osg::Texture::WrapParameter side : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) {
+    if (texture.getWrap(side) == osg::Texture::CLAMP) texture.setWrap(side, osg::Texture::CLAMP_TO_EDGE);
+  }
+}
+
 void set_textured(osg::StateSet& state, bool on) {
   const auto wished = on ? Attribute::ON : Attribute::OFF;
   const osg::StateSet::DefinePair* now = state.getDefinePair(textured);
@@ -59,12 +65,13 @@ void prepare_textures(osg::StateSet& state) {
   for (const Attribute::Type type : {Attribute::TEXENV, Attribute::TEXGEN}) state.removeTextureAttribute(0, type);
 
   // The shader does not see whether a texture is switched on: what it samples is said by a define, state by state.
-  const Attribute* texture = state.getTextureAttribute(0, Attribute::TEXTURE);
+  Attribute* texture = state.getTextureAttribute(0, Attribute::TEXTURE);
   const auto mode = state.getTextureMode(0, GL_TEXTURE_2D);
   if (texture && !can_be_drawn(texture)) {
     state.removeTextureAttribute(0, Attribute::TEXTURE);
     set_textured(state, false);
   } else if (texture) {
+    prepare_edges(*texture->asTexture());
     set_textured(state, (mode & Attribute::ON) != 0 || (mode & Attribute::INHERIT) != 0);
   } else if ((mode & (Attribute::ON | Attribute::INHERIT)) == 0) {
     set_textured(state, false);

@@ -1,0 +1,241 @@
+// Pictures and films on disk.
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <osgDB/ReadFile>
+#include <string>
+
+#include "graphics/capture.h"
+#include "graphics/child_process.h"
+#include "graphics/hud.h"
+#include "graphics_stage.h"
+
+namespace roam::test {
+namespace {
+
+namespace fs = std::filesystem;
+using graphics::Screenshot;
+using graphics::Video;
+
+/// A folder of its own, removed afterwards.
+struct GraphicsCapture : testing::Test {
+  GraphicsCapture() : folder(fs::path(testing::TempDir()) / ("roam-capture-" + std::to_string(getpid()))) {
+    fs::create_directories(folder);
+  }
+  ~GraphicsCapture() override { fs::remove_all(folder); }
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  }
+  const fs::path folder;
+};
+
+template <class Call>
+std::string complaint(const Call& call) {
+  try {
+    call();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+osg::ref_ptr<osg::Image> plain_image(int width, int height, unsigned char level) {
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+  std::fill_n(image->data(), image->getTotalSizeInBytes(), level);
+  return image;
+}
+
+/// What a program says.
+std::string output_of(const std::string& command) {
+  std::string all;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 256> chunk;
+  while (pipe && std::fgets(chunk.data(), chunk.size(), pipe)) all += chunk.data();
+  if (pipe) pclose(pipe);
+  return all;
+}
+
+/// "width,height,frame rate,pixel format,codec,frames" in the order that ffprobe has.
+std::string probe(const fs::path& film) {
+  return output_of(
+      "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+      "stream=codec_name,width,height,pix_fmt,r_frame_rate,nb_read_frames -of csv=p=0 " +
+      film.string());
+}
+
+bool have_ffmpeg() { return !graphics::find_program("ffmpeg").empty() && !graphics::find_program("ffprobe").empty(); }
+
+TEST_F(GraphicsCapture, AScreenshotIsThePictureToThePixel) {
+  Stage stage(333, 217);
+  stage.add(paint(quad({0, 4, 1}, {1, 0, 0}, {0, 0, 1}), {1, 0.5f, 0, 1}));
+  const auto expected = stage.picture(true);
+  const fs::path file = folder / "shot.png";
+  Screenshot shot(stage.frame, file, true);
+  EXPECT_FALSE(shot.done());
+  stage.viewer.frame();
+  shot.finish();
+  EXPECT_TRUE(shot.done());
+  const osg::ref_ptr<osg::Image> read = osgDB::readRefImageFile(file.string());
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->s(), 333);
+  ASSERT_EQ(read->t(), 217);
+  EXPECT_EQ(differing(*read, *expected), 0);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(GraphicsCapture, AScreenshotMayLeaveTheDisplayOut) {
+  Stage stage(640, 360);
+  graphics::Hud hud(stage.frame);
+  hud.set_message("not in every picture");
+  Screenshot without(stage.frame, folder / "without.png", false);
+  Screenshot with(stage.frame, folder / "with.png", true);
+  stage.viewer.frame();
+  without.finish();
+  with.finish();
+  const auto a = osgDB::readRefImageFile((folder / "without.png").string());
+  const auto b = osgDB::readRefImageFile((folder / "with.png").string());
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(differing(*a, *stage.picture(false)), 0);
+  EXPECT_GT(differing(*a, *b, 6), 1000);
+}
+
+TEST_F(GraphicsCapture, JpegIsWrittenToo) {
+  Stage stage(64, 48);
+  Screenshot shot(stage.frame, folder / "shot.jpg", true);
+  stage.viewer.frame();
+  shot.finish();
+  std::ifstream file(folder / "shot.jpg", std::ios::binary);
+  EXPECT_EQ(file.get(), 0xFF);
+  EXPECT_EQ(file.get(), 0xD8);
+}
+
+TEST_F(GraphicsCapture, AScreenshotOfAThreadedViewerWaitsForItsFrame) {
+  Stage stage(64, 48);
+  stage.viewer.setThreadingModel(osgViewer::Viewer::DrawThreadPerContext);
+  for (int i = 0; i < 5; ++i) {
+    Screenshot shot(stage.frame, folder / "shot.png", true);
+    stage.viewer.frame();
+    EXPECT_EQ(complaint([&] { shot.finish(); }), "");
+  }
+  stage.viewer.stopThreading();
+}
+
+TEST_F(GraphicsCapture, SaysWhyAPictureCannotBeWritten) {
+  Stage stage(64, 48);
+  EXPECT_NE(complaint([&] { Screenshot(stage.frame, folder / "shot.txt", true); }).find(".png"), std::string::npos);
+  Screenshot nowhere(stage.frame, folder / "no" / "such" / "shot.png", true);
+  stage.viewer.frame();
+  EXPECT_NE(complaint([&] { nowhere.finish(); }).find("no folder"), std::string::npos);
+  // A folder of that name is in the way.
+  fs::create_directories(folder / "taken.png" / "inside");
+  EXPECT_NE(complaint([&] { graphics::write_image(*plain_image(8, 8, 9), folder / "taken.png"); }).find("taken.png"),
+            std::string::npos);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(GraphicsCapture, AScreenshotThatIsGivenUpDoesNotHang) {
+  Stage stage(64, 48);
+  { Screenshot shot(stage.frame, folder / "shot.png", true); }
+  stage.viewer.frame();
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(GraphicsCapture, AFilmHasTheRightPictures) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  const fs::path file = folder / "film.mp4";
+  Video video(file, 320, 180, 30);
+  for (int i = 0; i < 45; ++i) video.add(plain_image(320, 180, static_cast<unsigned char>(5 * i)));
+  EXPECT_EQ(video.frames(), 45);
+  EXPECT_FALSE(fs::exists(file));
+  video.finish();
+  EXPECT_EQ(probe(file), "h264,320,180,yuv420p,30/1,45\n");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(GraphicsCapture, OddSizesAreFilledUp) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  Video video(folder / "film.mp4", 321, 181, 25);
+  for (int i = 0; i < 3; ++i) video.add(plain_image(321, 181, 128));
+  video.finish();
+  EXPECT_EQ(probe(folder / "film.mp4"), "h264,322,182,yuv420p,25/1,3\n");
+}
+
+TEST_F(GraphicsCapture, AFilmRunsAsTimeDid) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  Video video(folder / "film.mp4", 64, 64, 20);
+  // Slower than the film, then faster.
+  for (const double seconds : {0.0, 0.2, 0.4, 0.41, 0.42, 0.5}) video.add(plain_image(64, 64, 50), seconds);
+  EXPECT_EQ(video.frames(), 11);
+  video.finish();
+  EXPECT_EQ(probe(folder / "film.mp4"), "h264,64,64,yuv420p,20/1,11\n");
+}
+
+TEST_F(GraphicsCapture, FilmsAreUprightAndKeepTheirColours) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  osg::ref_ptr<osg::Image> image = plain_image(64, 64, 40);
+  // Orange above.
+  for (unsigned y = 32; y < 64; ++y) {
+    for (unsigned x = 0; x < 64; ++x) {
+      unsigned char* p = image->data(x, y);
+      p[0] = 230, p[1] = 120, p[2] = 20;
+    }
+  }
+  Video video(folder / "film.mp4", 64, 64, 20);
+  for (int i = 0; i < 4; ++i) video.add(image);
+  video.finish();
+  output_of("ffmpeg -v error -i " + (folder / "film.mp4").string() +
+            " -frames:v 1 -vf scale=in_color_matrix=bt709 -update 1 " + (folder / "frame.bmp").string());
+  const auto frame = osgDB::readRefImageFile((folder / "frame.bmp").string());
+  ASSERT_TRUE(frame);
+  EXPECT_LT(at(*frame, 32, 50).distance({230, 120, 20}), 18) << at(*frame, 32, 50);
+  EXPECT_LT(at(*frame, 32, 14).distance({40, 40, 40}), 12) << at(*frame, 32, 14);
+}
+
+TEST_F(GraphicsCapture, SaysWhyAFilmCannotBeMade) {
+  EXPECT_NE(complaint([&] { Video(folder / "film.avi", 64, 64, 20); }).find(".mp4"), std::string::npos);
+  EXPECT_NE(complaint([&] { Video(folder / "film.mp4", 8, 64, 20); }).find("[16, 8192]"), std::string::npos);
+  EXPECT_NE(complaint([&] { Video(folder / "film.mp4", 64, 64, 0); }).find("[1, 240]"), std::string::npos);
+
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const std::string absent = complaint([&] { Video(folder / "film.mp4", 64, 64, 20); });
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(absent.find("apt-get install ffmpeg"), std::string::npos) << absent;
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(GraphicsCapture, SaysWhatFfmpegSaidLast) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  const std::string words = complaint([&] {
+    Video video(folder / "no" / "such" / "film.mp4", 64, 64, 20);
+    for (int i = 0; i < 100; ++i) video.add(plain_image(64, 64, 50));
+    video.finish();
+  });
+  EXPECT_NE(words.find("No such file or directory"), std::string::npos) << words;
+}
+
+TEST_F(GraphicsCapture, AFilmThatIsDroppedOrEmptyLeavesNothing) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  {
+    Video dropped(folder / "film.mp4", 64, 64, 20);
+    for (int i = 0; i < 5; ++i) dropped.add(plain_image(64, 64, 50));
+  }
+  EXPECT_EQ(files(), 0u);
+  {
+    Video empty(folder / "film.mp4", 64, 64, 20);
+    EXPECT_NE(complaint([&] { empty.finish(); }), "");
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(GraphicsCapture, APictureOfAnotherSizeIsRefused) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  Video video(folder / "film.mp4", 64, 64, 20);
+  EXPECT_NE(complaint([&] { video.add(plain_image(64, 65, 50)); }).find("64 x 65"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace roam::test

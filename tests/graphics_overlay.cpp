@@ -1,0 +1,159 @@
+// The body, its contacts and its way, drawn in the scene.
+
+#include "graphics/overlay.h"
+#include "graphics_stage.h"
+
+namespace roam::test {
+namespace {
+
+using graphics::Overlay;
+
+/// Pixels that differ from the picture without overlay, and by how much on average.
+struct Difference {
+  int pixels = 0;
+  double mean = 0;
+};
+
+Difference difference(const osg::Image& a, const osg::Image& b) {
+  Difference d;
+  for (int y = 0; y < a.t(); ++y) {
+    for (int x = 0; x < a.s(); ++x) {
+      const int distance = at(a, x, y).distance(at(b, x, y));
+      if (distance <= 8) continue;
+      ++d.pixels;
+      d.mean += distance;
+    }
+  }
+  d.mean /= std::max(1, d.pixels);
+  return d;
+}
+
+/// Rows and columns that are covered.
+struct Extent {
+  int width = 0, height = 0;
+};
+Extent extent(const osg::Image& a, const osg::Image& b) {
+  int left = a.s(), right = -1, bottom = a.t(), top = -1;
+  for (int y = 0; y < a.t(); ++y) {
+    for (int x = 0; x < a.s(); ++x) {
+      if (at(a, x, y).distance(at(b, x, y)) <= 8) continue;
+      left = std::min(left, x), right = std::max(right, x), bottom = std::min(bottom, y), top = std::max(top, y);
+    }
+  }
+  return {right - left + 1, top - bottom + 1};
+}
+
+osg::ref_ptr<osg::Geometry> grey_wall(double distance) {
+  return paint(quad({0, distance, 0}, {30, 0, 0}, {0, 0, 30}), {0.5f, 0.5f, 0.5f, 1});
+}
+
+TEST(GraphicsOverlay, TheBodyIsAsLargeAsItIs) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(20));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  const double scale = 90 / std::tan(0.5 * 65 * M_PI / 180) / 10;  // pixels a metre at 10 m
+
+  overlay.set_marks({.body = graphics::BodyMark{{0, 10, 0}, 1.0, 2.0}});
+  const Extent sphere = extent(*without, *stage.picture());
+  EXPECT_NEAR(sphere.width, 2 * scale, 3);
+  EXPECT_NEAR(sphere.height, 2 * scale, 3);
+
+  overlay.set_marks({.body = graphics::BodyMark{{0, 10, 0}, 1.0, 4.0}});
+  const Extent capsule = extent(*without, *stage.picture());
+  EXPECT_NEAR(capsule.width, 2 * scale, 3);
+  EXPECT_NEAR(capsule.height, 4 * scale, 3);
+
+  overlay.set_marks({});
+  EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
+}
+
+TEST(GraphicsOverlay, WhatLiesBehindAWallShinesThroughFaintly) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(8));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  overlay.set_marks({.body = graphics::BodyMark{{0, 6, 0}, 1.0, 2.0}});
+  const Difference before = difference(*without, *stage.picture());
+  overlay.set_marks({.body = graphics::BodyMark{{0, 12, 0}, 1.0, 2.0}});
+  const Difference behind = difference(*without, *stage.picture());
+  EXPECT_GT(before.pixels, 100);
+  EXPECT_GT(behind.pixels, 50);
+  EXPECT_LT(behind.mean, 0.5 * before.mean);
+}
+
+TEST(GraphicsOverlay, ATriangleOnAWallIsSeenOnIt) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(8));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  graphics::Marks marks;
+  marks.triangles.push_back({Vec3(-2, 8, -1), Vec3(2, 8, -1), Vec3(0, 8, 2)});
+  overlay.set_marks(marks);
+  const auto with = stage.picture();
+  // Its face, well inside: warmer than the grey of the wall, and all of it.
+  for (int x = 150; x <= 170; ++x) {
+    const Pixel p = at(*with, x, 90);
+    EXPECT_GT(p.r, p.b + 20) << x;
+    EXPECT_GT(p.distance(at(*without, x, 90)), 20) << x;
+  }
+}
+
+TEST(GraphicsOverlay, ContactsAreDrawnWithTheirNormals) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(8));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  graphics::Marks marks;
+  marks.contacts.push_back({Vec3(0, 4, 0), Vec3(1, 0, 0)});
+  overlay.set_marks(marks);
+  const Extent drawn = extent(*without, *stage.picture());
+  const double scale = 90 / std::tan(0.5 * 65 * M_PI / 180) / 4;
+  EXPECT_NEAR(drawn.width, (0.3 + 0.05) * scale, 3);
+  EXPECT_NEAR(drawn.height, 0.1 * scale, 3);
+}
+
+TEST(GraphicsOverlay, TheTrailGrowsBreaksAndIsCleared) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(20));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  // Longer than a piece, so that pieces must join: from left to right without a gap.
+  for (int i = 0; i <= 3000; ++i) {
+    overlay.add_to_trail({-5 + 10.0 * i / 3000, 10, 0});
+    if (i % 500 == 0) stage.picture();
+  }
+  const auto with = stage.picture();
+  const auto covered = [&](const osg::Image& image, int x) {
+    int rows = 0;
+    for (int y = 80; y < 100; ++y) rows += at(*without, x, y).distance(at(image, x, y)) > 20;
+    return rows > 0;
+  };
+  for (int x = 95; x < 225; ++x) EXPECT_TRUE(covered(*with, x)) << x;
+
+  overlay.clear_trail();
+  EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
+  overlay.add_to_trail({-5, 10, 0});
+  overlay.add_to_trail({-2, 10, 0});
+  overlay.break_trail();
+  overlay.add_to_trail({2, 10, 0});
+  overlay.add_to_trail({5, 10, 0});
+  const auto broken = stage.picture();
+  EXPECT_TRUE(covered(*broken, 110));
+  EXPECT_FALSE(covered(*broken, 160));
+  EXPECT_TRUE(covered(*broken, 210));
+}
+
+TEST(GraphicsOverlay, GoesAwayWithItsObject) {
+  Stage stage(320, 180);
+  const auto without = stage.picture();
+  {
+    Overlay overlay(stage.frame);
+    overlay.set_marks({.body = graphics::BodyMark{{0, 6, 0}, 1.0, 2.0, true}});
+    EXPECT_GT(difference(*without, *stage.picture()).pixels, 100);
+  }
+  EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
+}
+
+}  // namespace
+}  // namespace roam::test
