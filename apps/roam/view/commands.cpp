@@ -31,6 +31,9 @@ constexpr Line lines[] = {
     {Command::quit, "quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 
+/// Headings of the help, and the commands that they stand above.
+constexpr std::pair<const char*, const char*> headings[] = {{"forward", "Move"}, {"grab", "Mouse"}, {"help", "View"}};
+
 }  // namespace
 
 const std::vector<std::string>& camera_names() {
@@ -63,6 +66,9 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
 std::vector<KeyLine> key_lines(const osgRoam::Controls& controls) {
   std::vector<KeyLine> table;
   for (const auto& command : controls.commands()) {
+    for (const auto& [first, heading] : headings) {
+      if (command.name == first) table.emplace_back(heading, "");
+    }
     const std::string keys = osgRoam::Controls::keyText(command);
     if (!keys.empty()) table.emplace_back(keys, command.help);
   }
