@@ -4,8 +4,9 @@
 program_packages="g++ cmake ninja-build ccache pkg-config
   libglm-dev libtbb-dev libhwy-dev
   libopenscenegraph-dev libassimp-dev zlib1g-dev libfast-float-dev libtinyxml2-dev libtinyobjloader-dev libxxhash-dev
-  libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev"
-test_packages="libgtest-dev"
+  libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev
+  libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
+test_packages="libgtest-dev xvfb xdotool ffmpeg"
 bench_packages="libbenchmark-dev libbullet-dev libembree-dev"
 
 # install_missing PACKAGE...: asks apt only for packages that are not there, and is silent when all of them are.
