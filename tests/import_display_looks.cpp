@@ -236,6 +236,19 @@ TEST(ImportDisplayLooks, ReadsImagesBesideFilesOfOpenSceneGraph) {
   EXPECT_EQ(without.report.missing_texture_files, (std::vector<std::string>{"gone.bmp"}));
 }
 
+TEST(ImportDisplayLooks, HalvesHugeImages) {
+  const TemporaryFolder folder;
+  Row row;
+  for (int i = 0; i < 5001; ++i) row.push_back(i % 2 == 0 ? two_texels[0] : two_texels[1]);
+  folder.write("huge.bmp", bmp(row));
+  folder.write("a.mtl", "newmtl a\nmap_Kd huge.bmp\n");
+  const Shown shown = show({folder.write("a.obj", obj_vertices + "mtllib a.mtl\nusemtl a\nf 1/1 2/2 3/3\n")});
+  ASSERT_NE(shown.triangles.at(0).image, nullptr);
+  EXPECT_EQ(row_of(*shown.triangles[0].image), Row(2500, {128, 0, 128}));
+  ASSERT_EQ(shown.report.import.notes.size(), 1u);
+  EXPECT_TRUE(contains(shown.report.import.notes[0], "more than 4096 texels a side are shown smaller"));
+}
+
 TEST(ImportDisplayLooks, SendsALargeImageOnce) {
   const TemporaryFolder folder;
   // 12 MB of texels, more than a part has otherwise.

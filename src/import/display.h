@@ -12,8 +12,8 @@
 /// The same readers, options and checks as import_scene: every triangle that it gives is in exactly one part, and
 /// nothing else is. Pages are the exception: see below.
 ///
-/// What a part holds. Its root is an osg::Group of osg::MatrixTransforms (pure translations, in doubles), each with one
-/// osg::Geometry of up to 16,384 triangles that lie together, so that what is out of sight is not drawn. A geometry has
+/// What a part holds. Its root is an osg::Group of osg::MatrixTransforms (pure translations, in doubles) over
+/// osg::Geometry nodes of up to 16,384 triangles that lie together, so that what is out of sight is not drawn. Each has
 ///   - vertices (floats near zero: the transform says where) and one osg::DrawElementsUShort of triangles;
 ///   - colours per vertex, four normalized bytes: material times vertex colour of the file, white where there is none.
 ///     There is no osg::Material: textured or not, what is seen is this colour times the texture;
@@ -22,8 +22,9 @@
 ///     or neither;
 ///   - where it is seen through: GL_BLEND and the transparent bin; where holes are cut by the texture: osg::AlphaFunc
 ///     and GL_ALPHA_TEST. No other state: no lighting, no culling, no shaders, no blending functions.
-/// Vertex buffer objects are on and display lists off. Geometry of one texture comes in one part as far as it takes no
-/// more than 64 MB, so that a texture is seldom sent twice; a part has about 8 MB else.
+/// Vertex buffer objects are on and display lists off. Images have at most 4096 texels a side. Geometry of one texture
+/// comes in one part as far as it takes no more than 64 MB, so that a texture is seldom sent twice; a part has about 8
+/// MB else.
 ///
 /// Pages. Tiles and OpenSceneGraph files that refer to pages which exist are not opened here but handed on: the part's
 /// root is a group of osg::MatrixTransforms (up axis, unit, offset of the folder, minus origin), each over one
@@ -64,6 +65,7 @@ struct DisplayReport {
   std::vector<std::string> missing_texture_files;  ///< at most ImportReport::name_limit
   bool paged = false;                              ///< whether any part holds pages
   /// What import_scene says of the same files, but for `vertices`, which is 0; of pages only what their roots tell.
+  /// Its notes also name files of materials that are absent, and images that are shown smaller.
   ImportReport import;
   /// Whole sentences for the user about what is not seen as it should be. What import_scene says of the same files is
   /// in import.notes, not here.

@@ -1,5 +1,6 @@
 #include "import/part_receiver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -7,6 +8,11 @@
 #include "roam/world.h"
 
 namespace roam::reader {
+namespace {
+
+constexpr std::uint64_t reserve_limit = 256u << 20;
+
+}  // namespace
 
 PartReceiver::PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
                            std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give)
@@ -51,6 +57,8 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
   }
   if (origin_ && *origin_ != part_.origin) throw StreamDamaged{"parts of several origins"};
   bytes_missing_ = header.bytes;
+  // A header may promise more than ever comes.
+  part_.osgb.reserve(std::min<std::uint64_t>(header.bytes, reserve_limit));
 }
 
 void PartReceiver::finish_part() {

@@ -125,8 +125,13 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
   return true;
 }
 
-void MeshSink::set_look(const Look& look) {
-  if (parts_ == nullptr || look == look_) return;
+void MeshSink::set_look(const Look& wanted) {
+  if (parts_ == nullptr) return;
+  Look look = wanted;
+  // Nothing cuts holes where there is no image; and looks are sorted, so that none may be a NaN.
+  if (look.texture == no_texture && look.transparency != Transparency::blend) look = {};
+  if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) look.cutoff = Look{}.cutoff;
+  if (look == look_) return;
   if (!triangles_.empty()) send_triangles();
   look_ = look;
 }

@@ -112,19 +112,48 @@ std::string image_bytes(const fs::path& file) {
   return bytes;
 }
 
-osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::string& name) {
+osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::string& name, bool turn_dds) {
   const std::string plugin = plugin_for(bytes, name);
   if (plugin.empty()) return nullptr;
   osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension(plugin);
   if (reader == nullptr) return nullptr;
   std::istringstream stream(bytes, std::ios::binary);
-  const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("dds_flip");
+  const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(turn_dds ? "dds_flip" : "");
   osgDB::ReaderWriter::ReadResult result = reader->readImage(stream, options.get());
   osg::ref_ptr<osg::Image> image = result.getImage();
   const bool flat = image != nullptr && image->data() != nullptr && image->s() > 0 && image->t() > 0 && image->r() == 1;
   if (!flat) return nullptr;
   image->setFileName(name);
   return image;
+}
+
+bool reduce_image(osg::ref_ptr<osg::Image>& image) {
+  const int channels = static_cast<int>(osg::Image::computeNumComponents(image->getPixelFormat()));
+  const bool bytes = image->getDataType() == GL_UNSIGNED_BYTE && !image->isCompressed() && !image->isMipmap() &&
+                     image->r() == 1 && image->getPixelSizeInBits() == 8u * static_cast<unsigned>(channels);
+  bool reduced = false;
+  while (bytes && std::max(image->s(), image->t()) > image_size_limit) {
+    const osg::ref_ptr<osg::Image> half = new osg::Image;
+    half->allocateImage(std::max(image->s() / 2, 1), std::max(image->t() / 2, 1), 1, image->getPixelFormat(),
+                        GL_UNSIGNED_BYTE, 1);
+    half->setInternalTextureFormat(image->getInternalTextureFormat());
+    half->setFileName(image->getFileName());
+    for (int t = 0; t < half->t(); ++t) {
+      const unsigned char* rows[2] = {image->data(0, 2 * t), image->data(0, std::min(2 * t + 1, image->t() - 1))};
+      unsigned char* to = half->data(0, t);
+      for (int s = 0; s < half->s(); ++s) {
+        const int columns[2] = {2 * s * channels, std::min(2 * s + 1, image->s() - 1) * channels};
+        for (int c = 0; c < channels; ++c) {
+          const int sum =
+              rows[0][columns[0] + c] + rows[0][columns[1] + c] + rows[1][columns[0] + c] + rows[1][columns[1] + c];
+          *to++ = static_cast<unsigned char>((sum + 2) / 4);
+        }
+      }
+    }
+    image = half;
+    reduced = true;
+  }
+  return reduced;
 }
 
 }  // namespace roam::reader

@@ -17,7 +17,14 @@ namespace roam::reader {
 [[nodiscard]] std::string image_bytes(const std::filesystem::path& file);
 
 /// The image that `bytes` encode, its first row the lowest; null when they encode none. `name` says the format where
-/// the bytes do not.
-[[nodiscard]] osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::string& name);
+/// the bytes do not. DDS images have their first row on top; `turn_dds` turns them, which OpenSceneGraph itself does
+/// not.
+[[nodiscard]] osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::string& name, bool turn_dds);
+
+/// No side of an image that is shown is longer.
+inline constexpr int image_size_limit = 4096;
+/// Whether the image was larger and has been halved, by averaging, until it is not. Kinds that are no bytes for each
+/// channel stay as they are.
+bool reduce_image(osg::ref_ptr<osg::Image>& image);
 
 }  // namespace roam::reader

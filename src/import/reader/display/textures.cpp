@@ -27,13 +27,13 @@ TextureId Textures::add(const std::string& key, Source&& source) {
 TextureId Textures::add_file(const fs::path& folder, const std::string& name, Wrapping wrapping) {
   const auto decode = [folder, name]() -> osg::ref_ptr<osg::Image> {
     const fs::path file = find_image_file(folder, name);
-    return file.empty() ? nullptr : decode_image(image_bytes(file), file.string());
+    return file.empty() ? nullptr : decode_image(image_bytes(file), file.string(), true);
   };
   return add(key_of("file", (folder / name).string(), wrapping), {name, decode, nullptr, wrapping});
 }
 
 TextureId Textures::add_encoded(const std::string& key, std::function<std::string()> read, Wrapping wrapping) {
-  const auto decode = [key, read = std::move(read)] { return decode_image(read(), key); };
+  const auto decode = [key, read = std::move(read)] { return decode_image(read(), key, true); };
   return add(key_of("inside", key, wrapping), {key, decode, nullptr, wrapping});
 }
 
@@ -44,12 +44,16 @@ TextureId Textures::add_image(osg::Image& image, Wrapping wrapping) {
 
 osg::ref_ptr<osg::Texture2D> Textures::load(TextureId id) {
   Source& source = sources_.at(id);
-  const osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
+  osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
   if (image == nullptr) {
     report_missing(source.name);
     return nullptr;
   }
   if (!std::exchange(source.counted, true)) ++read_;
+  if (reduce_image(image) && !std::exchange(reduced_, true)) {
+    frames_.send(FrameKind::note, PayloadWriter().add_text(fmt::format(
+                                      "Images of more than {} texels a side are shown smaller.", image_size_limit)));
+  }
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
   texture->setWrap(osg::Texture::WRAP_S, source.wrapping.across);
   texture->setWrap(osg::Texture::WRAP_T, source.wrapping.up);
@@ -72,7 +76,7 @@ osg::ref_ptr<osg::Image> Textures::find(const fs::path& folder, const std::strin
   const auto [at, is_new] = found_.try_emplace((folder / name).string());
   if (is_new) {
     const fs::path file = find_image_file(folder, name);
-    if (!file.empty()) at->second = decode_image(image_bytes(file), file.string());
+    if (!file.empty()) at->second = decode_image(image_bytes(file), file.string(), false);
   }
   if (at->second == nullptr) report_missing(name);
   return at->second;

@@ -66,6 +66,7 @@ class Textures {
   std::map<std::string, osg::ref_ptr<osg::Image>> found_;
   std::set<std::string> missing_;
   std::uint64_t read_ = 0;
+  bool reduced_ = false;
 };
 
 }  // namespace roam::reader
