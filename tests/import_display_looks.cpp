@@ -121,6 +121,35 @@ TEST(ImportDisplayLooks, ReadsTheImageAndNormalsOfPly) {
   EXPECT_EQ(t.normals[0], osg::Vec3(0, 0, 1));
 }
 
+TEST(ImportDisplayLooks, ReadsWhatFacesOfPlySayAboutImages) {
+  const TemporaryFolder folder;
+  folder.write("a.bmp", bmp(two_texels));
+  folder.write("b.bmp", bmp({two_texels[1]}));
+  const auto file = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\ncomment TextureFile a.bmp\ncomment TextureFile b.bmp\nelement vertex 4\nproperty float "
+      "x\n"
+      "property float y\nproperty float z\nelement face 3\nproperty list uchar float texcoord\nproperty list uchar int "
+      "vertex_indices\nproperty int texnumber\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n6 0 0 1 0 1 0.5 3 0 1 2 0\n"
+      "8 0.25 0 1 0 1 1 0 1 4 0 1 2 3 1\n0 3 1 2 3 1\n");
+  const Shown shown = show({file});
+  EXPECT_EQ(not_shown(import_scene(file), shown, 1e-6), 0u);
+  ASSERT_EQ(shown.triangles.size(), 4u);
+  std::map<std::string, int> seen;
+  for (const ShownTriangle& t : shown.triangles) {
+    const std::string image = t.image == nullptr ? "none" : row_of(*t.image) == two_texels ? "a" : "b";
+    ++seen[image + " " + std::to_string(t.coordinates[0].x()) + " " + std::to_string(t.coordinates[2].y())];
+  }
+  EXPECT_EQ(seen, (std::map<std::string, int>{
+                      {"none 0.000000 0.000000", 1}, {"a 0.000000 0.500000", 1}, {"b 0.250000 1.000000", 2}}));
+  EXPECT_TRUE(contains(
+      display_error(folder.write("bad.ply",
+                                 "ply\nformat ascii 1.0\ncomment TextureFile a.bmp\nelement vertex 1\nproperty float "
+                                 "x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+                                 "vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0\n3 0 0 1 0\n")),
+      "a face refers to vertex 1, but 1 vertices come before it"));
+}
+
 std::string base64(const std::string& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "import/reader/display/ply_looks.h"
 #include "import/reader/file_bytes.h"
@@ -118,7 +119,7 @@ template <class Values>
 class PlyBody {
  public:
   PlyBody(FileBytes& bytes, const PlyHeader& header, Values values, MeshSink& sink)
-      : bytes_(bytes), header_(header), values_(values), sink_(sink) {}
+      : bytes_(bytes), header_(header), values_(values), sink_(sink), wedges_(header, bytes.path(), sink) {}
 
   void read() {
     for (const PlyElement& element : header_.elements) {
@@ -179,7 +180,11 @@ class PlyBody {
           skip(property);
         }
       }
-      sink_.add_vertex(v, look);
+      if (wedges_.wanted()) {
+        wedges_.add_vertex(v, look);
+      } else {
+        sink_.add_vertex(v, look);
+      }
     }
   }
 
@@ -188,6 +193,10 @@ class PlyBody {
     if (!is_integer(element.properties[list_at].type)) fail("the vertices of a face are no integers");
     const bool strips = element.name == "tristrips";
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (wedges_.wanted()) {
+        read_wedges(element, list_at);
+        continue;
+      }
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (p != list_at) {
@@ -201,6 +210,29 @@ class PlyBody {
     }
   }
 
+  /// A face whose corners have places in an image. Their list may come before or after that of the vertices.
+  void read_wedges(const PlyElement& element, std::size_t list_at) {
+    corners_.clear();
+    coordinates_.clear();
+    std::int64_t image = 0;
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      if (p == list_at) {
+        const std::int64_t length = length_of_list(property);
+        if (length < 3) ++small_faces_;
+        for (std::int64_t k = 0; k < length; ++k) corners_.push_back(checked(values_.integer(property.type)));
+      } else if (wedges_.is_coordinates(property)) {
+        const std::int64_t length = length_of_list(property);
+        for (std::int64_t k = 0; k < length; ++k) coordinates_.push_back(values_.number(property.type));
+      } else if (wedges_.is_image(property)) {
+        image = values_.integer(property.type);
+      } else {
+        skip(property);
+      }
+    }
+    wedges_.add_face(corners_, coordinates_, image);
+  }
+
   std::int64_t length_of_list(const PlyProperty& property) {
     const std::int64_t length = values_.integer(property.count_type);
     if (length < 0) fail(fmt::format("a list of {} items", length));
@@ -208,9 +240,9 @@ class PlyBody {
   }
 
   std::uint32_t checked(std::int64_t index) const {
-    if (index < 0 || index >= static_cast<std::int64_t>(sink_.vertex_count())) {
-      fail(fmt::format("a face refers to vertex {}, but {} vertices come before it (counted from 0)", index,
-                       sink_.vertex_count()));
+    const std::uint64_t count = wedges_.wanted() ? wedges_.vertex_count() : sink_.vertex_count();
+    if (index < 0 || static_cast<std::uint64_t>(index) >= count) {
+      fail(fmt::format("a face refers to vertex {}, but {} vertices come before it (counted from 0)", index, count));
     }
     return static_cast<std::uint32_t>(index);
   }
@@ -264,6 +296,9 @@ class PlyBody {
   const PlyHeader& header_;
   Values values_;
   MeshSink& sink_;
+  PlyWedges wedges_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<double> coordinates_;
   std::uint64_t small_faces_ = 0;
 };
 

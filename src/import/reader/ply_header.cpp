@@ -54,7 +54,7 @@ class HeaderParser {
       } else if (keyword == "property") {
         take_property(line);
       } else if (keyword == "comment") {
-        if (take_word(line) == "TextureFile") header_.texture_file = trimmed(line);
+        if (take_word(line) == "TextureFile") header_.texture_files.emplace_back(trimmed(line));
       } else if (!keyword.empty() && keyword != "obj_info") {
         fail(fmt::format("'{}' is no word of a PLY header", shown(keyword)));
       }

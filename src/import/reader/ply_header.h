@@ -39,7 +39,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::string texture_file;  ///< of a comment that MeshLab and others write; empty when there is none
+  std::vector<std::string> texture_files;  ///< of comments that MeshLab and others write
 };
 
 /// Takes the header, up to and with the end of its last line. Throws roam::Error with the line that is wrong.
