@@ -44,6 +44,7 @@ struct Place {
   roam::PatchId patch = roam::PatchId::none;    ///< what the file holds for good
   roam::PatchId refines = roam::PatchId::none;  ///< and takes the place of, with what it names
   std::shared_ptr<Substitute> substitute;
+  bool is_named = true;  ///< else it is a root file
   State state = State::waiting;
 };
 
@@ -97,7 +98,10 @@ struct Harvester::State {
     if (places != named.end()) {
       for (const auto& place : places->second) {
         if (place->state != Place::State::waiting && place->state != Place::State::failed) continue;
-        --(place->state == Place::State::waiting ? stats.expected : stats.failed);
+        if (place->state == Place::State::failed) {
+          --stats.failed;
+          ++stats.expected;
+        }
         place->state = Place::State::being_taken;
         claimed.push_back(place);
       }
@@ -105,6 +109,7 @@ struct Harvester::State {
       claimed.push_back(std::make_shared<Place>());
       claimed.back()->trail = std::make_shared<Trail>(Trail{file, nullptr});
       claimed.back()->to_scene = origin;
+      claimed.back()->is_named = false;
       claimed.back()->state = Place::State::being_taken;
     }
     return claimed;
@@ -115,6 +120,7 @@ struct Harvester::State {
       install(harvest(node, place->to_scene, name), *place);
       const Lock lock(mutex);
       place->state = Place::State::taken;
+      if (place->is_named) --stats.expected;
     } catch (const std::exception& error) {
       // In a pager's thread there is nobody to catch it.
       fail(*place, error.what());
@@ -203,7 +209,8 @@ struct Harvester::State {
       const Lock lock(mutex);
       note_failure(place.trail->file);
       place.state = Place::State::failed;
-      if (place.patch == roam::PatchId::none) return;
+      if (!place.is_named) return;
+      --stats.expected;
       if (place.substitute != nullptr && !place.substitute->used) {
         place.substitute->used = true;
         substitute = &place.substitute->meshes;
