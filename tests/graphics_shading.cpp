@@ -91,6 +91,30 @@ TEST(GraphicsShading, BackFacesAreSeenAsFrontFacesAre) {
   EXPECT_EQ(middle_of(culled), back);
 }
 
+TEST(GraphicsShading, OfAWallThatIsThereTwiceTheSideThatFacesTheEyeIsSeen) {
+  for (const bool front_first : {true, false}) {
+    Stage stage;
+    const osg::Vec3d along(0.9, 0.4, 0);
+    // Turned by half a turn, so that the two are cut into triangles along different lines.
+    osg::ref_ptr<osg::Geometry> front = paint(quad({0, 30, 0}, along * 60, z_axis * 20), {1, 0, 0, 1});
+    osg::ref_ptr<osg::Geometry> back = paint(quad({0, 30, 0}, along * -60, z_axis * 20), {0, 0, 1, 1});
+    with_normals(front, {0.406f, -0.914f, 0});
+    with_normals(back, {-0.406f, 0.914f, 0});
+    stage.add(front_first ? front : back);
+    stage.add(front_first ? back : front);
+    const auto picture = stage.picture();
+    int blue = 0, red = 0;
+    for (int y = 0; y < 180; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        blue += at(*picture, x, y).b > 40 && at(*picture, x, y).r == 0;
+        red += at(*picture, x, y).r > 40 && at(*picture, x, y).b == 0;
+      }
+    }
+    EXPECT_EQ(blue, 0);
+    EXPECT_GT(red, 10'000);
+  }
+}
+
 TEST(GraphicsShading, NormalsOfTheGeometryAreUsedAndElseThoseOfItsFaces) {
   EXPECT_LT(middle_of(with_normals(wall(), {0, -1, 0})).distance(middle_of(wall())), 4);
   EXPECT_GT(middle_of(with_normals(wall(), {0, 0, 1})).distance(middle_of(wall())), 20);

@@ -5,7 +5,8 @@
 /// One program draws every scene: colour = material x vertex colour x texture, on both sides of every face. The light
 /// is made for being inside: a soft lamp at the eye, a sky that is brighter than the ground, and a weak sun, so that
 /// floor, walls and ceiling of one colour differ and nothing is black. Photogrammetry (textured, without normals) is
-/// shown as it is: its pictures have their light already.
+/// shown as it is: its pictures have their light already. Of a wall that is in the model twice, with opposite normals,
+/// the side that faces the eye is seen.
 ///
 ///     osg::ref_ptr<osg::Group> scene = roam::graphics::make_scene_group();
 ///     frame.space()->addChild(roam::graphics::make_sky());
