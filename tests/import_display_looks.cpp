@@ -204,6 +204,9 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
   ASSERT_NE(glass.triangles[0].state, nullptr);
   EXPECT_EQ(glass.triangles[0].state->getMode(GL_BLEND), osg::StateAttribute::ON);
   EXPECT_EQ(glass.report.textures, 0u);
+  const Shown air = show({folder.write(
+      "c.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]},"alphaMode":"BLEND"})", "wood.bmp"))});
+  EXPECT_EQ(air.triangles.at(0).colours[0].a(), 255);
 }
 
 /// A square in OpenSceneGraph's text format with a state, colours and coordinates.

@@ -94,13 +94,15 @@ AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
     from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
   }
   material.colour = shown(colour);
+  // What nobody could see would still stop a body.
+  if (material.colour[3] == 0) material.colour[3] = 255;
   if (gltf_) {
     take_gltf_transparency(from, material.look);
     return material;
   }
   float opacity = 1.0f;
   from.Get(AI_MATKEY_OPACITY, opacity);
-  // In these formats an image takes the place of the colour. What nobody could see would still stop a body.
+  // In these formats an image takes the place of the colour.
   if (material.look.texture != no_texture) material.colour = white;
   material.colour[3] = opacity > 0.0f ? colour_byte(opacity) : 255;
   material.look.transparency = material.colour[3] < 255 ? Transparency::blend : Transparency::by_texture;
