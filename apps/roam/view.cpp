@@ -46,7 +46,13 @@ ExitStatus view(const ViewOptions& options) {
   ViewReport report;
   {
     Session session(options, plan, settings);
-    while (session.frame()) {
+    try {
+      while (session.frame()) {
+      }
+    } catch (const Cancelled&) {
+      // What was asked for is written as far as it has come.
+      static_cast<void>(session.finish());
+      throw;
     }
     report = session.finish();
   }

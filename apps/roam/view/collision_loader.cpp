@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "floors.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -75,6 +76,8 @@ build.progress = [&](double share) {
   set(LoadState::Phase::indexing, share, scene.report.triangles);
   return !cancelled_;
 };
+std::vector<Vec3> floors;
+if (wish_.find_start) floors = floor_samples(scene.meshes);
 Collision loaded;
 loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
 loaded.report = std::move(scene.report);
@@ -83,7 +86,7 @@ scene.meshes.clear();
 scene.meshes.shrink_to_fit();
 if (wish_.find_start) {
   set(LoadState::Phase::looking, 0.0, loaded.report.triangles);
-  loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, [this] { return !cancelled_; });
+  loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return !cancelled_; });
 }
 const std::lock_guard lock(mutex_);
 loaded_ = std::move(loaded);

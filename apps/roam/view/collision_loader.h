@@ -41,6 +41,8 @@ class CollisionLoader {
   CollisionLoader(const CollisionLoader&) = delete;
   CollisionLoader& operator=(const CollisionLoader&) = delete;
 
+  /// Lets what runs come to its end; does not wait for that.
+  void cancel() { cancelled_ = true; }
   /// How far it is; from any thread.
   [[nodiscard]] LoadState state() const;
   /// What was loaded, once, when it is done; else nothing.

@@ -50,10 +50,8 @@ Command parse_command(const std::string& name) {
 
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
   for (const Line& line : lines) controls.add(line.name, line.keys, line.help, Kind::pressed);
-  std::string cameras;
-  for (const std::string& name : camera_names()) cameras += (cameras.empty() ? "" : ", ") + name;
   controls.add("cameras", fmt::format("1 to {}", camera_names().size()),
-               fmt::format("other cameras, as in osgviewer: {}; only the first meets walls", cameras), Kind::gesture);
+               "other cameras, as in osgviewer; only the first meets walls", Kind::gesture);
   std::string changes;
   for (const auto& [command, keys] : settings.keys) changes += fmt::format("{} = {}\n", command, fmt::join(keys, ", "));
   try {

@@ -33,6 +33,8 @@ class DisplayLoader {
   DisplayLoader(const DisplayLoader&) = delete;
   DisplayLoader& operator=(const DisplayLoader&) = delete;
 
+  /// Lets what runs come to its end; does not wait for that.
+  void cancel() { cancelled_ = true; }
   /// How far it is; from any thread.
   [[nodiscard]] LoadState state() const;
   /// The next piece that is ready, if there is one.

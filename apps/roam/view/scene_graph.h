@@ -29,6 +29,8 @@ class SceneGraph {
   SceneGraph(const SceneGraph&) = delete;
   SceneGraph& operator=(const SceneGraph&) = delete;
 
+  /// Lets the loading come to its end; does not wait for that.
+  void cancel() { loader_.cancel(); }
   /// Before each frame.
   void update();
 

@@ -69,7 +69,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   roamer_->setLookSpeed(roamer_->lookSpeed() * plan_.sensitivity);
   roamer_->setLookInverted(plan_.invert_y);
   stage_.emplace(options_, plan_);
-  if (!bookmark_problem_.empty()) tell(bookmark_problem_);
+  if (!bookmark_problem_.empty()) note(bookmark_problem_);
   if (!options_.record.empty()) stage_->start_film(options_.record);
   set_up_cameras();
   stage_->hud().set_help(key_lines(roamer_->controls()));
@@ -79,7 +79,11 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   collision_.emplace(options_.scene, wish_of(options_, plan_));
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  // Both at once: each takes a moment to end.
+  scene_->cancel();
+  collision_->cancel();
+}
 
 void Session::set_up_cameras() {
   cameras_ = new osgGA::KeySwitchMatrixManipulator;
@@ -104,6 +108,9 @@ bool Session::frame() {
   const bool headless = stage_->headless();
   const double before = now_;
   now_ = headless ? now_ : std::chrono::duration<double>(frame_begin - begin_).count();
+  // Before the pieces are taken: where it says that all have been read, all are in the graph after that.
+  status_.display = scene_->state();
+  status_.collision = collision_->state();
   scene_->update();
   if (!placed_) receive_collision();
   if (headless && placed_ && !replay_is_over()) now_ += headless_frame;
@@ -138,7 +145,13 @@ bool Session::frame() {
     // Nothing to see and nothing to do but wait for those who load.
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  for (const std::string& written : stage_->poll_pictures()) tell(written);
+  for (const Picture& picture : stage_->poll_pictures()) {
+    if (picture.problem.empty()) {
+      written(picture.file);
+    } else {
+      note(picture.problem);
+    }
+  }
   if (!headless) std::this_thread::sleep_until(frame_begin + shortest_frame);
   return true;
 }

@@ -55,8 +55,10 @@ class Session {
   [[nodiscard]] bool roaming() const { return placed_; }
   /// Keys go to the body's camera, not to one of the others.
   [[nodiscard]] bool roamer_leads() const;
-  /// What the person should read once: shown for some seconds, and kept for the report.
-  void tell(std::string note);
+  /// What the person should read once: shown for some seconds.
+  void tell(std::string news, bool warning = false);
+  /// The same of what is not as it should be: kept for the report, too.
+  void note(std::string sentence);
 
  private:
   void set_up_cameras();
@@ -73,6 +75,7 @@ class Session {
   void update_near();
   void update_status(bool at_once);
   void update_marks();
+  void written(const std::filesystem::path& file);
   void record_way();
   void toggle_recording();
   void add_bookmark();
@@ -118,9 +121,10 @@ class Session {
   double placed_at_ = 0.0;
   double status_at_ = -1.0;
   std::uint64_t frames_ = 0;
-  std::vector<std::string> notes_;  ///< all, for the report
+  std::vector<std::string> notes_;    ///< all, for the report
+  std::vector<std::string> written_;  ///< files, for the report
   struct News {
-    std::string text;
+    Told told;
     double until = 0.0;
   };
   std::vector<News> news_;  ///< for the display

@@ -23,8 +23,6 @@ bool is_over(const LoadState& state) { return state.phase == Phase::done || stat
 }  // namespace
 
 void Session::receive_collision() {
-  status_.display = scene_->state();
-  status_.collision = collision_->state();
   if (!is_over(status_.collision)) return;
   const bool failed = status_.collision.phase == Phase::failed;
   if (failed && status_.display.phase == Phase::failed) throw Error(status_.display.error);
@@ -46,7 +44,7 @@ void Session::place() {
   if (loaded_->start) {
     start_ = loaded_->start->pose;
     mode = loaded_->start->mode;
-    if (!loaded_->start->note.empty()) tell(loaded_->start->note);
+    if (!loaded_->start->note.empty()) note(loaded_->start->note);
   } else if (plan_.at) {
     start_ = plan_.at;
   } else {
@@ -64,7 +62,7 @@ void Session::place_ghost(const std::string& why) {
   if (!options_.path.empty() || options_.verify) {
     throw Error(fmt::format("the collision could not be loaded: {}", why));
   }
-  tell(fmt::format("the collision could not be loaded, so walls are passed through: {}", why));
+  note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why));
   ghost_only_ = true;
   // An empty space has nothing to stand on.
   roamer_->controls().rebind("gravity =\nghost =");
@@ -158,9 +156,9 @@ void Session::update_status(bool at_once) {
   s.resident = resident_bytes();
   s.frame_ms = stage_->last_frame_ms();
   std::erase_if(news_, [&](const News& news) { return news.until < now_; });
-  s.notes.clear();
-  for (const News& news : news_) s.notes.push_back(news.text);
-  if (!roamer_->problem().empty()) s.notes.push_back(roamer_->problem());
+  s.news.clear();
+  for (const News& news : news_) s.news.push_back(news.told);
+  if (!roamer_->problem().empty()) s.news.push_back({roamer_->problem(), true});
   s.recording.clear();
   if (recorder_) s.recording = fmt::format("{}, {:.0f} s", recorder_->file().filename().string(), recorder_->seconds());
   if (placed_) {

@@ -67,22 +67,31 @@ void Session::run(Command command) {
         break;
     }
   } catch (const Error& error) {
-    tell(error.what());
+    note(error.what());
   }
   status_at_ = -1.0;
 }
 
-void Session::tell(std::string note) {
-  news_.push_back({note, now_ + news_seconds});
+void Session::tell(std::string news, bool warning) {
+  news_.push_back({{std::move(news), warning}, now_ + news_seconds});
   if (news_.size() > most_news) news_.erase(news_.begin());
+}
+
+void Session::note(std::string sentence) {
+  tell(sentence, true);
   // The report keeps each sentence once, however often it was told.
-  if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(std::move(note));
+  if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(std::move(sentence));
+}
+
+void Session::written(const std::filesystem::path& file) {
+  tell("written: " + file.string());
+  written_.push_back(file.string());
 }
 
 void Session::toggle_recording() {
   if (recorder_) {
     recorder_->close();
-    tell("written: " + recorder_->file().string());
+    written(recorder_->file());
     recorder_.reset();
   } else if (placed_) {
     recorder_.emplace(unused_name(".", "path"));

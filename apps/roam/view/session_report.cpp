@@ -31,17 +31,18 @@ std::string Session::camera_name() const {
 void Session::tell_of_loading() {
   if (!display_told_ && status_.display.phase == LoadState::Phase::failed) {
     display_told_ = true;
-    tell(fmt::format("nothing can be seen of the scene, its walls are there all the same: {}", status_.display.error));
+    note(fmt::format("{} of the scene can be seen, its walls are there all the same: {}",
+                     scene_->has_pieces() ? "not all" : "nothing", status_.display.error));
   }
   if (!display_told_ && scene_->report()) {
     display_told_ = true;
     const DisplayReport& report = *scene_->report();
-    for (const auto& note : report.notes) tell(note);
-    for (const auto& note : report.import.notes) tell(note);
+    for (const auto& sentence : report.notes) note(sentence);
+    for (const auto& sentence : report.import.notes) note(sentence);
   }
   if (scene_->missing_pages() > pages_told_) {
     pages_told_ = scene_->missing_pages();
-    tell(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there", pages_told_,
+    note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there", pages_told_,
                      pages_told_ == 1 ? "" : "s"));
   }
 }
@@ -77,6 +78,7 @@ ViewReport Session::report() {
   report.renderer = stage_->frame().describe();
   std::istringstream hud(stage_->hud().text());
   for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
+  report.written = written_;
   report.notes = notes_;
   if (loaded_) append(report.notes, loaded_->report.notes);
   if (scene_->report()) {

@@ -38,6 +38,9 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   graphics::FrameSettings settings;
   settings.vertical_fov = plan.fov;
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
+  // Drawing by the processor, several samples a pixel cost several times as much: a smooth walk is worth more.
+  const bool software = context_.abilities.renderer.find("llvmpipe") != std::string::npos;
+  if (software && !context_.headless) settings.samples = 1;
   frame_.emplace(*viewer_, context_, settings);
   frame_->space()->addChild(graphics::make_sky());
   hud_.emplace(*frame_);
@@ -86,15 +89,15 @@ void Stage::start_film(const std::filesystem::path& path) { film_.emplace(*frame
 
 void Stage::take_picture(const std::filesystem::path& path) { pictures_.emplace_back(*frame_, path, true); }
 
-std::vector<std::string> Stage::poll_pictures() {
-  std::vector<std::string> told;
+std::vector<Picture> Stage::poll_pictures() {
+  std::vector<Picture> told;
   std::erase_if(pictures_, [&](graphics::Screenshot& picture) {
     if (!picture.done()) return false;
+    told.push_back({picture.path(), {}});
     try {
       picture.finish();
-      told.push_back("written: " + picture.path().string());
     } catch (const Error& error) {
-      told.emplace_back(error.what());
+      told.back().problem = error.what();
     }
     return true;
   });

@@ -22,6 +22,12 @@
 
 namespace roam::app {
 
+/// A picture that has been taken.
+struct Picture {
+  std::filesystem::path file;
+  std::string problem;  ///< why it could not be written; empty: it is
+};
+
 /// Opens a place to draw to and draws there. All of it belongs to one thread.
 class Stage {
  public:
@@ -45,8 +51,8 @@ class Stage {
   [[nodiscard]] const std::optional<Film>& film() const { return film_; }
   /// Takes a picture of the next frame; `poll_pictures` tells when it is written.
   void take_picture(const std::filesystem::path& path);
-  /// What has been written since last asked, and what could not be, as sentences.
-  [[nodiscard]] std::vector<std::string> poll_pictures();
+  /// The pictures that are done since last asked.
+  [[nodiscard]] std::vector<Picture> poll_pictures();
 
   /// Updates and draws one frame. `seconds` since the session began. Events must have been seen to.
   void draw(double seconds);

@@ -51,7 +51,7 @@ Pose overview(const Box& box, double fov) {
   return {centre - distance * direction(overview_yaw, overview_pitch), overview_yaw, overview_pitch};
 }
 
-StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
+StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
                       const std::function<bool()>& goes_on) {
   StartPlace start;
   start.mode = mode;
@@ -64,7 +64,7 @@ StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode m
   for (const Mode way : {Mode::walk, Mode::fly}) {
     if (way == Mode::walk && mode != Mode::walk) continue;
     try {
-      const Vec3 place = wander_start(space, settings, way, goes_on);
+      const Vec3 place = wander_start(space, settings, way, floors, goes_on);
       if (way != mode && mode == Mode::walk) {
         start.mode = Mode::fly;
         start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";

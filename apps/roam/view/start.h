@@ -3,6 +3,7 @@
 /// Where a session begins when nobody says it.
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "roam/walker.h"
@@ -16,11 +17,12 @@ struct StartPlace {
   std::string note;        ///< a sentence for the user when it is not as wished
 };
 
-/// A free place, on a floor and inside where there is an inside (see wander_start), looking where there is most to see.
+/// A free place, on a floor and inside where there is an inside (see wander_start,
+/// also for `floors`), looking where there is most to see.
 /// Where the body fits on no floor: in the air, flying; where it fits nowhere: outside of everything, flying. `goes_on`
 /// is asked now and then, and ends it by false: roam::Cancelled.
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
-                                    const std::function<bool()>& goes_on);
+                                    std::span<const Vec3> floors, const std::function<bool()>& goes_on);
 
 /// The level direction, in degrees, in which one sees farthest from `eye` before a wall.
 [[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);

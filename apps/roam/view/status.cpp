@@ -90,7 +90,7 @@ std::vector<StatusText> status_lines(const Status& status) {
   if (!display.empty()) lines.push_back({"", display, status.display.phase == Phase::failed});
   const std::string collision = load_text("collision", status.collision);
   if (!collision.empty()) lines.push_back({"", collision, status.collision.phase == Phase::failed});
-  for (const std::string& note : status.notes) lines.push_back({"", note, true});
+  for (const Told& news : status.news) lines.push_back({"", news.text, news.warning});
   return lines;
 }
 

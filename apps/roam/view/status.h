@@ -38,9 +38,9 @@ struct Status {
   std::uint64_t resident = 0;     ///< bytes of the process
   std::uint64_t world_bytes = 0;  ///< of the collision
   double frame_ms = 0.0;
-  double collision_us = 0.0;       ///< a frame
-  std::string recording;           ///< what is being written
-  std::vector<std::string> notes;  ///< of what is not as it should be, for this moment
+  double collision_us = 0.0;  ///< a frame
+  std::string recording;      ///< what is being written
+  std::vector<Told> news;     ///< for this moment
   Told hold;
 };
 
