@@ -2,6 +2,7 @@
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
+#   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
 #   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
@@ -37,6 +38,10 @@ case $what in
     printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
     # The package was configured for another prefix than this: it tells its programs where its reader is.
     expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
+    ;;
+  osg_intersector)
+    build osg_intersector
+    expect 'door open 60 degrees: stops at y = 0.639 m, before the face of "leaf"' "$work/build/osg_intersector"
     ;;
   readme)
     sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"

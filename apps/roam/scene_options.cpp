@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "floors.h"
 #include "interrupt.h"
 #include "progress.h"
 
@@ -79,6 +80,7 @@ LoadedScene load(const SceneOptions& options, Source source) {
   for (const Mesh& mesh : scene.meshes) {
     for (const Vec3& vertex : mesh.vertices) loaded.bounds.include(vertex);
   }
+  loaded.floors = floor_samples(scene.meshes);
   if (source == Source::keep) loaded.meshes = std::move(scene.meshes);
   loaded.report = std::move(scene.report);
   return loaded;

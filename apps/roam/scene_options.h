@@ -31,7 +31,8 @@ struct LoadedScene {
   World world;
   std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
   ImportReport report;
-  Box bounds;  ///< of the triangles as read
+  Box bounds;                ///< of the triangles as read
+  std::vector<Vec3> floors;  ///< see floor_samples
   double read_seconds = 0.0;
   double build_seconds = 0.0;
 };

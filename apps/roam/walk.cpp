@@ -227,7 +227,7 @@ ExitStatus walk(WalkOptions options) {
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, seconds / options.route.dt);
   const Vec3 start = !options.from.empty() ? Vec3(options.from[0], options.from[1], options.from[2])
-                     : options.wander      ? wander_start(scene.world, options.settings, mode)
+                     : options.wander      ? wander_start(scene.world, options.settings, mode, scene.floors)
                                            : path.front();
   Walker walker(scene.world, options.settings, mode, start);
   WalkReport report;

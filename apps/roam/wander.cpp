@@ -18,8 +18,10 @@ constexpr int most_floors = 64;      // that are looked at in a column
 constexpr double lift = 0.05;        // m, a start is looked for so high above a floor, then let down
 constexpr double floor_gap = 0.01;   // m, the next floor of a column is looked for so far below the last
 constexpr double wall_reach = 30.0;  // m, farther is the open
-constexpr int room_strides = 20;     // 10 m: farther is free enough
-constexpr double fly_height = 2.0;   // m above the floor, where there is no ceiling to stay under
+constexpr double hall = 15.0;        // m, who sees farther from within walls is in no closet and no hollow house
+constexpr double inside_worth = 4.0;
+constexpr int room_strides = 20;    // 10 m: farther is free enough
+constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
 
 constexpr int headings = 16;
 constexpr double stride = 0.5;     // m of one probe of the look ahead
@@ -101,33 +103,43 @@ Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, co
   start.room = 0.0;
   constexpr int directions = 8;
   int walls = above.hit ? 1 : 0;
+  double sight = 0.0;
   for (int i = 0; i < directions; ++i) {
-    walls += space.ray(start.place, wall_reach * level(i, directions)).hit ? 1 : 0;
+    const Impact wall = space.ray(start.place, wall_reach * level(i, directions));
+    walls += wall.hit ? 1 : 0;
+    sight = std::max(sight, (wall.hit ? wall.time : 1.0) * wall_reach);
     stride_ahead({space, settings, mode, body}, start.place, level(i, directions), room_strides,
                  [&](const Vec3&, double length) { start.room += length; });
   }
   start.room *= 1.0 + walls;
+  // A long corridor is open at its ends.
+  if (above.hit && walls >= directions - 1 && sight > hall) start.room *= inside_worth;
   return start;
 }
 
 }  // namespace
 
-Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, const std::function<bool()>& goes_on) {
+Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+                  const std::function<bool()>& goes_on) {
   const Box& box = space.bounds();
   const Vec3 size = box.size();
   Start best;
+  const auto consider = [&](const Vec3& floor) {
+    if (goes_on && !goes_on()) throw Cancelled();
+    const Start start = start_at(space, settings, mode, floor);
+    if (start.room > best.room) best = start;
+  };
+  for (const Vec3& floor : floors) consider(floor);
   for (int i = 0; i < columns_a_side; ++i) {
     for (int j = 0; j < columns_a_side; ++j) {
       Vec3 top{box.lower.x + size.x * (i + 0.5) / columns_a_side, box.lower.y + size.y * (j + 0.5) / columns_a_side,
                box.upper.z + 1.0};
-      for (int floors = 0; floors < most_floors; ++floors) {
+      for (int level_below = 0; level_below < most_floors; ++level_below) {
         const double depth = top.z - box.lower.z + 1.0;
         const Impact down = depth > 0.0 ? space.ray(top, {0, 0, -depth}) : Impact{};
         if (!down.hit) break;
-        if (goes_on && !goes_on()) throw Cancelled();
         top.z -= down.time * depth;
-        const Start start = start_at(space, settings, mode, top);
-        if (start.room > best.room) best = start;
+        consider(top);
         top.z -= floor_gap;
       }
     }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -15,12 +16,13 @@
 
 namespace roam::app {
 
-/// A free place to start from: of all floors under a grid of columns over the scene, the one from which the body can
-/// stride farthest in eight directions. A floor with a ceiling counts fourfold, so that one starts in a tunnel instead
-/// of on top of it, unless it is only a closet. Throws roam::Error when the body fits nowhere. `goes_on` is asked now
+/// A free place to start from: of `floors` (see floor_samples) and all floors under a grid of columns over the scene,
+/// the one from which the body can stride farthest in eight directions; the more walls are in sight the better. A place
+/// within walls and under a ceiling counts fourfold, so that one starts in a tunnel instead of on top of it, unless it
+/// is only a closet. Throws roam::Error when the body fits nowhere. `goes_on` is asked now
 /// and then, and ends it by false: roam::Cancelled.
 [[nodiscard]] Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
-                                const std::function<bool()>& goes_on = {});
+                                std::span<const Vec3> floors, const std::function<bool()>& goes_on = {});
 
 /// One walk without an aim. The walker must outlive it and be in walk or fly mode.
 class Wander {
