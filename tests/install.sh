@@ -2,6 +2,7 @@
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
+#   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
 #   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
@@ -38,6 +39,28 @@ case $what in
     printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
     # The package was configured for another prefix than this: it tells its programs where its reader is.
     expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
+    ;;
+  osg_one_line)
+    build osg_one_line
+    # A wall of 2 m at y = 0: OpenSceneGraph turns OBJ to z up. Home is 5 m before it, and W with Shift flies at 7 m/s.
+    printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' > "$work/wall.obj"
+    exec {ready}<> <(:)
+    Xvfb -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
+    screen=$!
+    trap 'kill "$screen"' EXIT
+    read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
+    export DISPLAY=":$display" LIBGL_ALWAYS_SOFTWARE=1 OSG_WINDOW="20 20 400 300"
+    "$work/build/osg_one_line" "$work/wall.obj" > "$work/said" 2>&1 &
+    viewer=$!
+    timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
+    sleep 2
+    xdotool keydown shift keydown w
+    sleep 5
+    xdotool keyup w keyup shift
+    sleep 1
+    xdotool key Escape
+    wait "$viewer" || { cat "$work/said"; exit 1; }
+    expect 'the camera was last at 0.00 -0.30 ' cat "$work/said"
     ;;
   osg_intersector)
     build osg_intersector
