@@ -246,15 +246,49 @@ TEST(Patchwork, ABodyAtRestOnTheCoarseFloorLetsTheSameFineFloorIn) {
   for (int i = 0; i < 40; ++i) {
     const double z = 0.3 + 1.7e-4 * i;  // at any height of the grids that floors are stored on
     Refined r;
+    Mesh wide;  // and the new one on a coarser grid than the old one
+    scenes::add_floor(wide, -31.0 - 0.37 * i, -29.0, 30.0, 31.0 + 0.11 * i, z);
     r.space.deliver(r.coarse, board(z));
     r.space.update();
     const double skin = 1e-4 + 2.0 * r.space.largest_error();
     const auto s = r.space.sweep(ball, {0.2, 0.5, 3.0}, {0.0, 0.0, -4.0});
     const Vec3 at_rest(0.2, 0.5, 3.0 - 4.0 * s.time + skin);
-    r.space.deliver(r.left, half_board(z, false));
-    r.space.deliver(r.right, half_board(z, true));
+    r.space.deliver(r.left, scenes::build(wide));
+    r.space.deliver(r.right, World());
     EXPECT_TRUE(r.space.update(ball, at_rest)) << z;
     EXPECT_GT(r.space.clearance(ball, at_rest, 1.0).distance, 0.0);
+  }
+}
+
+TEST(Patchwork, WhatIsUnknownIsReplacedWhateverTheBody) {
+  Refined r;
+  r.space.update();
+  const Vec3 place(0.2, 0.5, 1.4);
+  ASSERT_GT(r.space.clearance(ball, place, 1.0).distance, 0.0);
+  // What comes sticks out of the box that was announced: to wait for the body could be to wait for ever.
+  r.space.deliver(r.left, half_board(1.3, false));
+  r.space.deliver(r.right, half_board(1.3, true));
+  EXPECT_TRUE(r.space.update(ball, place));
+  EXPECT_LT(r.space.clearance(ball, place, 1.0).distance, 0.0);
+}
+
+TEST(Patchwork, ABodyCaughtInTwoPatchesIsToldOfTheDeepest) {
+  for (const bool turned : {false, true}) {
+    Patchwork space;
+    const PatchId first = space.expect(unit), second = space.expect(unit);
+    space.deliver(turned ? second : first, board(0.2, "shallow"));
+    space.deliver(turned ? first : second, board(0.7, "deep"));
+    space.update();
+    const auto s = space.sweep(ball, {0.5, 0.5, 0.4}, {0.3, 0.0, 0.0});  // 0.05 m into the one
+    ASSERT_TRUE(s.hit);
+    EXPECT_EQ(space.object_name(s.triangle), "shallow");
+    const auto d = space.sweep(ball, {0.5, 0.5, 0.55}, {0.3, 0.0, 0.0});  // 0.1 m into the other alone
+    EXPECT_EQ(space.object_name(d.triangle), "deep");
+    const auto both = space.sweep({0.4, 0.0}, {0.5, 0.5, 0.5}, {0.3, 0.0, 0.0});  // 0.1 m and 0.2 m
+    ASSERT_TRUE(both.hit);
+    EXPECT_EQ(both.time, 0.0);
+    EXPECT_EQ(space.object_name(both.triangle), "deep");
+    EXPECT_NEAR(both.distance, -0.2, stored);
   }
 }
 
