@@ -44,7 +44,8 @@ case $what in
     build osg_one_line
     # A wall of 2 m at y = 0: OpenSceneGraph turns OBJ to z up. Home is 5 m before it, and W with Shift flies at 7 m/s.
     printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' > "$work/wall.obj"
-    exec {ready}<> <(:)
+    mkfifo "$work/ready"
+    exec {ready}<> "$work/ready"
     Xvfb -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
     screen=$!
     trap 'kill "$screen"' EXIT
