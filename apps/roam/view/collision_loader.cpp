@@ -61,40 +61,40 @@ void CollisionLoader::set(LoadState::Phase phase, double share, std::uint64_t tr
 }
 
 void CollisionLoader::load() {
-  ImportOptions import = import_options(scene_);
-  import.progress = [this](const ImportProgress& p) {
+  ImportOptions reading = import_options(scene_);
+  reading.progress = [this](const ImportProgress& p) {
     const double share =
         p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
-  set(LoadState::Phase::reading, std::min(share, 1.0), p.triangles);
-  return !cancelled_;
-};
-Scene scene = import_scene(scene_.scenes, import);
-BuildOptions build;
-build.threads = build_threads(scene_.threads);
-build.lossless = scene_.lossless;
-build.progress = [&](double share) {
-  set(LoadState::Phase::indexing, share, scene.report.triangles);
-  return !cancelled_;
-};
-std::vector<Vec3> floors;
-if (wish_.find_start) floors = floor_samples(scene.meshes);
-Collision loaded;
-loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
-loaded.report = std::move(scene.report);
-if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
-scene.meshes.clear();
-scene.meshes.shrink_to_fit();
-if (wish_.find_start) {
-  set(LoadState::Phase::looking, 0.0, loaded.report.triangles);
-  loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return !cancelled_; });
+    set(LoadState::Phase::reading, std::min(share, 1.0), p.triangles);
+    return !cancelled_;
+  };
+  Scene scene = import_scene(scene_.scenes, reading);
+  BuildOptions build;
+  build.threads = build_threads(scene_.threads);
+  build.lossless = scene_.lossless;
+  build.progress = [&](double share) {
+    set(LoadState::Phase::indexing, share, scene.report.triangles);
+    return !cancelled_;
+  };
+  std::vector<Vec3> floors;
+  if (wish_.find_start) floors = floor_samples(scene.meshes);
+  Collision loaded;
+  loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
+  loaded.report = std::move(scene.report);
+  if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
+  scene.meshes.clear();
+  scene.meshes.shrink_to_fit();
+  if (wish_.find_start) {
+    set(LoadState::Phase::looking, 0.0, loaded.report.triangles);
+    loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return !cancelled_; });
+  }
+  const std::lock_guard lock(mutex_);
+  loaded_ = std::move(loaded);
+  state_ = {};
+  state_.phase = LoadState::Phase::done;
+  state_.share = 1.0;
+  state_.triangles = loaded_->report.triangles;
 }
-const std::lock_guard lock(mutex_);
-loaded_ = std::move(loaded);
-state_ = {};
-state_.phase = LoadState::Phase::done;
-state_.share = 1.0;
-state_.triangles = loaded_->report.triangles;
-}  // namespace roam::app
 
 void CollisionLoader::run() {
   std::string error;
