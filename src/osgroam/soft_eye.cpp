@@ -40,9 +40,6 @@ SoftEye::Before SoftEye::before(const roam::Walker& walker) {
 
 void SoftEye::follow(const roam::Walker& walker, const Before& before, double seconds) {
   const Before after = SoftEye::before(walker);
-  for (const roam::Corner& corner : walker.report().corners) {
-    if (corner.teleport) return reset();
-  }
   const bool on_foot = walker.mode() == roam::Mode::walk && before.grounded && after.grounded;
   // In the air the eye goes with the body, which jumps and falls smoothly by itself.
   if (on_foot || before.height != after.height) lag_ += before.z - after.z;
