@@ -1,0 +1,153 @@
+// The comparison of Xie and Niu (2020): their intersector's successor, osgRoam::BoxIntersector, and
+// osgUtil::PolytopeIntersector on path 1 of the gallery, in scene graphs as they come: one geode or many, with and
+// without KdTree. Times are the thread's own, so that others on the machine do not count.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/KdTree>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/PolytopeIntersector>
+#include <vector>
+
+#include "osgRoam/BoxIntersector.h"
+#include "roam/generate.h"
+
+namespace {
+
+using roam::Vec3;
+
+constexpr double radius = 0.5;         ///< metres
+constexpr double step_length = 0.833;  ///< metres: 50 m/s at 60 Hz
+
+osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+/// The triangles in so many geodes of about the same size, in the order in which the gallery is made.
+osg::ref_ptr<osg::Group> graph_of(const std::vector<roam::Mesh>& meshes, std::size_t geodes, bool kd_tree) {
+  std::size_t triangles = 0, done = 0;
+  for (const roam::Mesh& mesh : meshes) triangles += mesh.triangles.size();
+  osg::ref_ptr<osg::Group> scene = new osg::Group;
+  osg::ref_ptr<osg::Vec3Array> vertices;
+  osg::ref_ptr<osg::DrawElementsUInt> indices;
+  for (const roam::Mesh& mesh : meshes) {
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++done) {
+      const bool next = done * geodes / triangles >= scene->getNumChildren();
+      if (next) {
+        vertices = new osg::Vec3Array;
+        indices = new osg::DrawElementsUInt(GL_TRIANGLES);
+        osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(indices);
+        osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+        geode->addDrawable(geometry);
+        scene->addChild(geode);
+      }
+      if (next || i == 0) {
+        first = static_cast<std::uint32_t>(vertices->size());
+        for (const Vec3& v : mesh.vertices) vertices->push_back(osg::Vec3(to_osg(v)));
+      }
+      for (const std::uint32_t corner : mesh.triangles[i]) indices->push_back(first + corner);
+    }
+  }
+  if (kd_tree) {
+    osg::ref_ptr<osg::KdTreeBuilder> builder = new osg::KdTreeBuilder;
+    scene->accept(*builder);
+  }
+  scene->getBound();
+  return scene;
+}
+
+/// Whether anything is in the way.
+bool ask_box(osg::Node& scene, const Vec3& from, const Vec3& to) {
+  osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector({.radius = radius}, to_osg(from), to_osg(to));
+  osgUtil::IntersectionVisitor visitor(box);
+  scene.accept(visitor);
+  return box->containsIntersections();
+}
+
+bool ask_polytope(osg::Node& scene, const Vec3& from, const Vec3& to) {
+  osg::Polytope polytope;
+  for (int k = 0; k < 3; ++k) {
+    osg::Vec3d axis;
+    axis[k] = 1.0;
+    polytope.add(osg::Plane(axis, radius - std::min(from[k], to[k])));
+    polytope.add(osg::Plane(-axis, radius + std::max(from[k], to[k])));
+  }
+  osg::ref_ptr<osgUtil::PolytopeIntersector> intersector =
+      new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, polytope);
+  intersector->setPrimitiveMask(osgUtil::PolytopeIntersector::TRIANGLE_PRIMITIVES);
+  osgUtil::IntersectionVisitor visitor(intersector);
+  scene.accept(visitor);
+  return intersector->containsIntersections();
+}
+
+double thread_milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+using Ask = bool (*)(osg::Node&, const Vec3&, const Vec3&);
+
+/// Mean milliseconds of every `every`th step of the path.
+double mean_step(Ask ask, osg::Node& scene, std::size_t every, std::size_t& hits) {
+  const roam::generate::Path& path = roam::generate::gallery_paths[0];
+  const double length = glm::length(path.to - path.from);
+  const Vec3 step = (path.to - path.from) * (step_length / length);
+  const auto steps = static_cast<std::size_t>(length / step_length);
+  hits = 0;
+  std::size_t asked = 0;
+  const double start = thread_milliseconds();
+  for (std::size_t i = 0; i < steps; i += every, ++asked) {
+    const Vec3 from = path.from + static_cast<double>(i) * step;
+    hits += ask(scene, from, from + step) ? 1 : 0;
+  }
+  return (thread_milliseconds() - start) / static_cast<double>(asked);
+}
+
+void run(std::uint64_t triangles, std::size_t every) {
+  const std::vector<roam::Mesh> meshes =
+      roam::generate::collect(roam::generate::gallery({.triangles = triangles, .seed = 1, .origin = Vec3(0.0)}));
+  std::printf("| scene | box (ms a step) | polytope (ms a step) | polytope / box | steps with hits: box, polytope |\n");
+  std::printf("|---|---|---|---|---|\n");
+  for (const bool kd_tree : {false, true}) {
+    for (const std::size_t geodes : {std::size_t{1}, std::size_t{127}}) {
+      const osg::ref_ptr<osg::Group> scene = graph_of(meshes, geodes, kd_tree);
+      const std::size_t some = kd_tree ? 1 : geodes == 1 ? every : std::max<std::size_t>(every / 10, 1);
+      std::size_t box_hits = 0, polytope_hits = 0;
+      const double box = mean_step(&ask_box, *scene, some, box_hits);
+      const double polytope = mean_step(&ask_polytope, *scene, some, polytope_hits);
+      std::printf("| %zu geode%s%s | %.4g | %.4g | %.2f | %zu, %zu |\n", geodes, geodes > 1 ? "s" : "",
+                  kd_tree ? " + KdTree" : "", box, polytope, polytope / box, box_hits, polytope_hits);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::uint64_t triangles = 1'970'000;
+  std::size_t every = 20;
+  CLI::App app{"Times osgRoam::BoxIntersector and osgUtil::PolytopeIntersector on path 1 of the gallery"};
+  app.add_option("--triangles", triangles, "of the gallery")->capture_default_str();
+  app.add_option("--every", every, "ask only each Nth step where nothing is indexed and there is one geode")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(triangles, every);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
