@@ -4,7 +4,6 @@
 #include <osg/NodeVisitor>
 #include <osg/StateSet>
 #include <osg/Texture2D>
-#include <vector>
 
 #include "graphics/shading.h"
 
@@ -19,7 +18,6 @@ constexpr Attribute::Type unwanted_attributes[] = {
     Attribute::SHADEMODEL, Attribute::VIEWPORT, Attribute::SCISSOR,     Attribute::POLYGONOFFSET};
 constexpr Attribute::GLMode unwanted_modes[] = {GL_LIGHTING, GL_CULL_FACE, GL_DEPTH_TEST, GL_FOG, GL_SCISSOR_TEST};
 constexpr const char* textured = "ROAM_TEXTURED";
-constexpr auto insistence = static_cast<Attribute::OverrideValue>(Attribute::OVERRIDE | Attribute::PROTECTED);
 
 /// Material x vertex colour is the surface. Where the file wants the colour *instead* of the material's, that is white.
 void prepare_material(osg::StateSet& state) {
@@ -78,26 +76,11 @@ void prepare_textures(osg::StateSet& state) {
   }
 }
 
-/// Nothing below may win against what it is drawn under.
-void remove_insistence(osg::StateSet& state) {
-  std::vector<std::pair<osg::ref_ptr<Attribute>, Attribute::OverrideValue>> attributes;
-  for (const auto& [type, value] : state.getAttributeList()) {
-    if (value.second & insistence) attributes.emplace_back(value.first, value.second & ~insistence);
-  }
-  for (const auto& [attribute, value] : attributes) state.setAttribute(attribute, value);
-  std::vector<std::pair<Attribute::GLMode, Attribute::GLModeValue>> modes;
-  for (const auto& [mode, value] : state.getModeList()) {
-    if (value & insistence) modes.emplace_back(mode, value & ~insistence);
-  }
-  for (const auto& [mode, value] : modes) state.setMode(mode, value);
-}
-
 void prepare_state(osg::StateSet& state) {
   for (const Attribute::Type type : unwanted_attributes) state.removeAttribute(type);
   for (const Attribute::GLMode mode : unwanted_modes) state.removeMode(mode);
   prepare_material(state);
   prepare_textures(state);
-  remove_insistence(state);
 }
 
 /// Whether `array` says something about each of `vertices` vertices, or one thing about all.

@@ -32,7 +32,7 @@ namespace roam::graphics {
 ///   - geometry without colours becomes white, geometry without normals gets the zero normal, which tells the shader
 ///     to take the face's own;
 ///   - states lose what would break the picture: programs, depth functions, culling of back faces, lighting, fog,
-///     textures without an image, texture units above 0, OVERRIDE and PROTECTED;
+///     textures without an image, texture units above 0;
 ///   - textures that end at their edge do so without the dark seam of OpenGL's old clamping;
 ///   - a material whose diffuse colour is to be replaced by vertex colours (colour mode) gets a white one.
 /// Blending, alpha tests and render bins stay. What is as it should be is not touched, so a graph may be prepared
