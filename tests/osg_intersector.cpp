@@ -285,6 +285,27 @@ TEST(OsgIntersector, MeasuresHowFarBoundsAreOff) {
   EXPECT_TRUE(ask(*scene, body, from, motion, margin)->containsIntersections());
 }
 
+TEST(OsgIntersector, AllowsForTheRoundingOfBounds) {
+  Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    // A tip that a far transform's sphere, whose floats are 0.5 m apart there, may leave out.
+    osg::ref_ptr<osg::MatrixTransform> far = new osg::MatrixTransform(
+        osg::Matrixd::translate(504123.0 + random.unit(), 5678901.0 + random.unit(), 90.0 + random.unit()));
+    osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+    const Vec3 out = random.direction();
+    for (const double s : {-2.0, 2.0}) corners->push_back(osg::Vec3(to_osg(s * out)));
+    corners->push_back(osg::Vec3(0.1f, 0.0f, 0.0f));
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(corners);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    far->addChild(geometry);
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(far);
+    const Vec3 tip = osg_graphs::placed((*corners)[1], far->getMatrix());
+    ASSERT_TRUE(ask(*scene, {0.1}, tip + 0.099 * out, Vec3(0.0))->containsIntersections()) << i;
+  }
+}
+
 TEST(OsgIntersector, WorksInTheFrameOfAView) {
   osg::ref_ptr<osg::Camera> camera = new osg::Camera;
   camera->setViewMatrix(osg::Matrixd::translate(0.0, 0.0, -5.0));
