@@ -113,6 +113,23 @@ TEST(Route, MeasuresTheOpeningThatIsTooNarrow) {
   }
 }
 
+TEST(Route, MeasuresADoorBetweenThickPostsAndNotOnePostAtTwoHeights) {
+  for (const double width : {0.4, 0.5, 0.55}) {
+    for (const double origin : {0.0, 1e5}) {
+      const Vec3 at(origin, 0.0, 0.0);
+      Mesh m;
+      scenes::add_box(m, at + Vec3(0.0, 0.0, -0.1), at + Vec3(20.0, 4.0, 0.0));
+      scenes::add_box(m, at + Vec3(10.0, 0.0, 0.0), at + Vec3(10.2, 2.0 - 0.5 * width, 3.0));
+      scenes::add_box(m, at + Vec3(10.0, 2.0 + 0.5 * width, 0.0), at + Vec3(10.2, 4.0, 3.0));
+      const roam::WalkerSettings person{.radius = 0.3, .height = 1.8};
+      const RouteResult r = follow(m, person, Mode::walk, {at + Vec3(5.0, 2.0, 0.95), at + Vec3(15.0, 2.0, 0.95)});
+      EXPECT_EQ(r.outcome, Outcome::blocked);
+      ASSERT_TRUE(r.blocked_at && r.blocked_at->opening) << width << " m at " << origin;
+      EXPECT_NEAR(*r.blocked_at->opening, width, 0.01) << "at " << origin;
+    }
+  }
+}
+
 TEST(Route, MeasuresTheOpeningThatIsTooLow) {
   const RouteResult r = follow(doorway(3.0, 0.9), {}, Mode::walk, {{-2.0, 0.0, 0.95}, {4.0, 0.0, 0.95}});
   EXPECT_EQ(r.outcome, Outcome::blocked);

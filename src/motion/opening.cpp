@@ -17,6 +17,12 @@ constexpr double depth_part = 0.5;
 /// A contact is ahead when its normal leans against the way by more than this (cosine): not the wall walked along.
 constexpr double against_the_way = 0.05;
 
+/// A contact bounds a gap when its normal leans into it by more than this (cosine).
+constexpr double facing = 0.05;
+
+/// A post, and no floor or ceiling, is what is touched with a normal that leans up or down by less than this (sine).
+constexpr double post = 0.7;
+
 /// The unit vectors of a blocked way.
 struct Frame {
   Vec3 ahead, sideways, upward;
@@ -30,8 +36,14 @@ bool open_between(const Space& space, const Vec3& a, const Vec3& b, const Vec3& 
   return !space.ray(from, f.ahead * (std::max(farther, 0.0) + depth)).hit;
 }
 
-bool on_either_side(const Vec3& a, const Vec3& b, const Vec3& place, const Vec3& across) {
-  return glm::dot(a - place, across) * glm::dot(b - place, across) < 0.0;
+/// Whether two contacts bound a gap along `across`: they lie on either side of the body and face each other. Two
+/// heights of one post lie on either side as well, but they face the same way.
+bool face_each_other(const Contact& a, const Contact& b, const Vec3& place, const Vec3& across) {
+  const double side_of_a = glm::dot(a.point - place, across);
+  const double side_of_b = glm::dot(b.point - place, across);
+  if (side_of_a * side_of_b >= 0.0) return false;
+  const double towards_b = side_of_b > side_of_a ? 1.0 : -1.0;
+  return towards_b * glm::dot(a.normal, across) > facing && -towards_b * glm::dot(b.normal, across) > facing;
 }
 
 }  // namespace
@@ -56,12 +68,16 @@ std::optional<double> measure_opening(const Space& space, const Body& body, cons
       if (std::min(glm::dot(a.normal, ahead), glm::dot(b.normal, ahead)) > -against_the_way) continue;
       const Vec3 apart = b.point - a.point;
       // Two posts are touched anywhere along their height; they need not stand side by side.
-      if (on_either_side(a.point, b.point, place, frame.sideways)) {
+      const double lean =
+          std::max(std::abs(glm::dot(a.normal, frame.upward)), std::abs(glm::dot(b.normal, frame.upward)));
+      if (lean < post && face_each_other(a, b, place, frame.sideways)) {
         consider(a, b, glm::length(apart - frame.upward * glm::dot(apart, frame.upward)));
       }
-      // The floor is touched below the body, and what hangs too low ahead of it.
-      if (on_either_side(a.point, b.point, place, frame.upward)) {
-        consider(a, b, std::abs(glm::dot(apart, frame.upward)));
+      // The floor is touched below the body, and what hangs too low ahead of it: one above the other, not two posts
+      // whose contacts lean a little up and down.
+      const double height = std::abs(glm::dot(apart, frame.upward));
+      if (height > std::abs(glm::dot(apart, frame.sideways)) && face_each_other(a, b, place, frame.upward)) {
+        consider(a, b, height);
       }
     }
   }
