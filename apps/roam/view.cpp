@@ -23,20 +23,24 @@ ViewSettings read_settings_for(const ViewOptions& options) {
   }
 }
 
-ExitStatus print_keys(const ViewSettings& settings) {
+/// What the keys do. Throws UsageError for keys of the settings that cannot be.
+std::string keys_of(const ViewSettings& settings) {
   const osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
   try {
     set_up(roamer->controls(), settings);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  print(key_table(roamer->controls()));
-  return done;
+  return key_table(roamer->controls());
 }
 
 ExitStatus view(const ViewOptions& options) {
   const ViewSettings settings = read_settings_for(options);
-  if (options.keys) return print_keys(settings);
+  const std::string keys = keys_of(settings);
+  if (options.keys) {
+    print(keys);
+    return done;
+  }
   if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
   const ViewPlan plan = make_plan(options, settings);
   std::optional<tbb::global_control> limit;

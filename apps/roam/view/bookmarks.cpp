@@ -94,8 +94,9 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
     : file_(std::move(file)), up_(std::move(up)), unit_(std::move(unit)) {
   for (const auto& scene : scenes) {
     std::error_code none;
-    const auto whole = std::filesystem::weakly_canonical(scene, none);
-    scenes_.push_back((none ? std::filesystem::absolute(scene) : whole).string());
+    const std::filesystem::path absolute = std::filesystem::absolute(scene);
+    const auto whole = std::filesystem::weakly_canonical(absolute, none);
+    scenes_.push_back((none ? absolute : whole).string());
   }
   const Json document = read(file_);
   for (const Json& scene : document) {

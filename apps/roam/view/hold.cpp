@@ -47,7 +47,7 @@ void Hold::take(const Walker& walker, const Vec3& wish, double seconds) {
   waiting_ = report.waiting;
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
-  if (report.grounded) level_ = walker.feet().z;
+  if (report.grounded) level_ = walker.stance().level;
 }
 
 void Hold::note_events(const Walker& walker) {

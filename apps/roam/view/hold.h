@@ -37,7 +37,7 @@ class Hold {
   std::string blockage_;
   Told news_;
   double news_at_ = -1e9;
-  double level_ = 0.0;  ///< z of the feet when last on the ground
+  double level_ = 0.0;  ///< z of the ground last stood on
 };
 
 }  // namespace roam::app

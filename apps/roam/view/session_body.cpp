@@ -116,7 +116,7 @@ void Session::step_taken(const StepReport& report, double seconds) {
 
 /// Where the person, or the path, would have the body go, m/s; the length is only roughly right.
 Vec3 Session::wish() const {
-  if (replay_ && !replay_->done()) {
+  if (replay_ && !replay_->left()) {
     const std::size_t next = std::min(replay_->result().waypoints, path_.size() - 1);
     const Vec3 way = path_[next].position - roamer_->walker()->position();
     const double length = glm::length(way);
