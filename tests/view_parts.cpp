@@ -1,0 +1,436 @@
+// The parts of roam view that need no window: options, settings, bookmarks, what the display says, the start.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "exit_status.h"
+#include "program.h"
+#include "roam/error.h"
+#include "roam/path_file.h"
+#include "view/bookmarks.h"
+#include "view/commands.h"
+#include "view/histogram.h"
+#include "view/hold.h"
+#include "view/options.h"
+#include "view/path_recorder.h"
+#include "view/replay.h"
+#include "view/settings.h"
+#include "view/start.h"
+#include "view/status.h"
+
+namespace {
+
+using namespace roam;
+using namespace roam::app;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+template <class Run>
+std::string error_of(const Run& run) {
+  try {
+    run();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// A wall, a floor or a door as a rectangle.
+Mesh rectangle(const std::string& name, const Vec3& corner, const Vec3& along, const Vec3& up) {
+  return {name, {corner, corner + along, corner + along + up, corner + up}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+/// A hall of 20 x 10 x 3 m on the floor z = 0, with a wall across it at x = 10 that has an opening `width` wide.
+World hall(double width) {
+  const double side = 5.0 - 0.5 * width;
+  const Vec3 up(0, 0, 3);
+  return World::build(std::vector<Mesh>{
+      rectangle("floor", {0, -5, 0}, {20, 0, 0}, {0, 10, 0}), rectangle("ceiling", {0, -5, 3}, {20, 0, 0}, {0, 10, 0}),
+      rectangle("left", {0, 5, 0}, {20, 0, 0}, up), rectangle("right", {0, -5, 0}, {20, 0, 0}, up),
+      rectangle("back", {0, -5, 0}, {0, 10, 0}, up), rectangle("front", {20, -5, 0}, {0, 10, 0}, up),
+      rectangle("Door_12", {10, -5, 0}, {0, side, 0}, up), rectangle("Door_12", {10, 5 - side, 0}, {0, side, 0}, up)});
+}
+
+// ------------------------------------------------------------------------------------------------------ settings
+
+TEST(ViewSettings, TakeEveryEntry) {
+  const TestFolder folder;
+  const ViewSettings s = read_settings(folder.write("s.json", R"({
+    // comments are allowed
+    "keys": {"forward": ["Z", "Up"], "jump": "Space"}, "mouse": {"sensitivity": 2, "invert_y": true},
+    "body": {"radius": 0.2, "height": 1.6, "eye": 1.4, "step": 0.2, "slope": 30},
+    "speed": 3, "fov": 80, "hud": "minimal"})"));
+  EXPECT_EQ(s.keys.at("forward"), (std::vector<std::string>{"Z", "Up"}));
+  EXPECT_EQ(s.keys.at("jump"), std::vector<std::string>{"Space"});
+  EXPECT_EQ(s.sensitivity, 2.0);
+  EXPECT_EQ(s.invert_y, true);
+  EXPECT_EQ(s.radius, 0.2);
+  EXPECT_EQ(s.height, 1.6);
+  EXPECT_EQ(s.eye, 1.4);
+  EXPECT_EQ(s.step, 0.2);
+  EXPECT_EQ(s.slope, 30.0);
+  EXPECT_EQ(s.speed, 3.0);
+  EXPECT_EQ(s.fov, 80.0);
+  EXPECT_EQ(s.hud, HudMode::minimal);
+}
+
+TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
+  const TestFolder folder;
+  const auto error = [&](const std::string& text) {
+    const std::string file = folder.write("s.json", text);
+    const std::string what = error_of([&] { static_cast<void>(read_settings(file)); });
+    EXPECT_TRUE(contains(what, file)) << what;
+    return what;
+  };
+  EXPECT_TRUE(contains(error(R"({"mouse": {"sensitivity": "fast"}})"), "\"mouse.sensitivity\" must be a number"));
+  EXPECT_TRUE(contains(error(R"({"body": {"radius": -1}})"), "\"body.radius\""));
+  EXPECT_TRUE(contains(error(R"({"hud": "big"})"), "\"hud\" must be \"full\", \"minimal\" or \"off\""));
+  EXPECT_TRUE(contains(error(R"({"speeed": 1})"), "\"speeed\" is not known; there are: keys, mouse"));
+  EXPECT_TRUE(contains(error(R"({"keys": {"jump": 3}})"), "\"keys.jump\" must be the name of a key"));
+  EXPECT_TRUE(contains(error("{"), "is no JSON"));
+  EXPECT_TRUE(contains(error("[]"), "one JSON object"));
+  EXPECT_TRUE(contains(error_of([] { static_cast<void>(find_settings("/nowhere/s.json")); }), "/nowhere/s.json"));
+}
+
+TEST(ViewSettings, StandInTheFolderOfTheXdgRules) {
+  const TestFolder folder;
+  setenv("HOME", folder.file("home").c_str(), 1);
+  setenv("XDG_CONFIG_HOME", folder.file("config").c_str(), 1);
+  EXPECT_EQ(settings_folder(), folder.file("config/roam"));
+  setenv("XDG_CONFIG_HOME", "not/absolute", 1);
+  EXPECT_EQ(settings_folder(), folder.file("home/.config/roam"));
+  EXPECT_TRUE(find_settings({}).keys.empty());
+  std::filesystem::create_directories(folder.file("home/.config/roam"));
+  folder.write("home/.config/roam/settings.json", R"({"fov": 70})");
+  EXPECT_EQ(find_settings({}).fov, 70.0);
+  unsetenv("XDG_CONFIG_HOME");
+}
+
+TEST(ViewSettings, GiveCommandsOtherKeysOrSayWhyNot) {
+  osgRoam::Controls controls;
+  controls.add("forward", "W", "goes", osgRoam::Controls::Kind::held);
+  ViewSettings settings;
+  settings.file = "s.json";
+  settings.keys = {{"forward", {"Z", "Up"}}};
+  set_up(controls, settings);
+  EXPECT_EQ(osgRoam::Controls::keyText(*controls.find("forward")), "Z, Up");
+  EXPECT_TRUE(contains(key_table(controls), "forward"));
+  EXPECT_TRUE(contains(key_table(controls), "Z, Up"));
+
+  osgRoam::Controls others;
+  others.add("forward", "W", "goes", osgRoam::Controls::Kind::held);
+  settings.keys = {{"forward", {"H"}}};
+  const std::string what = error_of([&] { set_up(others, settings); });
+  EXPECT_TRUE(contains(what, "s.json") && contains(what, "help")) << what;
+}
+
+// ------------------------------------------------------------------------------------------------------- options
+
+TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
+  const ViewPlan plan = make_plan({}, {});
+  EXPECT_EQ(plan.walker.radius, 0.3);
+  EXPECT_EQ(plan.walker.height, 1.8);
+  EXPECT_DOUBLE_EQ(plan.walker.eye, 1.5);
+  EXPECT_EQ(plan.mode, Mode::walk);
+}
+
+TEST(ViewPlan, OfARadiusAloneIsASphereWithTheEyeInItsCentre) {
+  ViewOptions options;
+  options.radius = 0.5;
+  const ViewPlan plan = make_plan(options, {});
+  EXPECT_EQ(plan.walker.height, 1.0);
+  EXPECT_EQ(plan.walker.eye, 0.5);
+}
+
+TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
+  ViewOptions options;
+  options.path = "tour.path";
+  ViewSettings settings;
+  settings.radius = 0.2;
+  settings.height = 1.7;
+  settings.speed = 9.0;
+  const ViewPlan plan = make_plan(options, settings);
+  EXPECT_EQ(plan.walker.radius, 0.3);
+  EXPECT_EQ(plan.walker.height, 0.6);
+  EXPECT_EQ(plan.walker.speed, 1.4);
+}
+
+TEST(ViewPlan, TakesFromTheSettingsWhatTheCommandLineLeavesOpen) {
+  ViewSettings settings;
+  settings.radius = 0.2;
+  settings.height = 1.7;
+  settings.speed = 2.0;
+  settings.fov = 80.0;
+  ViewOptions options;
+  options.speed = 5.0;
+  const ViewPlan plan = make_plan(options, settings);
+  EXPECT_EQ(plan.walker.radius, 0.2);
+  EXPECT_EQ(plan.walker.height, 1.7);
+  EXPECT_EQ(plan.walker.speed, 5.0);
+  EXPECT_EQ(plan.fov, 80.0);
+}
+
+TEST(ViewPlan, RefusesWhatCannotBeMeant) {
+  ViewOptions size;
+  size.size = "1280*720";
+  EXPECT_THROW(static_cast<void>(make_plan(size, {})), UsageError);
+  ViewOptions low;
+  low.radius = 0.5;
+  low.height = 0.4;
+  EXPECT_THROW(static_cast<void>(make_plan(low, {})), UsageError);
+  ViewOptions idle;
+  idle.headless = true;
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(idle, {})); }), "--screenshot"));
+  ViewOptions ghost;
+  ghost.mode = "ghost";
+  ghost.path = "tour.path";
+  EXPECT_THROW(static_cast<void>(make_plan(ghost, {})), UsageError);
+
+  const TestFolder folder;
+  ViewOptions over;
+  over.scene.scenes = {folder.write("scene.obj", "v 0 0 0\n")};
+  over.trace = over.scene.scenes[0];
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(over, {})); }), "would overwrite the scene"));
+}
+
+// ----------------------------------------------------------------------------------------------------- bookmarks
+
+TEST(Bookmarks, AreKeptForTheirSceneAlone) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.file("config/roam/bookmarks.json");
+  Bookmarks mine(file, {"mine.obj"}, "", "m");
+  EXPECT_EQ(mine.add({{1, 2, 3}, 90, -5}).name, "1");
+  EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "2");
+  EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, "", "m").all().empty());
+  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, "y", "m").all().empty());
+  const Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, "", "m");
+  ASSERT_EQ(again.all().size(), 2u);
+  EXPECT_EQ(again.find("1")->pose.position, Vec3(1, 2, 3));
+  EXPECT_EQ(again.find("1")->pose.yaw, 90.0);
+  EXPECT_EQ(again.find("1")->pose.pitch, -5.0);
+  EXPECT_FALSE(again.find("3"));
+  // Nothing is left beside the file.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
+}
+
+TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
+  const TestFolder folder;
+  Bookmarks one(folder.file("b.json"), {"mine.obj"}, "", "m");
+  Bookmarks two(folder.file("b.json"), {"mine.obj"}, "", "m");
+  one.add({{1, 0, 0}, 0, 0});
+  EXPECT_EQ(two.add({{2, 0, 0}, 0, 0}).name, "2");
+  EXPECT_EQ(two.all().size(), 2u);
+}
+
+TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
+  const TestFolder folder;
+  const std::string file = folder.write("b.json", "{\"mine\": 1}");
+  const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, "", "m"); });
+  EXPECT_TRUE(contains(what, file) && contains(what, "list of scenes")) << what;
+  EXPECT_EQ(folder.read("b.json"), "{\"mine\": 1}");
+}
+
+// ------------------------------------------------------------------------------------------- recording and times
+
+TEST(PathRecorder, WritesAPathThatCanBeWalked) {
+  const TestFolder folder;
+  PathRecorder recorder(folder.file("way.path"));
+  for (int i = 0; i <= 60; ++i) recorder.add(5.0 + i / 60.0, {i / 60.0, 2.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
+  for (int i = 0; i < 120; ++i) recorder.add(6.0 + i / 60.0, {1.0, 2.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
+  recorder.add(8.5, {1.0, 4.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
+  recorder.close();
+  const std::vector<Waypoint> path = load_path(folder.file("way.path"));
+  // Ten a second while it moves; of the rest its begin and its end.
+  ASSERT_GE(path.size(), 10u);
+  EXPECT_LE(path.size(), 16u);
+  EXPECT_EQ(path.front().position, Vec3(0, 2, 3));
+  EXPECT_EQ(path.front().pose->time, 0.0);
+  EXPECT_EQ(path.front().pose->rotation, (std::array<double, 4>{0.5, 0.5, -0.5, -0.5}));
+  EXPECT_EQ(path.back().position, Vec3(1, 4, 3));
+  EXPECT_NEAR(path.back().pose->time, 3.5, 1e-3);
+  EXPECT_EQ(path[path.size() - 2].position, Vec3(1, 2, 3));
+  EXPECT_NEAR(path[path.size() - 2].pose->time, 3.0, 0.05);
+}
+
+TEST(PathRecorder, SaysWhereItCannotWrite) {
+  EXPECT_TRUE(contains(error_of([] { PathRecorder("/nowhere/way.path"); }), "/nowhere/way.path"));
+}
+
+TEST(UnusedName, NeverNamesWhatIsThere) {
+  const TestFolder folder;
+  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-1.png"));
+  folder.write("roam-1.png", "");
+  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-2.png"));
+}
+
+TEST(Histogram, TellsQuantilesToAPercent) {
+  Histogram times;
+  EXPECT_EQ(times.quantile(0.5), 0.0);
+  for (int i = 1; i <= 10000; ++i) times.add(100.0 * i);
+  EXPECT_NEAR(times.quantile(0.5), 5e5, 6e3);
+  EXPECT_NEAR(times.quantile(0.99), 9.9e5, 1.2e4);
+  EXPECT_EQ(times.largest(), 1e6);
+}
+
+// ------------------------------------------------------------------------------------------------------- display
+
+TEST(Status, TellsHowLoadingGoesOn) {
+  LoadState state;
+  state.phase = LoadState::Phase::indexing;
+  state.share = 0.6;
+  state.triangles = 1'200'000;
+  state.seconds_left = 8.0;
+  EXPECT_EQ(load_text("collision", state), "collision 81 %: 1.20 M triangles, 8.0 s left");
+  state.phase = LoadState::Phase::failed;
+  state.error = "mine.dae: is no Collada";
+  EXPECT_EQ(load_text("collision", state), "collision failed: mine.dae: is no Collada");
+  state.phase = LoadState::Phase::done;
+  EXPECT_EQ(load_text("collision", state), "");
+}
+
+TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {
+  Status status;
+  EXPECT_TRUE(contains(status_message(status).text, "held until the walls are known"));
+  EXPECT_GE(load_share(status.display, status.collision), 0.0);
+  status.collision.phase = LoadState::Phase::failed;
+  EXPECT_TRUE(contains(status_message(status).text, "passes through walls"));
+  status.display.phase = LoadState::Phase::done;
+  EXPECT_LT(load_share(status.display, status.collision), 0.0);
+}
+
+TEST(Status, SaysModeSpeedBodyAndPlace) {
+  Status status;
+  status.mode = Mode::walk;
+  status.grounded = true;
+  status.speed = 1.4;
+  status.place = {1.0, 2.0, 3.456};
+  status.triangles = 1'970'000;
+  std::string text;
+  for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
+  for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
+    EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
+  }
+}
+
+TEST(Hold, NamesTheWallAndMeasuresItsOpening) {
+  const World world = hall(0.5);
+  Walker walker(world, {}, Mode::walk, {8, 0, 0.95});
+  Hold hold;
+  const Vec3 wish(1.4, 0, 0);
+  for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
+  EXPECT_EQ(hold.told().text, "blocked: wall, Door_12, opening 0.50 m for a body of 0.60 m");
+  EXPECT_TRUE(hold.told().warning);
+  for (int i = 0; i < 60; ++i) hold.take(walker, {}, walker.step({}, 1.0 / 60.0).elapsed);
+  EXPECT_EQ(hold.told().text, "");
+}
+
+TEST(Hold, TellsOfAFall) {
+  const World world = World::build(std::vector<Mesh>{rectangle("ledge", {-5, -5, 4}, {10, 0, 0}, {0, 10, 0}),
+                                                     rectangle("ground", {-50, -50, 0}, {100, 0, 0}, {0, 100, 0})});
+  Walker walker(world, {}, Mode::walk, {0, 0, 4.95});
+  Hold hold;
+  std::string told;
+  for (int i = 0; i < 420; ++i) {
+    hold.take(walker, {1.4, 0, 0}, walker.step({.velocity = {1.4, 0, 0}}, 1.0 / 60.0).elapsed);
+    if (hold.told().text != told && !hold.told().text.empty()) told = hold.told().text;
+  }
+  EXPECT_EQ(told, "fell 4.0 m");
+}
+
+TEST(Hold, TellsOfABodyThatDoesNotFit) {
+  const World world = hall(0.5);
+  Walker walker(world, {}, Mode::walk, {8, 5.0, 0.95});  // its centre is on a triangle: held, see Walker::place
+  Hold hold;
+  hold.take(walker, {}, 0.0);
+  EXPECT_EQ(hold.told().text, "held: the body does not fit here");
+}
+
+// --------------------------------------------------------------------------------------------------------- start
+
+TEST(Start, IsInsideOnTheFloorLookingIntoTheRoom) {
+  const World world = hall(2.0);
+  const StartPlace start = find_start(world, {}, Mode::walk, {}, [] { return true; });
+  EXPECT_EQ(start.mode, Mode::walk);
+  EXPECT_EQ(start.note, "");
+  EXPECT_GT(start.pose.position.z, 0.9);
+  EXPECT_LT(start.pose.position.z, 1.1);
+  EXPECT_GT(world.clearance(Body::capsule(0.3, 1.8), start.pose.position, 1.0).distance, 0.0);
+  const double yaw = start.pose.yaw * 3.14159265358979 / 180.0;
+  const Impact sight = world.ray(start.pose.position, 20.0 * Vec3(std::cos(yaw), std::sin(yaw), 0.0));
+  EXPECT_GT(sight.time * 20.0, 8.0);
+}
+
+TEST(Start, FliesWhereThereIsNoFloor) {
+  const World world = World::build(std::vector<Mesh>{rectangle("cliff", {0, 0, 0}, {10, 0, 0}, {0, 1, 10})});
+  const StartPlace start = find_start(world, {}, Mode::walk, {}, [] { return true; });
+  EXPECT_EQ(start.mode, Mode::fly);
+  EXPECT_NE(start.note, "");
+  EXPECT_GT(world.clearance(Body::capsule(0.3, 1.8), start.pose.position, 1.0).distance, 0.0);
+}
+
+TEST(Start, CanBeEnded) {
+  const World world = hall(2.0);
+  EXPECT_THROW(static_cast<void>(find_start(world, {}, Mode::walk, {}, [] { return false; })), Cancelled);
+}
+
+TEST(Overview, SeesAllOfTheBox) {
+  const Box box{{100, 200, 0}, {300, 260, 30}};
+  const Pose pose = overview(box, 60.0);
+  const double yaw = pose.yaw * 3.14159265358979 / 180.0, pitch = pose.pitch * 3.14159265358979 / 180.0;
+  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                 corner & 4 ? box.upper.z : box.lower.z);
+    EXPECT_GT(glm::dot(glm::normalize(p - pose.position), ahead), std::cos(3.14159265358979 / 6.0));
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------- replay
+
+TEST(Replay, GoesTheWayOfARouteAndLooksAhead) {
+  const World world = hall(2.0);
+  std::istringstream text("2 0 0.3\n18 0 0.3\n18 3 0.3\n");
+  const std::vector<Waypoint> path = read_path(text, "p");
+  WalkerSettings settings = WalkerSettings::sphere(0.3);
+  Walker a(world, settings, Mode::walk, path[0].position);
+  Walker b(world, settings, Mode::walk, path[0].position);
+  const RouteResult expected = follow(a, positions(path));
+  Replay replay(b, path, {});
+  double yaw_at_first = 10.0;
+  while (const StepReport* report = replay.advance()) {
+    const Replay::Gaze gaze = replay.gaze(report->elapsed);
+    if (yaw_at_first > 9.0) yaw_at_first = gaze.yaw;
+  }
+  EXPECT_EQ(replay.result().outcome, Outcome::reached);
+  EXPECT_EQ(replay.result().steps, expected.steps);
+  EXPECT_EQ(replay.result().end, expected.end);
+  EXPECT_NEAR(yaw_at_first, 0.0, 1e-9);
+  EXPECT_GT(replay.gaze(0.1).yaw, 0.8);
+}
+
+TEST(Replay, LooksAsThePathWasRecorded) {
+  const World world = hall(2.0);
+  // OpenSceneGraph's camera that looks along +x, up +z.
+  std::istringstream text("0 2 0 0.3 0.5 -0.5 -0.5 0.5\n1 3 0 0.3 0.5 -0.5 -0.5 0.5\n");
+  const std::vector<Waypoint> path = read_path(text, "p");
+  Walker walker(world, WalkerSettings::sphere(0.3), Mode::fly, path[0].position);
+  Replay replay(walker, path, {});
+  const Replay::Gaze gaze = replay.gaze(0.0);
+  EXPECT_NEAR(gaze.yaw, 0.0, 1e-9);
+  EXPECT_NEAR(gaze.pitch, 0.0, 1e-9);
+}
+
+TEST(Replay, EndsWhereThePersonTakesOver) {
+  const World world = hall(2.0);
+  std::istringstream text("2 0 0.3\n18 0 0.3\n");
+  Walker walker(world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3});
+  Replay replay(walker, read_path(text, "p"), {});
+  ASSERT_NE(replay.advance(), nullptr);
+  walker.set_mode(Mode::fly);
+  EXPECT_EQ(replay.advance(), nullptr);
+  EXPECT_TRUE(replay.left());
+}
+
+}  // namespace

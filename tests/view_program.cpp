@@ -1,0 +1,334 @@
+// roam view without a screen, as a shell sees it; and what it says where something is missing.
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "view_scenes.h"
+
+namespace {
+
+struct View {
+  TestFolder folder;
+  std::string scene;
+  ProgramResult result;
+  double seconds = 0.0;
+
+  explicit View(const std::string& text = room_obj()) : scene(folder.write("scene.obj", text)) {
+    use_no_settings(folder);
+    unsetenv("ROAM_READER");
+  }
+  View& run(const std::vector<std::string>& more, const ProgramOptions& options = {}) {
+    std::vector<std::string> arguments{"view", scene};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto start = std::chrono::steady_clock::now();
+    result = run_program(ROAM_PROGRAM, arguments, options);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return *this;
+  }
+  /// The same, without a screen, small, with the report.
+  View& shot(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--headless", "--size",       "320x200",
+                                       "--json",     "--screenshot", folder.file("shot.png")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(result.out, nullptr, false); }
+  [[nodiscard]] Shot picture() const { return Shot(folder.file("shot.png")); }
+
+  /// A reader that does something else; `$0.real` is the true one.
+  void set_reader(const std::string& script) const {
+    const std::string file = folder.write("reader", "#!/bin/sh\nreal='" ROAM_READER_PROGRAM "'\n" + script);
+    ::chmod(file.c_str(), 0755);
+    setenv("ROAM_READER", file.c_str(), 1);
+  }
+};
+
+// ------------------------------------------------------------------------------------------------------- pictures
+
+TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
+  View view;
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_EQ(view.picture().width(), 320);
+  EXPECT_EQ(view.picture().height(), 200);
+  EXPECT_GT(view.picture().colours(), 8u);
+  const nlohmann::json report = view.json();
+  for (const char* key :
+       {"scene", "triangles", "mode", "radius", "height", "outcome", "steps", "collision_ns", "frames", "frame_ms",
+        "violations", "start", "end", "memory", "renderer", "hud", "notes", "missing_textures", "written"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["triangles"], 12);
+  EXPECT_EQ(report["mode"], "walk");
+  EXPECT_EQ(report["height"], 1.8);
+  for (const char* part : {"walk", "radius 0.30 m", "place", "memory", "collision"}) {
+    EXPECT_TRUE(contains(all(report["hud"]), part)) << part;
+  }
+  // In a closed room there is no sky, and nothing but sky above its roof.
+  EXPECT_GT(View(room_obj()).shot({"--hud", "off", "--mode", "fly", "--at", "5,0,9,0,80"}).picture().sky(), 0.9);
+  EXPECT_LT(View(room_obj()).shot({"--hud", "off"}).picture().sky(), 0.001);
+}
+
+TEST(ViewPicture, OfAWallAtTheNoseIsNotCut) {
+  for (const char* place : {"0.3005,0,0.9,180", "2,1.6995,0.9,90", "2,0,0.9,0,-90", "19.6995,1.6995,0.9,45"}) {
+    View view;
+    view.shot({"--hud", "off", "--at", place});
+    ASSERT_EQ(view.result.status, 0) << view.result.err;
+    EXPECT_LT(view.picture().sky(), 0.001) << place;
+  }
+}
+
+TEST(ViewPicture, IsTakenWhereOneAskedFor) {
+  View view;
+  view.shot({"--at", "15,1,0.95,180,-10", "--mode", "fly"});
+  const nlohmann::json report = view.json();
+  EXPECT_NEAR(report["end"]["position"][0], 15.0, 1e-6);
+  EXPECT_NEAR(report["end"]["position"][1], 1.0, 1e-6);
+  EXPECT_NEAR(report["end"]["position"][2], 0.95, 1e-6);
+  EXPECT_NEAR(std::abs(report["end"]["yaw"].get<double>()), 180.0, 1e-6);
+  EXPECT_NEAR(report["end"]["pitch"], -10.0, 1e-6);
+}
+
+TEST(ViewPicture, FarFromTheOriginIsTheSame) {
+  View near;
+  near.shot({"--hud", "off", "--at", "5,0,0.95,0", "--mode", "fly"});
+  std::string far_room;
+  for (const char* line :
+       {"v 4000000 4999998 0", "v 4000020 4999998 0", "v 4000020 5000002 0", "v 4000000 5000002 0",
+        "v 4000000 4999998 3", "v 4000020 4999998 3", "v 4000020 5000002 3", "v 4000000 5000002 3"}) {
+    far_room += std::string(line) + "\n";
+  }
+  View far(far_room + room_obj().substr(room_obj().find("o floor")));
+  far.shot({"--hud", "off", "--at", "4000005,5000000,0.95,0", "--mode", "fly"});
+  ASSERT_EQ(far.result.status, 0) << far.result.err;
+  double worst = 0.0;
+  const Shot a = near.picture(), b = far.picture();
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 320; ++x) worst = std::max<double>(worst, std::abs(a.at(x, y).g() - b.at(x, y).g()));
+  }
+  EXPECT_LT(worst, 0.25);  // an edge may fall into the next pixel's sample
+  EXPECT_GT(far.json()["start"]["position"][0], 4e6);
+}
+
+// --------------------------------------------------------------------------------------------------------- paths
+
+TEST(ViewPath, IsGoneExactlyAsRoamWalkGoesIt) {
+  View view;
+  const std::string path = view.folder.write("p.path", "2 0 0.3\n10 1 0.3\n18 -1 0.3\n");
+  view.shot({"--path", path, "--trace", view.folder.file("view.csv"), "--verify"});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  const ProgramResult walk = run_program(
+      ROAM_PROGRAM, {"walk", view.scene, "--path", path, "--trace", view.folder.file("walk.csv"), "--json"});
+  const nlohmann::json expected = nlohmann::json::parse(walk.out), report = view.json();
+  EXPECT_EQ(report["outcome"], "reached");
+  for (const char* key : {"steps", "length_m", "least_clearance_m", "radius", "height", "mode"}) {
+    EXPECT_EQ(report[key], expected[key]) << key;
+  }
+  EXPECT_EQ(report["end"]["position"], expected["end"]["position"]);
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_EQ(view.folder.read("view.csv"), view.folder.read("walk.csv"));
+  EXPECT_GT(view.picture().colours(), 8u);
+}
+
+TEST(ViewPath, ThatIsBlockedAnswersNoAndSaysByWhat) {
+  View view;
+  const std::string path = view.folder.write("p.path", "2 0 0.3\n25 0 0.3\n");
+  view.run({"--headless", "--path", path, "--json"});
+  EXPECT_EQ(view.result.status, 3) << view.result.err;
+  EXPECT_EQ(view.json()["outcome"], "blocked");
+  EXPECT_EQ(view.json()["blocked_at"]["object"], "front");
+  EXPECT_TRUE(contains(all(view.json()["hud"]), "blocked: wall, front")) << view.json()["hud"];
+}
+
+TEST(ViewPath, IsRecordedAndCanBeGoneAgain) {
+  View view;
+  const std::string path = view.folder.write("p.path", "2 0 0.3\n18 1 0.3\n");
+  view.run({"--headless", "--path", path, "--json", "--record-path", view.folder.file("again.path")});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  const nlohmann::json first = view.json();
+  view.run({"--headless", "--path", view.folder.file("again.path"), "--json"});
+  EXPECT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_NEAR(view.json()["length_m"], first["length_m"], 0.1);
+}
+
+TEST(ViewPath, IsFilmed) {
+  View view;
+  const std::string path = view.folder.write("p.path", "2 0 0.3\n4.8 0 0.3\n");
+  view.run({"--headless", "--size", "160x96", "--path", path, "--record", view.folder.file("film.mp4")});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  const ProgramResult probe =
+      run_program("/usr/bin/ffprobe", {"-v", "error", "-show_entries", "stream=width,height:format=duration", "-of",
+                                       "default=noprint_wrappers=1", view.folder.file("film.mp4")});
+  EXPECT_TRUE(contains(probe.out, "width=160")) << probe.out << probe.err;
+  EXPECT_TRUE(contains(probe.out, "height=96"));
+  const double seconds = std::stod(probe.out.substr(probe.out.find("duration=") + 9));
+  EXPECT_NEAR(seconds, 2.0, 0.2);  // 2.8 m at 1.4 m/s
+}
+
+// -------------------------------------------------------------------------------------- usage, settings, bookmarks
+
+TEST(ViewUsage, PrintsTheTableOfKeysAsTheSettingsHaveIt) {
+  const TestFolder folder;
+  use_no_settings(folder);
+  ProgramResult plain = run_program(ROAM_PROGRAM, {"view", "--keys"});
+  EXPECT_EQ(plain.status, 0);
+  for (const char* part : {"forward", "W, Up", "bookmark", "Escape", "1 to 8"}) EXPECT_TRUE(contains(plain.out, part));
+  const std::string settings = folder.write("s.json", R"({"keys": {"forward": ["Z", "Up"]}})");
+  EXPECT_TRUE(contains(run_program(ROAM_PROGRAM, {"view", "--keys", "--settings", settings}).out, "Z, Up"));
+}
+
+TEST(ViewUsage, SaysWhatIsWrong) {
+  View view;
+  EXPECT_EQ(run_program(ROAM_PROGRAM, {"view"}).status, 2);
+  EXPECT_EQ(view.run({"--headless"}).result.status, 2);
+  EXPECT_EQ(view.run({"--at", "1,2"}).result.status, 2);
+  EXPECT_EQ(view.shot({"--bookmark", "shaft"}).result.status, 2);
+  EXPECT_TRUE(contains(view.result.err, "no bookmarks")) << view.result.err;
+  const std::string settings = view.folder.write("s.json", R"({"keys": {"forward": ["NoSuchKey"]}})");
+  EXPECT_EQ(view.shot({"--settings", settings}).result.status, 2);
+  EXPECT_TRUE(contains(view.result.err, "s.json") && contains(view.result.err, "NoSuchKey")) << view.result.err;
+}
+
+TEST(ViewUsage, StartsAtABookmark) {
+  View view;
+  std::filesystem::create_directories(view.folder.file("config/roam"));
+  const nlohmann::json scene = {{"scene", {std::filesystem::canonical(view.scene).string()}},
+                                {"bookmarks", {{{"name", "door"}, {"position", {7, 1, 0.95}}, {"yaw", 90}}}}};
+  view.folder.write("config/roam/bookmarks.json", nlohmann::json::array({scene}).dump());
+  view.shot({"--bookmark", "door"});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_NEAR(view.json()["end"]["position"][0], 7.0, 1e-6);
+  EXPECT_NEAR(view.json()["end"]["yaw"], 90.0, 1e-6);
+}
+
+// ------------------------------------------------------------------------------------------------ what is missing
+
+TEST(ViewMissing, DisplaySaysHeadless) {
+  View view;
+  const char* display = std::getenv("DISPLAY");
+  const std::string before = display == nullptr ? "" : display;
+  unsetenv("DISPLAY");
+  EXPECT_EQ(view.run({}).result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "--headless")) << view.result.err;
+  setenv("DISPLAY", ":4711", 1);
+  EXPECT_EQ(view.run({}).result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "--headless")) << view.result.err;
+  before.empty() ? unsetenv("DISPLAY") : setenv("DISPLAY", before.c_str(), 1);
+}
+
+TEST(ViewMissing, OpenGlSaysWhatToInstall) {
+  View view;
+  setenv("ROAM_HEADLESS", "xvfb", 1);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", view.folder.file("").c_str(), 1);
+  view.shot({});
+  setenv("PATH", path.c_str(), 1);
+  unsetenv("ROAM_HEADLESS");
+  EXPECT_EQ(view.result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "xvfb")) << view.result.err;
+}
+
+TEST(ViewMissing, TextureIsNotedAndTheRestShown) {
+  View view("mtllib scene.mtl\nusemtl wall\n" + room_obj());
+  view.folder.write("scene.mtl", "newmtl wall\nKd 1 1 1\nmap_Kd gone.png\n");
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_EQ(view.json()["missing_textures"], 1);
+  EXPECT_TRUE(contains(all(view.json()["notes"]), "gone.png")) << view.json()["notes"];
+  EXPECT_TRUE(contains(view.result.err, "gone.png"));
+  EXPECT_GT(view.picture().colours(), 8u);
+}
+
+TEST(ViewMissing, PagesOfTilesAreNoted) {
+  const char* data = std::getenv("ROAM_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "ROAM_TEST_DATA names no folder of scenes";
+  View view;
+  view.scene = std::string(data) + "/contextcapture_tiles/Tile_+010_+005_L22_000020t4.osgb";
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_GT(view.json()["missing_pages"], 0);
+  EXPECT_TRUE(contains(all(view.json()["notes"]), "coarser")) << view.json()["notes"];
+  EXPECT_GT(view.picture().colours(), 20u);
+}
+
+TEST(ViewMissing, TrianglesAreAnError) {
+  const TestFolder folder;
+  use_no_settings(folder);
+  const std::string scene =
+      folder.write("point.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                   "end_header\n1 2 3\n");
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"view", scene, "--headless", "--screenshot", folder.file("shot.png")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "point.ply")) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("shot.png")));
+}
+
+TEST(ViewMissing, AllButOnePointIsShown) {
+  View view("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_EQ(view.json()["triangles"], 1);
+}
+
+TEST(ViewMissing, FloorMakesTheBodyFly) {
+  View view("v 0 0 0\nv 10 0 0\nv 10 1 9\nv 0 1 9\nf 1 2 3 4\n");
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_EQ(view.json()["mode"], "fly");
+  EXPECT_FALSE(view.json()["notes"].empty());
+}
+
+TEST(ViewMissing, SceneIsAnError) {
+  View view;
+  view.scene = view.folder.file("gone.obj");
+  EXPECT_EQ(view.shot({}).result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "gone.obj")) << view.result.err;
+  view.scene = view.folder.write("broken.obj", "v 0 0 0\nf 1 2 99\nv nonsense\n");
+  EXPECT_EQ(view.shot({}).result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "broken.obj")) << view.result.err;
+}
+
+TEST(ViewMissing, CollisionLeavesAGhost) {
+  View view;
+  view.set_reader("case \"$*\" in *--display*) exec \"$real\" \"$@\";; esac\nexit 1\n");
+  view.shot({});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_EQ(view.json()["mode"], "ghost");
+  EXPECT_TRUE(contains(all(view.json()["notes"]), "collision")) << view.json()["notes"];
+  EXPECT_TRUE(contains(all(view.json()["hud"]), "passes through walls")) << view.json()["hud"];
+  // What needs walls is refused.
+  const std::string path = view.folder.write("p.path", "2 0 0.9\n4 0 0.9\n");
+  EXPECT_EQ(view.run({"--headless", "--path", path}).result.status, 1);
+}
+
+TEST(ViewMissing, PictureLeavesTheWalls) {
+  View view;
+  view.set_reader("case \"$*\" in *--display*) exit 1;; esac\nexec \"$real\" \"$@\"\n");
+  const std::string path = view.folder.write("p.path", "2 0 0.3\n25 0 0.3\n");
+  view.run({"--headless", "--path", path, "--json"});
+  EXPECT_EQ(view.result.status, 3) << view.result.err;
+  EXPECT_EQ(view.json()["outcome"], "blocked");
+  EXPECT_TRUE(contains(all(view.json()["notes"]), "can be seen")) << view.json()["notes"];
+}
+
+// ----------------------------------------------------------------------------------------------------- interrupts
+
+TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
+  View view;
+  const std::string pids = view.folder.file("pids");
+  view.set_reader("echo $$ >> '" + pids + "'\nexec sleep 100\n");
+  view.run({"--headless", "--screenshot", view.folder.file("shot.png")}, {.interrupt_after = 1.5});
+  EXPECT_EQ(view.result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
+  EXPECT_LT(view.seconds, 1.5 + 1.5);
+  std::ifstream in(pids);
+  int count = 0;
+  for (pid_t pid = 0; in >> pid; ++count) EXPECT_NE(::kill(pid, 0), 0) << "a reader still runs";
+  EXPECT_EQ(count, 2);
+}
+
+}  // namespace

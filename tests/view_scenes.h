@@ -1,0 +1,60 @@
+#pragma once
+// What the tests of roam view share: scenes, pictures, and the report.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <osg/Image>
+#include <osgDB/ReadFile>
+#include <set>
+#include <string>
+
+#include "cli_scenes.h"
+#include "program.h"
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A picture that was written.
+struct Shot {
+  osg::ref_ptr<osg::Image> image;
+
+  explicit Shot(const std::string& file) : image(osgDB::readRefImageFile(file)) {
+    if (!image) throw std::runtime_error("no picture: " + file);
+  }
+  [[nodiscard]] int width() const { return image->s(); }
+  [[nodiscard]] int height() const { return image->t(); }
+  /// Red, green and blue in [0, 1].
+  [[nodiscard]] osg::Vec4 at(int x, int y) const {
+    return image->getColor(static_cast<unsigned>(x), static_cast<unsigned>(y));
+  }
+  /// How many colours there are, as an eye tells them apart: a blank picture has one.
+  [[nodiscard]] std::size_t colours() const {
+    std::set<int> seen;
+    for (int y = 0; y < height(); y += 2) {
+      for (int x = 0; x < width(); x += 2) {
+        const osg::Vec4 c = at(x, y);
+        seen.insert(static_cast<int>(c.r() * 15) * 256 + static_cast<int>(c.g() * 15) * 16 +
+                    static_cast<int>(c.b() * 15));
+      }
+    }
+    return seen.size();
+  }
+  /// The share of pixels that are as blue as the sky: scenes of the tests are grey.
+  [[nodiscard]] double sky() const {
+    int blue = 0;
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) blue += at(x, y).b() > at(x, y).r() + 0.1f;
+    }
+    return static_cast<double>(blue) / (width() * height());
+  }
+};
+
+/// Settings and bookmarks of the person who runs the tests are none of theirs.
+inline void use_no_settings(const TestFolder& folder) { setenv("XDG_CONFIG_HOME", folder.file("config").c_str(), 1); }
+
+inline std::string all(const nlohmann::json& lines) {
+  std::string text;
+  for (const auto& line : lines) text += line.get<std::string>() + "\n";
+  return text;
+}

@@ -1,0 +1,232 @@
+// A session of roam view that nobody sits at: driven frame by frame, without a screen.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "roam/error.h"
+#include "view/session.h"
+#include "view_scenes.h"
+
+namespace {
+
+using namespace roam;
+using namespace roam::app;
+
+/// A person's keyboard, and the session that they are in.
+class Driven {
+ public:
+  explicit Driven(const std::string& text, const std::vector<double>& at = {}, const ViewSettings& settings = {}) {
+    use_no_settings(folder);
+    setenv("ROAM_READER", ROAM_READER_PROGRAM, 1);
+    options.scene.scenes = {folder.write("scene.obj", text)};
+    options.headless = true;
+    options.size = "160x100";
+    options.time_limit = 1e6;
+    options.verify = true;
+    options.at = at;
+    session.emplace(options, make_plan(options, settings), settings);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!session->roaming() && std::chrono::steady_clock::now() < end) session->frame();
+    if (!session->roaming()) throw std::runtime_error("nothing was loaded");
+  }
+  ~Driven() { unsetenv("ROAM_READER"); }
+
+  void press(int key) { events().keyPress(key); }
+  void release(int key) { events().keyRelease(key); }
+  void tap(int key) {
+    press(key);
+    release(key);
+    run(1.0 / 60.0);
+  }
+  void run(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 60.0 + 0.5); ++i) ASSERT_TRUE(session->frame());
+  }
+  [[nodiscard]] const Vec3& place() { return session->roamer().walker()->position(); }
+  [[nodiscard]] std::string hud() {
+    run(0.2);
+    return session->stage().hud().text();
+  }
+  [[nodiscard]] Verification verified() {
+    const ViewReport report = session->finish();
+    return verify(report.meshes, report.pieces);
+  }
+
+  TestFolder folder;
+  ViewOptions options;
+  std::optional<Session> session;
+
+ private:
+  osgGA::EventQueue& events() { return *session->stage().viewer().getEventQueue(); }
+};
+
+TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.press('w');
+  d.run(2.0);
+  EXPECT_NEAR(d.place().x, 12.8, 0.2);  // 1.4 m/s
+  d.run(8.0);
+  EXPECT_NEAR(d.place().x, 19.7, 0.01);
+  EXPECT_TRUE(contains(d.hud(), "blocked: wall, front")) << d.hud();
+  d.release('w');
+  d.run(1.0);
+  EXPECT_FALSE(contains(d.hud(), "blocked")) << d.hud();
+  const Verification proof = d.verified();
+  EXPECT_GT(proof.pieces, 300u);
+  EXPECT_EQ(proof.violations, 0u);
+}
+
+TEST(Session, TakesTheKeysOfTheSettings) {
+  ViewSettings settings;
+  settings.keys = {{"forward", {"T"}}};
+  Driven d(room_obj(), {10, 0, 0.95, 0}, settings);
+  d.press('w');
+  d.run(1.0);
+  EXPECT_NEAR(d.place().x, 10.0, 1e-6);
+  d.press('t');
+  d.run(1.0);
+  EXPECT_GT(d.place().x, 11.0);
+}
+
+TEST(Session, HomeReturnsToTheStart) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  d.run(0.5);
+  const Vec3 start = d.place();
+  d.press('s');
+  d.run(2.0);
+  d.release('s');
+  EXPECT_GT(glm::distance(d.place(), start), 1.0);
+  d.tap(osgGA::GUIEventAdapter::KEY_Home);
+  d.run(0.2);
+  EXPECT_LT(glm::distance(d.place(), start), 0.1);
+}
+
+TEST(Session, CyclesTheDisplayAndShowsTheHelp) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  EXPECT_TRUE(contains(d.hud(), "place"));
+  d.tap('h');
+  EXPECT_TRUE(contains(d.hud(), "goes to what was clicked"));
+  EXPECT_TRUE(contains(d.hud(), "keeps this place as a bookmark"));
+  d.tap('h');
+  EXPECT_FALSE(contains(d.hud(), "bookmark"));
+  d.tap(osgGA::GUIEventAdapter::KEY_F1);
+  EXPECT_FALSE(contains(d.hud(), "place"));
+  EXPECT_TRUE(contains(d.hud(), "walk"));
+  d.tap(osgGA::GUIEventAdapter::KEY_F1);
+  EXPECT_EQ(d.hud(), "");
+}
+
+TEST(Session, KeepsBookmarksAndGoesThere) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  d.run(0.5);
+  const Vec3 kept = d.place();
+  d.tap('b');
+  d.press('w');
+  d.run(2.0);
+  d.release('w');
+  d.tap('b');
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  const Vec3 first = d.place();
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  const Vec3 second = d.place();
+  EXPECT_LT(std::min(glm::distance(first, kept), glm::distance(second, kept)), 0.1);
+  EXPECT_GT(glm::distance(first, second), 2.0);
+  EXPECT_TRUE(std::filesystem::exists(d.folder.file("config/roam/bookmarks.json")));
+}
+
+TEST(Session, RecordsTheWayThatWasWalked) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.tap('r');
+  EXPECT_TRUE(contains(d.hud(), "roam-1.path")) << d.hud();
+  d.press('w');
+  d.run(2.0);
+  d.release('w');
+  d.tap('r');
+  std::filesystem::current_path(before);
+  const std::vector<Waypoint> path = load_path(d.folder.file("roam-1.path"));
+  EXPECT_NEAR(path.front().position.x, 10.0, 0.1);
+  EXPECT_LT(glm::distance(path.back().position, d.place()), 1e-6);
+  ASSERT_TRUE(path.back().pose.has_value());
+  EXPECT_GT(path.back().pose->time, 1.9);
+}
+
+TEST(Session, SwitchesToTheCamerasOfOsgviewerAndBack) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.tap('2');
+  EXPECT_FALSE(d.session->roamer_leads());
+  EXPECT_TRUE(contains(d.hud(), "trackball")) << d.hud();
+  // The viewer's own commands work all the same.
+  d.tap('h');
+  EXPECT_TRUE(contains(d.hud(), "looks around"));
+  d.tap('h');
+  d.tap('1');
+  EXPECT_TRUE(d.session->roamer_leads());
+  d.press('w');
+  d.run(1.0);
+  EXPECT_EQ(d.verified().violations, 0u);
+}
+
+TEST(Session, ShowsTheBodyAndWhatIsNear) {
+  Driven d(room_obj(), {19, 0, 0.95, 0});
+  d.press('w');
+  d.run(1.0);
+  d.tap('v');
+  const std::string shot = d.folder.file("marks.png");
+  d.session->stage().draw_picture(shot, 0.0);
+  const Shot marked(shot);
+  d.tap('v');
+  d.session->stage().draw_picture(shot, 0.0);
+  const Shot plain(shot);
+  int different = 0;
+  for (int y = 0; y < plain.height(); ++y) {
+    for (int x = 0; x < plain.width(); ++x) different += (plain.at(x, y) - marked.at(x, y)).length() > 0.1f;
+  }
+  EXPECT_GT(different, 50);
+}
+
+TEST(Session, IsAGhostAndComesBackToASafePlace) {
+  Driven d(room_obj(), {19, 0, 0.95, 0});
+  d.run(0.3);
+  d.tap('n');
+  d.press('w');
+  d.run(0.7);
+  EXPECT_GT(d.place().x, 19.71);
+  d.release('w');
+  d.tap('n');
+  d.run(0.3);
+  EXPECT_EQ(d.session->roamer().mode(), Mode::walk);
+  EXPECT_EQ(d.verified().violations, 0u);
+}
+
+TEST(Session, FallsNowhereForGood) {
+  // A floor that ends: whoever walks over its edge, where nothing is below, is put back.
+  Driven d("v 0 -2 0\nv 5 -2 0\nv 5 2 0\nv 0 2 0\nf 1 2 3 4\n", {3, 0, 0.95, 0});
+  d.press('w');
+  d.run(10.0);
+  d.release('w');
+  d.run(1.0);
+  EXPECT_GT(d.place().z, 0.0);
+  EXPECT_LT(d.place().x, 5.6);
+}
+
+TEST(Session, TakesNoMoreMemoryTheLongerItIs) {
+  Driven d(room_obj(), {10, 0, 0.95, 30});
+  d.session->stage().set_hud(HudMode::off);
+  std::uint64_t before = 0;
+  unsigned state = 7;
+  for (int i = 0; i < 36000; ++i) {  // ten minutes
+    if (i == 6000) before = resident_bytes();
+    state = state * 1664525u + 1013904223u;
+    const int key = "wasdqe gnc"[(state >> 16) % 10];
+    (state >> 28) % 2 ? d.press(key) : d.release(key);
+    ASSERT_TRUE(d.session->frame());
+  }
+  // --verify keeps what it will check: about 200 bytes a step.
+  EXPECT_LT(static_cast<double>(resident_bytes()) - static_cast<double>(before), 40e6);
+  EXPECT_EQ(d.verified().violations, 0u);
+}
+
+}  // namespace

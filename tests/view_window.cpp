@@ -1,0 +1,264 @@
+// roam view in a real window, with xdotool as the person.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include "graphics/context.h"
+#include "graphics/xvfb.h"
+#include "view_scenes.h"
+
+// Last: its macros take names that others use.
+#include <X11/Xlib.h>
+
+namespace {
+
+constexpr double patience = 60.0;  // s, for what has to happen on a slow machine
+
+/// A display of our own, for all tests of this program.
+void need_display() {
+  static const osg::ref_ptr<roam::graphics::Xvfb> xvfb = new roam::graphics::Xvfb(1000, 700);
+  setenv("DISPLAY", std::string(":").append(std::to_string(xvfb->display())).c_str(), 1);
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+}
+
+bool try_xdo(const std::string& what) {
+  return std::system(std::string("xdotool ").append(what).append(" > /dev/null 2>&1").c_str()) == 0;
+}
+
+void xdo(const std::string& what) { ASSERT_TRUE(try_xdo(what)) << what; }
+
+void wait(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+bool eventually(const std::function<bool()>& is_so) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+  while (std::chrono::steady_clock::now() < end) {
+    if (is_so()) return true;
+    wait(0.05);
+  }
+  return is_so();
+}
+
+/// The program, in its window, until somebody ends it.
+class Window {
+ public:
+  explicit Window(const std::vector<std::string>& more, const std::string& reader = {}, bool wait_for_body = true) {
+    need_display();
+    use_no_settings(folder);
+    unsetenv("ROAM_READER");
+    if (!reader.empty()) {
+      const std::string file = folder.write("reader", "#!/bin/sh\n" + reader);
+      ::chmod(file.c_str(), 0755);
+      setenv("ROAM_READER", file.c_str(), 1);
+    }
+    scene = folder.write("scene.obj", room_obj());
+    std::vector<std::string> arguments{
+        "-c", "cd \"$0\" && exec \"$@\"", folder.file(""), ROAM_PROGRAM, "view", scene, "--size", "320x200", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    program_ = std::thread([this, arguments] {
+      result = run_program("/bin/sh", arguments);
+      ended_ = true;
+    });
+    EXPECT_TRUE(eventually([&] { return ended_ || try_xdo("search --name '^roam: '"); })) << "no window";
+    focus();
+    if (!wait_for_body) return;
+    // Bookmarks are only kept where there is a body.
+    EXPECT_TRUE(eventually([&] {
+      try_xdo("key b");
+      wait(0.3);
+      return ended_ || std::filesystem::exists(folder.file("config/roam/bookmarks.json"));
+    })) << "no body";
+  }
+  ~Window() {
+    if (!ended_) end();
+    if (program_.joinable()) program_.join();
+  }
+  void focus() { try_xdo("search --name '^roam: ' windowfocus"); }
+
+  /// Ends it by a key, and gives its report.
+  nlohmann::json end() {
+    eventually([&] {
+      if (!ended_) try_xdo("key F10");
+      wait(0.2);
+      return ended_.load();
+    });
+    return report();
+  }
+  nlohmann::json report() {
+    if (program_.joinable()) program_.join();
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(result.out, nullptr, false);
+  }
+  [[nodiscard]] bool ended() const { return ended_; }
+
+  TestFolder folder;
+  std::string scene;
+  ProgramResult result;
+
+ private:
+  std::thread program_;
+  std::atomic<bool> ended_ = false;
+};
+
+TEST(ViewWindow, WalksWhileAKeyIsDownAndNeverThroughTheWall) {
+  Window w({"--at", "14,0,0.95,0", "--verify", "--trace", "way.csv"});
+  xdo("keydown w");
+  wait(2.0);
+  xdo("keyup w");
+  wait(1.0);
+  xdo("keydown shift keydown w");
+  wait(3.0);
+  xdo("keyup w keyup shift");
+  const nlohmann::json report = w.end();
+  EXPECT_NEAR(report["end"]["position"][0], 19.7, 0.01);
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_GT(report["verified"]["pieces"], 50);
+  EXPECT_GT(report["frames"], 10);
+  // The trace tells the same: nothing of it is beyond the wall, and the last row is where the body is.
+  std::istringstream rows(w.folder.read("way.csv"));
+  std::string row, last;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "step,t,x,y,z,radius,height,clearance,contacts,event,teleport");
+  std::size_t count = 0;
+  for (; std::getline(rows, row); ++count) {
+    std::istringstream fields(row);
+    std::string step, t, x;
+    std::getline(fields, step, ',');
+    std::getline(fields, t, ',');
+    std::getline(fields, x, ',');
+    EXPECT_LT(std::stod(x), 19.700001);
+    last = x;
+  }
+  EXPECT_GT(count, 100u);
+  EXPECT_NEAR(std::stod(last), report["end"]["position"][0], 1e-9);
+}
+
+TEST(ViewWindow, StopsWhenItLosesTheKeyboard) {
+  Window w({"--at", "2,0,0.95,0"});
+  const roam::graphics::Context other = roam::graphics::open_window("other", 100, 80);
+  xdo("keydown w");
+  wait(0.7);
+  xdo("search --name '^other$' windowfocus");
+  wait(3.0);  // 4.2 m, had it gone on
+  xdo("keyup w");
+  w.focus();
+  wait(0.5);
+  const nlohmann::json report = w.end();
+  EXPECT_GT(report["length_m"], 0.2);
+  EXPECT_LT(report["length_m"], 3.5);
+}
+
+TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("search --name '^roam: ' windowsize 500 400");
+  wait(1.5);
+  xdo("key p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-1.png")); }));
+  const Shot picture(w.folder.file("roam-1.png"));
+  EXPECT_EQ(picture.width(), 500);
+  EXPECT_EQ(picture.height(), 400);
+  EXPECT_GT(picture.colours(), 8u);
+  const nlohmann::json report = w.end();
+  EXPECT_EQ(report["written"][0], "./roam-1.png");
+}
+
+TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("mousemove 160 100");
+  wait(0.5);
+  xdo("key m");
+  wait(1.0);
+  for (int i = 0; i < 8; ++i) {
+    xdo("mousemove_relative -- -20 0");
+    wait(0.2);
+  }
+  xdo("key Escape");
+  wait(1.5);
+  EXPECT_FALSE(w.ended());
+  xdo("key Escape");
+  EXPECT_TRUE(eventually([&] { return w.ended(); }));
+  EXPECT_GT(w.report()["end"]["yaw"], 10.0);
+}
+
+TEST(ViewWindow, DragsLookAround) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("mousemove 100 100 mousedown 1");
+  wait(0.3);
+  xdo("mousemove 150 100");
+  wait(0.3);
+  xdo("mousemove 150 150");
+  wait(0.3);
+  xdo("mouseup 1");
+  const nlohmann::json report = w.end();
+  EXPECT_NE(report["end"]["yaw"], 0.0);
+  EXPECT_NE(report["end"]["pitch"], 0.0);
+}
+
+TEST(ViewWindow, ReplaysAPathInItsOwnTime) {
+  const TestFolder folder;
+  const std::string path = folder.write("p.path", "2 0 0.3\n6.2 0 0.3\n");
+  const auto begin = std::chrono::steady_clock::now();
+  Window w({"--path", path, "--verify"}, {}, false);
+  const nlohmann::json report = w.report();
+  EXPECT_GT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 3.0);  // 4.2 m at 1.4 m/s
+  EXPECT_EQ(report["outcome"], "reached");
+  EXPECT_EQ(report["violations"], 0);
+}
+
+// ------------------------------------------------------------------------------------------- closed while it loads
+
+/// As a window manager does when the cross is clicked.
+void close_window() {
+  Display* display = XOpenDisplay(nullptr);
+  ASSERT_NE(display, nullptr);
+  FILE* found = ::popen("xdotool search --name '^roam: '", "r");
+  unsigned long window = 0;
+  ASSERT_EQ(std::fscanf(found, "%lu", &window), 1);
+  ::pclose(found);
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = window;
+  event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
+  XSendEvent(display, window, False, NoEventMask, &event);
+  XCloseDisplay(display);
+}
+
+TEST(ViewWindow, ClosedWhileLoadingEndsAtOnceAndLeavesNoReader) {
+  Window w({}, "echo $$ >> \"$(dirname \"$0\")/pids\"\nexec sleep 100\n", false);
+  EXPECT_TRUE(eventually([&] {
+    const std::string pids = w.folder.read("pids");
+    return std::count(pids.begin(), pids.end(), '\n') == 2;
+  }));
+  wait(1.0);
+  const auto begin = std::chrono::steady_clock::now();
+  close_window();
+  EXPECT_TRUE(eventually([&] { return w.ended(); }));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2.0);
+  const nlohmann::json report = w.report();
+  EXPECT_EQ(report["roamed"], false);
+  std::string hud;
+  for (const auto& line : report["hud"]) hud += line.get<std::string>() + "\n";
+  EXPECT_TRUE(contains(hud, "held until the walls are known")) << hud;
+  std::istringstream pids(w.folder.read("pids"));
+  for (pid_t pid = 0; pids >> pid;) EXPECT_NE(::kill(pid, 0), 0) << "a reader still runs";
+}
+
+TEST(ViewWindow, ClosedWhileRoamingEndsInGoodOrder) {
+  Window w({"--trace", "way.csv"});
+  close_window();
+  EXPECT_TRUE(eventually([&] { return w.ended(); }));
+  EXPECT_EQ(w.report()["roamed"], true);
+  EXPECT_GT(w.folder.read("way.csv").size(), 100u);
+}
+
+}  // namespace
