@@ -217,7 +217,11 @@ TEST(OsgIntersector, FindsThroughAFlatteningTransform) {
   // The shadow of a box on the floor: nothing can be brought back through that matrix.
   osg::ref_ptr<osg::MatrixTransform> shadow = new osg::MatrixTransform(osg::Matrixd::scale(1.0, 1.0, 0.0));
   shadow->setCullingActive(false);
-  shadow->addChild(floor_at(40.0));
+  osg::ref_ptr<osg::Geometry> box = floor_at(40.0);
+  osg::ref_ptr<osg::Vec3Array> floats = new osg::Vec3Array;
+  for (const osg::Vec3d& v : *static_cast<const osg::Vec3dArray*>(box->getVertexArray())) floats->push_back(v);
+  box->setVertexArray(floats);
+  shadow->addChild(box);
   const auto hit = ask(*shadow, {0.5}, {0.2, 0.1, 1.5}, {0, 0, -2})->getFirstIntersection();
   EXPECT_NEAR(hit.time, 0.5, 1e-9);
   EXPECT_NEAR(hit.localIntersectionPoint.x(), 0.2, 1e-9);

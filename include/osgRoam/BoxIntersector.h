@@ -136,7 +136,6 @@ class BoxIntersector : public osgUtil::Intersector {
   double _boundsMargin = 0.0;
   osg::Vec3d _lower, _upper;  ///< box of the swept body
 
-  bool _ignored = false;  ///< what is below has no place in the scene's space
   bool _identity = true;  ///< the two matrices are
   osg::Matrixd _matrix;   ///< from the frame of the drawables below to the intersector's
   osg::Matrixd _inverse;  ///< meaningless where that has none

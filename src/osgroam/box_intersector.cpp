@@ -81,7 +81,6 @@ osgUtil::Intersector* BoxIntersector::clone(osgUtil::IntersectionVisitor& visito
   below->_precisionHint = _precisionHint;
   below->_gather = _gather;
   below->_boundsMargin = _boundsMargin;
-  below->_ignored = _ignored || isElsewhere(visitor.getNodePath());
   osg::Matrixd matrix;
   if (_coordinateFrame == VIEW && visitor.getViewMatrix() != nullptr) matrix = *visitor.getViewMatrix();
   if (visitor.getModelMatrix() != nullptr) matrix.preMult(*visitor.getModelMatrix());
@@ -123,7 +122,7 @@ bool BoxIntersector::beyond(const osg::BoundingBox& box) {
 }
 
 bool BoxIntersector::enter(const osg::Node& node) {
-  if (_ignored || reachedLimit()) return false;
+  if (reachedLimit()) return false;
   if (!node.isCullingActive()) return true;
   const osg::BoundingSphere& sphere = node.getBound();
   if (!sphere.valid()) return true;
@@ -134,7 +133,7 @@ bool BoxIntersector::enter(const osg::Node& node) {
 }
 
 void BoxIntersector::intersect(osgUtil::IntersectionVisitor& visitor, osg::Drawable* drawable) {
-  if (_ignored || reachedLimit()) return;
+  if (reachedLimit()) return;
   const osg::Geometry* geometry = drawable->asGeometry();
   if (geometry == nullptr || roam::osg_triangles::has_no_surface(*geometry)) return;
   const osg::BoundingBox& box = drawable->getBoundingBox();
