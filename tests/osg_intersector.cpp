@@ -228,6 +228,26 @@ TEST(OsgIntersector, FindsThroughAFlatteningTransform) {
   EXPECT_NEAR(hit.localIntersectionPoint.z(), 40.0, 1e-9);
 }
 
+TEST(OsgIntersector, FindsThroughTransformsThatFlattenAlmost) {
+  // Here there is an inverse, which is good for nothing.
+  Random random(9);
+  const auto turn = [&] { return osg::Matrixd::rotate(random.between(0.0, 6.28), to_osg(random.direction())); };
+  for (int i = 0; i < 300; ++i) {
+    osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+    for (int c = 0; c < 3; ++c) corners->push_back(osg::Vec3(to_osg(random.in_box(5.0))));
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(corners);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    osg::ref_ptr<osg::MatrixTransform> flat =
+        new osg::MatrixTransform(turn() * osg::Matrixd::scale(1.0, 1.0, 1e-15) * turn());
+    flat->setCullingActive(false);
+    flat->addChild(geometry);
+    Vec3 middle(0.0);
+    for (const osg::Vec3& corner : *corners) middle += osg_graphs::placed(corner, flat->getMatrix()) / 3.0;
+    ASSERT_TRUE(ask(*flat, {0.1}, middle, Vec3(0.0))->containsIntersections()) << i;
+  }
+}
+
 TEST(OsgIntersector, FindsTrianglesThatAKdTreeHasDropped) {
   // A triangle that is written as a quad, and a segment, among others.
   osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
