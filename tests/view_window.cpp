@@ -81,6 +81,10 @@ class Window {
     if (!ended_) end();
     if (program_.joinable()) program_.join();
   }
+  /// Moves the mouse to a place in the window, from its upper left corner.
+  void point(int x, int y) {
+    xdo("search --name '^roam: ' mousemove --window %1 " + std::to_string(x) + " " + std::to_string(y));
+  }
   void focus() { try_xdo("search --name '^roam: ' windowfocus"); }
 
   /// Ends it by a key, and gives its report.
@@ -172,7 +176,7 @@ TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
 
 TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
   Window w({"--at", "2,0,0.95,0"});
-  xdo("mousemove 160 100");
+  w.point(160, 100);
   wait(0.5);
   xdo("key m");
   wait(1.0);
@@ -190,11 +194,12 @@ TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
 
 TEST(ViewWindow, DragsLookAround) {
   Window w({"--at", "2,0,0.95,0"});
-  xdo("mousemove 100 100 mousedown 1");
+  w.point(100, 100);
+  xdo("mousedown 1");
   wait(0.3);
-  xdo("mousemove 150 100");
+  w.point(150, 100);
   wait(0.3);
-  xdo("mousemove 150 150");
+  w.point(150, 150);
   wait(0.3);
   xdo("mouseup 1");
   const nlohmann::json report = w.end();
