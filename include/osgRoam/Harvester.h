@@ -9,7 +9,8 @@
 /// Each file is copied in the thread that read it, before anybody else sees its nodes, and becomes patches of the
 /// patchwork: what stands for itself, and for each PagedLOD its coarse children, which the files that it names refine.
 /// What is not there yet is unknown, and solid: the box of the bounding sphere of the PagedLOD or ProxyNode. Call
-/// Patchwork::update between two steps, as its header says.
+/// Patchwork::update between two steps, as its header says, and once after the root has been read, before there is a
+/// body: of a patchwork into which nothing has come nothing is solid.
 ///
 /// Where a file belongs follows from the transforms above the nodes that name it: a file that is named at two places
 /// comes to both when it is first read. Files that the pager drops and reads again are not taken again, and what was
