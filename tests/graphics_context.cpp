@@ -82,6 +82,12 @@ TEST(GraphicsContext, BothDrawTheSamePicture) {
   EXPECT_EQ(differing(*draw(Headless::egl), *draw(Headless::xvfb)), 0);
 }
 
+TEST(GraphicsContext, WhatTheProcessorDrawsIsToldSo) {
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  EXPECT_TRUE(graphics::open_headless(64, 64, Headless::xvfb).abilities.software);
+  unsetenv("LIBGL_ALWAYS_SOFTWARE");
+}
+
 TEST(GraphicsContext, SeveralCanBeOpenAtOnceAndCloseInAnyOrder) {
   auto first = std::make_unique<Stage>(64, 64, graphics::FrameSettings{}, Headless::egl);
   auto second = std::make_unique<Stage>(64, 64, graphics::FrameSettings{}, Headless::egl);

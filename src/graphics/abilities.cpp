@@ -16,6 +16,14 @@ std::string text(GLenum name) {
   return words ? reinterpret_cast<const char*>(words) : "";
 }
 
+/// Whether it is one of Mesa's drivers that need no graphics card.
+bool is_software(const std::string& renderer) {
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
+    if (renderer.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
 /// Whether the driver takes a framebuffer with this depth. Says so only after trying: some name what they then refuse.
 bool takes_depth(osg::GLExtensions& gl, GLenum depth_format) {
   constexpr GLsizei size = 16;
@@ -42,6 +50,7 @@ Abilities ask_current(osg::GraphicsContext& window) {
   Abilities abilities;
   abilities.renderer = text(GL_RENDERER);
   abilities.version = text(GL_VERSION);
+  abilities.software = is_software(abilities.renderer);
   osg::GLExtensions& gl = *window.getState()->get<osg::GLExtensions>();
   const bool frames = gl.isFrameBufferObjectSupported && gl.glBlitFramebuffer != nullptr;
   if (gl.glVersion < least_version || !frames) {

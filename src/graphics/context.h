@@ -22,6 +22,7 @@ struct Abilities {
   std::string renderer{};       ///< as the driver names itself
   std::string version{};        ///< as the driver writes it
   bool reversed_depth = false;  ///< glClipControl and 32-bit float depth buffers, both tried
+  bool software = false;        ///< drawn by the processor: several samples a pixel make it two to three times slower
   int samples = 0;              ///< the most samples a pixel of a framebuffer object can have; 0: no multisampling
 };
 
