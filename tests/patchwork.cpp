@@ -337,6 +337,18 @@ TEST(Patchwork, WhatIsExpectedForAReplacedPatchStandsAlone) {
   EXPECT_NEAR(stopped_at(r.space, 0.2), 0.25, stored);
 }
 
+TEST(Patchwork, AnUpdateThatIsRefusedLosesNothing) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  space.deliver(patch, board(0.5));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(space.update(ball, {nan, 0.0, 0.0}), roam::Error);
+  EXPECT_THROW(space.update({-1.0, 0.0}, {0.5, 0.5, 3.0}), roam::Error);
+  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 3.0}));
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.5, stored);
+  EXPECT_THROW(space.update(ball, {nan, 0.0, 0.0}), roam::Error) << "whether or not there is anything to take";
+}
+
 TEST(Patchwork, TriangleNumbersStayWithTheirPatch) {
   Patchwork space;
   const PatchId first = space.expect(unit);

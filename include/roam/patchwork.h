@@ -93,7 +93,8 @@ class Patchwork final : public Space {
   /// Takes into use what has been delivered. `body` at `place` is where a finer patch must leave room. Returns whether
   /// any triangle or unknown box came or went. Holds the lock that deliver() takes only to swap lists. Costs next to
   /// nothing when nothing came and nothing waits, else a few looks for the nearest triangle, and some microseconds for
-  /// what changed; only where a quarter of all is new is the tree over the patches made anew, 1 us a patch.
+  /// what changed; only where a quarter of all is new is the tree over the patches made anew, 1 us a patch. Throws
+  /// roam::Error for a body or a place that no query takes, and then takes nothing.
   bool update(const Body& body, const Vec3& place);
   /// The same before there is a body.
   bool update();

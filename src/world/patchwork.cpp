@@ -120,6 +120,8 @@ struct Patchwork::State {
   }
 
   bool update(const Patchwork& self, const Body* body, const Vec3& place) {
+    // What throws must do so before the messages are taken: nobody sends them twice.
+    if (body) query::check(*body, place, Vec3(0.0));
     std::vector<Message> messages;
     {
       const std::lock_guard lock(mutex);
