@@ -52,6 +52,72 @@ TEST(ManipulatorFailures, ACallbackThatThrowsDoesNotReachTheViewer) {
   r.down('w');
   EXPECT_NO_THROW(r.frames(0.1));
   EXPECT_EQ(r->problem(), "the trace is full");
+  r->setPose({0.0, 0.0, 3.0}, 0.0, 0.0);
+  r->setStepCallback([](const roam::StepReport&, double) { throw 1; });
+  EXPECT_NO_THROW(r.frames(0.1));
+  EXPECT_NE(r->problem(), "");
+  EXPECT_TRUE(r->held());
+}
+
+TEST(ManipulatorFailures, ACallbackMayReplaceItselfAndLivesUntilItReturns) {
+  Rig r(floor_mesh(), {}, roam::Mode::walk);
+  osgRoam::Manipulator* m = r.manipulator.get();
+  int lived = 0;
+  // What a callback captures is there for as long as it runs.
+  const auto lives = [&lived](auto replace) {
+    const auto captured = std::make_shared<int>();
+    return [&lived, captured, seen = std::weak_ptr<int>(captured), replace](const auto&...) {
+      const std::weak_ptr<int> still = seen;
+      int& count = lived;
+      replace();
+      count += !still.expired();
+      return false;
+    };
+  };
+  r->setStepCallback(lives([m] { m->setStepCallback(nullptr); }));
+  r.frames(0.1);
+  EXPECT_EQ(lived, 1);
+  r->setCommandCallback(lives([m] { m->setCommandCallback(nullptr); }));
+  r->controls().add("own", "F2", "", osgRoam::Controls::Kind::pressed);
+  r.press(rig::Adapter::KEY_F2);
+  EXPECT_EQ(lived, 2);
+  r->setSpaceUpdate(lives([m] { m->setSpaceUpdate(nullptr); }));
+  r.frames(0.1);
+  EXPECT_EQ(lived, 3);
+}
+
+TEST(ManipulatorFailures, APilotMayChangeTheBodyAndTheSpaceThatItFliesIn) {
+  Rig r(floor_mesh(), {}, roam::Mode::fly);
+  osgRoam::Manipulator* m = r.manipulator.get();
+  int calls = 0;
+  r->setPilot([&](roam::Walker& walker, double seconds) {
+    const roam::StepReport* report = &walker.step({}, seconds);
+    roam::WalkerSettings settings = m->settings();
+    settings.height = ++calls % 2 == 0 ? 1.8 : 1.7;
+    m->setSettings(settings);
+    if (calls == 20) m->setSpace(nullptr);
+    return report;
+  });
+  r.frames(1.0);
+  EXPECT_EQ(calls, 20);
+  EXPECT_EQ(r->problem(), "");
+  EXPECT_TRUE(r->held());
+}
+
+TEST(ManipulatorFailures, APilotThatEndsMayBeFollowedByAnother) {
+  Rig r(floor_mesh(), {}, roam::Mode::fly);
+  osgRoam::Manipulator* m = r.manipulator.get();
+  int steps = 0;
+  r->setPilot([&](roam::Walker&, double) -> const roam::StepReport* {
+    m->setPilot([&steps](roam::Walker& walker, double seconds) {
+      ++steps;
+      return &walker.step({}, seconds);
+    });
+    return nullptr;
+  });
+  r.frames(0.5);
+  EXPECT_TRUE(r->piloted());
+  EXPECT_GT(steps, 20);
 }
 
 }  // namespace

@@ -33,8 +33,9 @@
 /// except where a window manager holds the keyboard to switch windows; Alt, Meta and Super therefore let go of all
 /// keys, and of the mouse.
 ///
-/// Never throws from what a viewer calls (handle, home, setByMatrix, updateCamera, ...): see problem(). All of it
-/// belongs to the thread that calls Viewer::frame(), in every threading model.
+/// Never throws from what a viewer calls (handle, home, setByMatrix, updateCamera, ...): see problem(). Callbacks may
+/// call anything here, also what replaces them; a report that they were given means nothing once the space or the
+/// settings have changed. All of it belongs to the thread that calls Viewer::frame(), in every threading model.
 
 #include <cstddef>
 #include <cstdint>
@@ -106,7 +107,8 @@ class Manipulator : public osgGA::CameraManipulator {
   void setSpeed(double speed);
   [[nodiscard]] double speed() const;
 
-  /// Null until there is a space. Whoever moves it outside a pilot calls placed() after.
+  /// Null until there is a space, and another one after setSpace, setSettings and when buildSpace is done: do not keep
+  /// it. Whoever moves it outside a pilot calls placed() after.
   [[nodiscard]] roam::Walker* walker();
   [[nodiscard]] const roam::Walker* walker() const;
   /// Tells the manipulator, and the step callback, that walker() has been put somewhere.

@@ -60,7 +60,7 @@ bool Manipulator::State::press(const Controls::Command& command, double time) {
     if (!pointer.grab_wanted()) return false;
     pointer.want_grab(false);
   } else if (on_command) {
-    guarded([&] { on_command(name); });
+    guarded([&] { call(on_command, name); });
   } else {
     return false;
   }

@@ -177,6 +177,7 @@ void Manipulator::stopGoing() { _state->journey.end(); }
 
 void Manipulator::setPilot(Pilot pilot) {
   _state->pilot = std::move(pilot);
+  ++_state->pilots;
   _state->owed = 0.0;
   _state->journey.end();
 }

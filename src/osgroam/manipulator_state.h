@@ -49,6 +49,7 @@ struct Manipulator::State {
   Pointer pointer;
   Journey journey;
   Pilot pilot;
+  unsigned pilots = 0;     ///< that were set so far: one may follow itself with another
   double owed = 0.0;       ///< seconds that the pilot has not simulated yet
   double jump_left = 0.0;  ///< seconds for which a jump that was asked for may still begin
   double look_speed = 0.0;
@@ -76,9 +77,16 @@ struct Manipulator::State {
       work();
     } catch (const std::exception& error) {
       fail(error.what());
+    } catch (...) {
+      fail("a callback threw something that is no std::exception");
     }
   }
   void fail(const std::string& what);
+  /// Calls a function of the caller's, if there is one. It may put another in its own place while it runs.
+  template <class Function, class... Arguments>
+  static void call(const Function function, const Arguments&... arguments) {
+    if (function) function(arguments...);
+  }
 
   void change_space(std::shared_ptr<const roam::Space> to, Update update_of_it);
   /// A new walker in the space, put to `centre`; none without a space.

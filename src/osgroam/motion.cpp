@@ -74,7 +74,7 @@ void Manipulator::State::tell_placed() {
   problem.clear();
   stuck = false;
   jump_left = 0.0;
-  if (walker && on_step) guarded([&] { on_step(walker->report(), 0.0); });
+  if (walker) guarded([&] { call(on_step, walker->report(), 0.0); });
 }
 
 void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it) {
@@ -94,7 +94,7 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
   stuck = false;
   if (!space) return;
   guarded([&] {
-    if (update) update(roam::Body::capsule(settings.radius, settings.height), centre);
+    call(update, roam::Body::capsule(settings.radius, settings.height), centre);
     walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
     if (walker->held()) place_safely(*walker, centre);
   });
@@ -104,7 +104,7 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
 void Manipulator::State::put(const roam::Vec3& centre) {
   if (!walker) return;
   guarded([&] {
-    if (update) update(roam::Body::capsule(settings.radius, settings.height), centre);
+    call(update, roam::Body::capsule(settings.radius, settings.height), centre);
     place_safely(*walker, centre);
     tell_placed();
   });
@@ -153,7 +153,7 @@ void Manipulator::State::frame(double time) {
   const double begin = std::max(*last_time, time - longest_frame);
   last_time = time;
   guarded([&] {
-    if (walker && update && !stuck) update(walker->body(), walker->position());
+    if (walker && !stuck) call(update, walker->body(), walker->position());
     double at = begin;
     for (const Keyboard::Change& change : changes) {
       const double until = std::clamp(change.time, at, std::max(at, time));
@@ -201,7 +201,7 @@ void Manipulator::State::step(double seconds, const HeldCommands& held) {
   if (report.has(roam::EventKind::jumped)) jump_left = 0.0;
   moved |= !report.corners.empty();
   soft.follow(*walker, before, seconds);
-  if (on_step) on_step(report, seconds);
+  call(on_step, report, seconds);
 }
 
 void Manipulator::State::fly_pilot(double seconds) {
@@ -209,13 +209,19 @@ void Manipulator::State::fly_pilot(double seconds) {
   for (int count = 0; count < pilot_limit && pilot && walker && owed > least_owed; ++count) {
     const double asked = std::min(owed, longest_step);
     const SoftEye::Before before = SoftEye::before(*walker);
-    const Pilot now = pilot;  // it may end itself while it runs
+    const Pilot now = pilot;  // it may end itself while it runs, or be followed by another, or change the body
+    const unsigned number = pilots;
+    const roam::Walker* flown = walker.get();
     const auto begin = std::chrono::steady_clock::now();
     const roam::StepReport* report = now(*walker, asked);
     nanoseconds += nanoseconds_since(begin);
     if (!report) {
-      pilot = nullptr;
+      if (number == pilots) pilot = nullptr;
       break;
+    }
+    if (walker.get() != flown) {  // the report went with it
+      owed -= asked;
+      continue;
     }
     ++steps;
     moved = true;
@@ -223,7 +229,7 @@ void Manipulator::State::fly_pilot(double seconds) {
     const double simulated = report->elapsed > 0.0 ? report->elapsed : asked;
     owed -= simulated;
     soft.follow(*walker, before, simulated);
-    if (on_step) on_step(*report, simulated);
+    call(on_step, *report, simulated);
   }
   if (!pilot) owed = 0.0;
 }
