@@ -128,4 +128,23 @@ TEST(Recovery, AGhostPassesWallsAndReturnsToTheNearestSafePlace) {
   EXPECT_EQ(w.position(), free);
 }
 
+TEST(Recovery, AGhostAtRestHasNotMoved) {
+  const World world = build(floor_mesh());
+  Walker w(world, {}, Mode::ghost, {0.0, 0.0, 0.95});
+  EXPECT_TRUE(w.step({}, 0.1).corners.empty());
+  EXPECT_EQ(w.step({{1.0, 0.0, 0.0}}, 0.1).corners.size(), 1U);
+}
+
+TEST(Recovery, AHeldBodyIsHeldInEveryModeThatCollides) {
+  Mesh m = floor_mesh();
+  add_wall(m, 2.0, -10.0, 2.0, 10.0, 0.0, 3.0);
+  const World world = build(m);
+  Walker w(world, {}, Mode::walk, {2.0, 0.0, 0.95});
+  ASSERT_TRUE(w.held());
+  EXPECT_TRUE(w.set_mode(Mode::fly).held);
+  EXPECT_TRUE(w.held());
+  EXPECT_FALSE(w.set_mode(Mode::ghost).held);
+  EXPECT_FALSE(w.held());
+}
+
 }  // namespace

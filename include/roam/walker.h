@@ -174,8 +174,8 @@ struct StepReport {
   /// Of the move, in order; empty when the body did not move. Pieces in one direction are merged. A step that would
   /// need more ends early: see `elapsed`.
   InlineList<Corner, 64> corners;
-  /// What was touched on the way, each triangle once, the last touched last; of more than 8 the first 7 and the last.
-  /// `distance` is the gap to the plane of the contact where the body stopped.
+  /// What was touched on the way, each feature of a triangle once, the last touched last; of more than 8 the first 7
+  /// and the last. `distance` is the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
   /// What happened, in order. Of a very long step some slides and steps may be left out; what ends a step never is.
   InlineList<Event, 24> events;

@@ -157,8 +157,9 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   }
   begin();
   if (mode_ == Mode::ghost) {
-    position_ += input.velocity * dt;
-    report_.corners.push({position_, height_, dt, 0.0, false});
+    const Vec3 motion = input.velocity * dt;
+    position_ += motion;
+    if (motion != Vec3(0.0)) report_.corners.push({position_, height_, dt, 0.0, false});
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
     if (held_ || space_->revision() != looked_at_) look_again();
@@ -236,6 +237,7 @@ const StepReport& Walker::set_mode(Mode mode) {
   if (mode != before) stance_ = {};
   if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*space_, body(), position_)) come_back();
   if (mode != before) settle();
+  if (held_ && !report_.held) hold();
   finish();
   return report_;
 }
