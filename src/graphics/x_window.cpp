@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <osgViewer/api/X11/GraphicsWindowX11>
 
 #include "roam/error.h"
@@ -50,25 +51,27 @@ void name_display(osg::GraphicsContext::Traits& traits, const std::string& displ
 }
 
 struct Screen {
+  /// Kept until the window is there: an X server whose last client goes begins anew, and lets nobody in meanwhile.
+  std::unique_ptr<Display, int (*)(Display*)> connection;
   int width = 0;
   int height = 0;
 };
 
 /// Looks before OpenSceneGraph does, which says less.
 Screen look_at(const std::string& name) {
-  Display* display = XOpenDisplay(name.c_str());
+  std::unique_ptr<Display, int (*)(Display*)> connection(XOpenDisplay(name.c_str()), XCloseDisplay);
+  Display* display = connection.get();
   if (!display) {
     throw Error("cannot open the display \"" + name + "\": no X server answers there, or it does not let this user in");
   }
-  const Screen screen{DisplayWidth(display, DefaultScreen(display)), DisplayHeight(display, DefaultScreen(display))};
   int unused = 0;
-  const bool has_glx = XQueryExtension(display, "GLX", &unused, &unused, &unused) != 0;
-  XCloseDisplay(display);
-  if (!has_glx) {
+  if (XQueryExtension(display, "GLX", &unused, &unused, &unused) == 0) {
     throw Error("the display \"" + name +
                 "\" has no OpenGL: its X server lacks the extension GLX. Start the server with GLX");
   }
-  return screen;
+  const int width = DisplayWidth(display, DefaultScreen(display));
+  const int height = DisplayHeight(display, DefaultScreen(display));
+  return {std::move(connection), width, height};
 }
 
 }  // namespace
