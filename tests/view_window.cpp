@@ -174,6 +174,20 @@ TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
   EXPECT_EQ(report["written"][0], "./roam-1.png");
 }
 
+TEST(ViewWindow, FillsTheScreenAndLeavesIt) {
+  Window w({"--at", "2,0,0.95,0"});
+  const auto size_after = [&](const char* key, const char* picture) {
+    xdo(std::string("key ") + key);
+    wait(1.5);
+    xdo("key p");
+    EXPECT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file(picture)); }));
+    return Shot(w.folder.file(picture)).width();
+  };
+  EXPECT_EQ(size_after("f", "roam-1.png"), 1000);
+  EXPECT_EQ(size_after("f", "roam-2.png"), 320);
+  w.end();
+}
+
 TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
   Window w({"--at", "2,0,0.95,0"});
   w.point(160, 100);

@@ -39,8 +39,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   settings.vertical_fov = plan.fov;
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
   // Drawing by the processor, several samples a pixel cost several times as much: a smooth walk is worth more.
-  const bool software = context_.abilities.renderer.find("llvmpipe") != std::string::npos;
-  if (software && !context_.headless) settings.samples = 1;
+  if (context_.abilities.software && !context_.headless) settings.samples = 1;
   frame_.emplace(*viewer_, context_, settings);
   frame_->space()->addChild(graphics::make_sky());
   hud_.emplace(*frame_);
@@ -70,17 +69,20 @@ void Stage::set_hud(HudMode mode) {
 void Stage::toggle_fullscreen() {
   if (context_.headless) return;
   osgViewer::GraphicsWindow& window = *context_.window;
+  auto* screens = osg::GraphicsContext::getWindowingSystemInterface();
+  if (screens == nullptr) return;
+  unsigned int screen_width = 0, screen_height = 0;
+  screens->getScreenResolution(*window.getTraits(), screen_width, screen_height);
+  const int across = static_cast<int>(screen_width), down = static_cast<int>(screen_height);
   if (fullscreen_) {
     window.setWindowDecoration(true);
-    window.setWindowRectangle(left_, top_, width_, height_);
+    // To the middle: of where a window is, OpenSceneGraph says twice the truth where no window manager frames it.
+    window.setWindowRectangle((across - width_) / 2, (down - height_) / 2, width_, height_);
   } else {
-    auto* screens = osg::GraphicsContext::getWindowingSystemInterface();
-    if (screens == nullptr) return;
-    unsigned int across = 0, down = 0;
-    screens->getScreenResolution(*window.getTraits(), across, down);
-    window.getWindowRectangle(left_, top_, width_, height_);
+    width_ = frame_->width();
+    height_ = frame_->height();
     window.setWindowDecoration(false);
-    window.setWindowRectangle(0, 0, static_cast<int>(across), static_cast<int>(down));
+    window.setWindowRectangle(0, 0, across, down);
   }
   fullscreen_ = !fullscreen_;
 }

@@ -76,7 +76,7 @@ class Stage {
   Histogram times_;
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
-  int left_ = 0, top_ = 0, width_ = 0, height_ = 0;  ///< of the window before it filled the screen
+  int width_ = 0, height_ = 0;  ///< pixels, of the window before it filled the screen
 };
 
 }  // namespace roam::app
