@@ -1,9 +1,7 @@
-// The parts of roam view that need no window: options, settings, bookmarks, what the display says, the start.
+// The parts of roam view that need no window: options, settings, bookmarks, recordings, what the display says.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <glm/geometric.hpp>
-#include <sstream>
 
 #include "exit_status.h"
 #include "program.h"
@@ -12,12 +10,9 @@
 #include "view/bookmarks.h"
 #include "view/commands.h"
 #include "view/histogram.h"
-#include "view/hold.h"
 #include "view/options.h"
 #include "view/path_recorder.h"
-#include "view/replay.h"
 #include "view/settings.h"
-#include "view/start.h"
 #include "view/status.h"
 
 namespace {
@@ -35,22 +30,6 @@ std::string error_of(const Run& run) {
     return error.what();
   }
   return {};
-}
-
-/// A wall, a floor or a door as a rectangle.
-Mesh rectangle(const std::string& name, const Vec3& corner, const Vec3& along, const Vec3& up) {
-  return {name, {corner, corner + along, corner + along + up, corner + up}, {{0, 1, 2}, {0, 2, 3}}};
-}
-
-/// A hall of 20 x 10 x 3 m on the floor z = 0, with a wall across it at x = 10 that has an opening `width` wide.
-World hall(double width) {
-  const double side = 5.0 - 0.5 * width;
-  const Vec3 up(0, 0, 3);
-  return World::build(std::vector<Mesh>{
-      rectangle("floor", {0, -5, 0}, {20, 0, 0}, {0, 10, 0}), rectangle("ceiling", {0, -5, 3}, {20, 0, 0}, {0, 10, 0}),
-      rectangle("left", {0, 5, 0}, {20, 0, 0}, up), rectangle("right", {0, -5, 0}, {20, 0, 0}, up),
-      rectangle("back", {0, -5, 0}, {0, 10, 0}, up), rectangle("front", {20, -5, 0}, {0, 10, 0}, up),
-      rectangle("Door_12", {10, -5, 0}, {0, side, 0}, up), rectangle("Door_12", {10, 5 - side, 0}, {0, side, 0}, up)});
 }
 
 // ------------------------------------------------------------------------------------------------------ settings
@@ -312,125 +291,6 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
   }
-}
-
-TEST(Hold, NamesTheWallAndMeasuresItsOpening) {
-  const World world = hall(0.5);
-  Walker walker(world, {}, Mode::walk, {8, 0, 0.95});
-  Hold hold;
-  const Vec3 wish(1.4, 0, 0);
-  for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
-  EXPECT_EQ(hold.told().text, "blocked: wall, Door_12, opening 0.50 m for a body of 0.60 m");
-  EXPECT_TRUE(hold.told().warning);
-  for (int i = 0; i < 60; ++i) hold.take(walker, {}, walker.step({}, 1.0 / 60.0).elapsed);
-  EXPECT_EQ(hold.told().text, "");
-}
-
-TEST(Hold, TellsOfAFall) {
-  const World world = World::build(std::vector<Mesh>{rectangle("ledge", {-5, -5, 4}, {10, 0, 0}, {0, 10, 0}),
-                                                     rectangle("ground", {-50, -50, 0}, {100, 0, 0}, {0, 100, 0})});
-  Walker walker(world, {}, Mode::walk, {0, 0, 4.95});
-  Hold hold;
-  std::string told;
-  for (int i = 0; i < 420; ++i) {
-    hold.take(walker, {1.4, 0, 0}, walker.step({.velocity = {1.4, 0, 0}}, 1.0 / 60.0).elapsed);
-    if (hold.told().text != told && !hold.told().text.empty()) told = hold.told().text;
-  }
-  EXPECT_EQ(told, "fell 4.0 m");
-}
-
-TEST(Hold, TellsOfABodyThatDoesNotFit) {
-  const World world = hall(0.5);
-  Walker walker(world, {}, Mode::walk, {8, 5.0, 0.95});  // its centre is on a triangle: held, see Walker::place
-  Hold hold;
-  hold.take(walker, {}, 0.0);
-  EXPECT_EQ(hold.told().text, "held: the body does not fit here");
-}
-
-// --------------------------------------------------------------------------------------------------------- start
-
-TEST(Start, IsInsideOnTheFloorLookingIntoTheRoom) {
-  const World world = hall(2.0);
-  const StartPlace start = find_start(world, {}, Mode::walk, {}, [] { return true; });
-  EXPECT_EQ(start.mode, Mode::walk);
-  EXPECT_EQ(start.note, "");
-  EXPECT_GT(start.pose.position.z, 0.9);
-  EXPECT_LT(start.pose.position.z, 1.1);
-  EXPECT_GT(world.clearance(Body::capsule(0.3, 1.8), start.pose.position, 1.0).distance, 0.0);
-  const double yaw = start.pose.yaw * 3.14159265358979 / 180.0;
-  const Impact sight = world.ray(start.pose.position, 20.0 * Vec3(std::cos(yaw), std::sin(yaw), 0.0));
-  EXPECT_GT(sight.time * 20.0, 8.0);
-}
-
-TEST(Start, FliesWhereThereIsNoFloor) {
-  const World world = World::build(std::vector<Mesh>{rectangle("cliff", {0, 0, 0}, {10, 0, 0}, {0, 1, 10})});
-  const StartPlace start = find_start(world, {}, Mode::walk, {}, [] { return true; });
-  EXPECT_EQ(start.mode, Mode::fly);
-  EXPECT_NE(start.note, "");
-  EXPECT_GT(world.clearance(Body::capsule(0.3, 1.8), start.pose.position, 1.0).distance, 0.0);
-}
-
-TEST(Start, CanBeEnded) {
-  const World world = hall(2.0);
-  EXPECT_THROW(static_cast<void>(find_start(world, {}, Mode::walk, {}, [] { return false; })), Cancelled);
-}
-
-TEST(Overview, SeesAllOfTheBox) {
-  const Box box{{100, 200, 0}, {300, 260, 30}};
-  const Pose pose = overview(box, 60.0);
-  const double yaw = pose.yaw * 3.14159265358979 / 180.0, pitch = pose.pitch * 3.14159265358979 / 180.0;
-  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p(corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
-                 corner & 4 ? box.upper.z : box.lower.z);
-    EXPECT_GT(glm::dot(glm::normalize(p - pose.position), ahead), std::cos(3.14159265358979 / 6.0));
-  }
-}
-
-// -------------------------------------------------------------------------------------------------------- replay
-
-TEST(Replay, GoesTheWayOfARouteAndLooksAhead) {
-  const World world = hall(2.0);
-  std::istringstream text("2 0 0.3\n18 0 0.3\n18 3 0.3\n");
-  const std::vector<Waypoint> path = read_path(text, "p");
-  WalkerSettings settings = WalkerSettings::sphere(0.3);
-  Walker a(world, settings, Mode::walk, path[0].position);
-  Walker b(world, settings, Mode::walk, path[0].position);
-  const RouteResult expected = follow(a, positions(path));
-  Replay replay(b, path, {});
-  double yaw_at_first = 10.0;
-  while (const StepReport* report = replay.advance()) {
-    const Replay::Gaze gaze = replay.gaze(report->elapsed);
-    if (yaw_at_first > 9.0) yaw_at_first = gaze.yaw;
-  }
-  EXPECT_EQ(replay.result().outcome, Outcome::reached);
-  EXPECT_EQ(replay.result().steps, expected.steps);
-  EXPECT_EQ(replay.result().end, expected.end);
-  EXPECT_NEAR(yaw_at_first, 0.0, 1e-9);
-  EXPECT_GT(replay.gaze(0.1).yaw, 0.8);
-}
-
-TEST(Replay, LooksAsThePathWasRecorded) {
-  const World world = hall(2.0);
-  // OpenSceneGraph's camera that looks along +x, up +z.
-  std::istringstream text("0 2 0 0.3 0.5 -0.5 -0.5 0.5\n1 3 0 0.3 0.5 -0.5 -0.5 0.5\n");
-  const std::vector<Waypoint> path = read_path(text, "p");
-  Walker walker(world, WalkerSettings::sphere(0.3), Mode::fly, path[0].position);
-  Replay replay(walker, path, {});
-  const Replay::Gaze gaze = replay.gaze(0.0);
-  EXPECT_NEAR(gaze.yaw, 0.0, 1e-9);
-  EXPECT_NEAR(gaze.pitch, 0.0, 1e-9);
-}
-
-TEST(Replay, EndsWhereThePersonTakesOver) {
-  const World world = hall(2.0);
-  std::istringstream text("2 0 0.3\n18 0 0.3\n");
-  Walker walker(world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3});
-  Replay replay(walker, read_path(text, "p"), {});
-  ASSERT_NE(replay.advance(), nullptr);
-  walker.set_mode(Mode::fly);
-  EXPECT_EQ(replay.advance(), nullptr);
-  EXPECT_TRUE(replay.left());
 }
 
 }  // namespace
