@@ -7,6 +7,7 @@
 
 #include "roam/error.h"
 #include "roam/path_file.h"
+#include "roam/world.h"
 #include "view/hold.h"
 #include "view/replay.h"
 #include "view/start.h"
