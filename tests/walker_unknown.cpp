@@ -217,6 +217,31 @@ TEST(WalkerUnknown, AGhostPassesItAndComesBackOutOfIt) {
   EXPECT_NEAR(w.position().z, stood.z, reach_of_skin);
 }
 
+TEST(WalkerUnknown, ABodyPutBackToWhereAWallHasComeMeanwhileIsFreed) {
+  TwoRooms rooms;
+  rooms.space.deliver(rooms.far, World());
+  rooms.space.update();
+  Walker w(rooms.space, {}, Mode::walk, {9.0, 0.0, 1.0});
+  Vec3 stood = w.position();
+  for (int i = 0; i < 240 && (i == 0 || w.grounded()); ++i) {
+    stood = w.position();
+    w.step({{3.0, 0.0, 0.0}}, frame);
+  }
+  ASSERT_FALSE(w.grounded());
+  Mesh wall;
+  add_wall(wall, stood.x - 0.2, -5.0, stood.x - 0.2, 5.0, 0.0, 3.0);
+  rooms.space.deliver(rooms.space.expect({{stood.x - 0.3, -5.0, 0.0}, {stood.x - 0.1, 5.0, 3.0}}), build(wall));
+  for (int i = 0; i < 240 && !w.report().has(EventKind::held); ++i) {
+    if (w.position().z < -0.3) rooms.update(w);  // past it
+    w.step({}, frame);
+  }
+  ASSERT_TRUE(w.report().has(EventKind::held));
+  EXPECT_TRUE(w.report().has(EventKind::freed));
+  EXPECT_FALSE(w.held());
+  EXPECT_GE(w.report().clearance, w.settings().radius - 1e-6);
+  EXPECT_NEAR(w.position().x, stood.x, 0.5);
+}
+
 TEST(WalkerUnknown, ASafePlaceThatIsNoLongerFreeIsNotCalledSo) {
   Patchwork space;
   Walker w(space, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
