@@ -275,6 +275,8 @@ TEST(ManipulatorMouse, APatchworkIsTakenIntoUseBetweenTheFrames) {
   r->setPose({0.0, 0.0, 1.6}, 0.0, 0.0);
   r->setSpace(space);
   EXPECT_TRUE(r->held());
+  r.frames(0.2);
+  EXPECT_TRUE(r.viewer.continuous) << "who draws on demand only has to look for what comes all the same";
   r.down('w');
   r.frames(0.5);
   EXPECT_NEAR(r->eye().x, 0.0, 1e-9);

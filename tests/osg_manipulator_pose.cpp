@@ -297,6 +297,19 @@ TEST(ManipulatorPose, ACloneIsAnotherBodyAtTheSamePlace) {
   EXPECT_GT((rig::eye_of(copy->getMatrix()) - rig::eye_of(r->getMatrix())).length(), 0.1);
 }
 
+TEST(ManipulatorPose, ACloneTakesIntoUseWhatItsPatchworkGets) {
+  const auto space = std::make_shared<roam::Patchwork>();
+  const roam::PatchId tile = space->expect({Vec3(-20.0), Vec3(20.0)});
+  Rig r;
+  r->setSpace(space);
+  osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
+  r.manipulator = dynamic_cast<osgRoam::Manipulator*>(clone.get());
+  EXPECT_TRUE(r->held());
+  space->deliver(tile, roam::World());
+  r.frames(0.1);
+  EXPECT_FALSE(r->held());
+}
+
 TEST(ManipulatorPose, IsOneOfTheSetOfAKeySwitchManipulator) {
   const Mesh m = room();
   Rig r(m, {}, roam::Mode::fly);
