@@ -21,10 +21,9 @@ int symbol(const Adapter& event) {
   return Controls::canonical(unmodified > 0 ? unmodified : event.getKey());
 }
 
-/// Keys by which people leave a window: a window manager may keep to itself what is let go then.
-bool leaves_window(int key) {
-  return key == Adapter::KEY_Alt_L || (key >= Adapter::KEY_Meta_L && key <= Adapter::KEY_Hyper_R);
-}
+/// Keys by which people leave a window, Meta, Alt, Super and Hyper: a window manager may keep to itself what is let go
+/// then.
+bool leaves_window(int key) { return key >= Adapter::KEY_Meta_L && key <= Adapter::KEY_Hyper_R; }
 
 }  // namespace
 

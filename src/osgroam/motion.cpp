@@ -231,7 +231,6 @@ void Manipulator::State::fly_pilot(double seconds) {
     soft.follow(*walker, before, simulated);
     call(on_step, *report, simulated);
   }
-  if (!pilot) owed = 0.0;
 }
 
 roam::Vec3 Manipulator::State::wish(const HeldCommands& held) const {
