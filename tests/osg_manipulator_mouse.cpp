@@ -280,7 +280,7 @@ TEST(ManipulatorMouse, APatchworkIsTakenIntoUseBetweenTheFrames) {
   r.down('w');
   r.frames(0.5);
   EXPECT_NEAR(r->eye().x, 0.0, 1e-9);
-  EXPECT_TRUE(r->report().waiting);
+  EXPECT_TRUE(r->report().met_unknown);
   EXPECT_TRUE(r.viewer.continuous);
   space->deliver(tile, build(yard()));
   r.frames(1.0);

@@ -163,14 +163,14 @@ void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSetting
     }
     tally.delayed += space.stats().waiting > 0;
     const StepReport& r = w.step({wanderer.velocity(w), random.chance(0.01), random.chance(0.02)}, frame);
-    tally.waited += r.waiting;
+    tally.waited += r.met_unknown;
     tally.held += r.held;
     if (w.held()) {
       // In the middle of a wall it is held as in any space.
-      ASSERT_TRUE(r.waiting || judge.distance(w.body(), w.position(), 1.0) < settings.radius + 2e-3);
+      ASSERT_TRUE(r.met_unknown || judge.distance(w.body(), w.position(), 1.0) < settings.radius + 2e-3);
     } else {
       tally.moved += r.to != r.from;
-      tally.went_on += waited && !r.waiting;
+      tally.went_on += waited && !r.met_unknown;
       ASSERT_GE(margin(judge, r, settings.radius), 0.0) << "step " << step;
       for (const roam::Corner& c : r.corners) {
         for (const Tile& t : land.all) {
@@ -179,12 +179,12 @@ void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSetting
         }
       }
     }
-    waited = r.waiting;
-    ASSERT_FALSE(late && step > 701 && r.waiting);
+    waited = r.met_unknown;
+    ASSERT_FALSE(late && step > 701 && r.met_unknown);
     const bool gone = w.position().x < origin.x - 1.0 || w.position().x > origin.x + side + 1.0 ||
                       w.position().y < origin.y - 1.0 || w.position().y > origin.y + side + 1.0 ||
                       w.position().z > origin.z + 6.0 || w.position().z < origin.z;
-    if (gone || (w.held() && !r.waiting)) {
+    if (gone || (w.held() && !r.met_unknown)) {
       w.place(origin + Vec3(random.between(1.0, side - 1.0), random.between(1.0, side - 1.0), 1.5));
     }
   }
@@ -245,7 +245,7 @@ TEST(WalkerPatchwork, NeverPassesAWallOfAFineSceneThatHasNotComeYet) {
       ASSERT_FALSE(w.held());
       ASSERT_GE(margin(judge, r, settings.radius), 0.0) << "step " << step << " seed " << seed;
       moved += r.to != r.from;
-      waited += r.waiting;
+      waited += r.met_unknown;
       const Vec3 p = w.position();
       if (p.x < 0.0 || p.y < 0.0 || p.x > side || p.y > side || p.z > ceiling || p.z < 0.0) {
         w.place(land.all[27].where.lower + Vec3(0.4, 0.4, 1.0));

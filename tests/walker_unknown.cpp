@@ -41,10 +41,10 @@ TEST(WalkerUnknown, WaitsBeforeItAsBeforeAWallAndGoesOnWhenItIsThere) {
   for (const Mode mode : {Mode::fly, Mode::walk}) {
     TwoRooms rooms;
     Walker w(rooms.space, {}, mode, {5.0, 0.0, 1.0});
-    EXPECT_FALSE(w.report().waiting);
+    EXPECT_FALSE(w.report().met_unknown);
     for (int i = 0; i < 240; ++i) w.step({{3.0, 0.0, 0.0}}, frame);
-    EXPECT_TRUE(w.report().waiting);
-    EXPECT_TRUE(w.report().has(EventKind::waiting));
+    EXPECT_TRUE(w.report().met_unknown);
+    EXPECT_TRUE(w.report().has(EventKind::met_unknown));
     EXPECT_TRUE(w.report().blocked);
     EXPECT_FALSE(w.held());
     ASSERT_FALSE(w.report().contacts.empty());
@@ -56,7 +56,7 @@ TEST(WalkerUnknown, WaitsBeforeItAsBeforeAWallAndGoesOnWhenItIsThere) {
     rooms.update(w);
     for (int i = 0; i < 60; ++i) {
       w.step({{3.0, 0.0, 0.0}}, frame);
-      EXPECT_FALSE(w.report().waiting);
+      EXPECT_FALSE(w.report().met_unknown);
     }
     EXPECT_NEAR(w.position().x, 12.7, 0.02);
   }
@@ -66,7 +66,7 @@ TEST(WalkerUnknown, SlidesAlongItAndSaysSo) {
   TwoRooms rooms;
   Walker w(rooms.space, {}, Mode::walk, {9.0, 0.0, 1.0});
   for (int i = 0; i < 60; ++i) w.step({{2.0, 1.0, 0.0}}, frame);
-  EXPECT_TRUE(w.report().waiting);
+  EXPECT_TRUE(w.report().met_unknown);
   EXPECT_FALSE(w.report().blocked);
   EXPECT_NEAR(w.position().y, 1.0, 0.05);
 }
@@ -79,7 +79,7 @@ TEST(WalkerUnknown, WhatFailedStaysSolid) {
     rooms.update(w);
     w.step({{3.0, 0.0, 0.0}}, frame);
   }
-  EXPECT_TRUE(w.report().waiting);
+  EXPECT_TRUE(w.report().met_unknown);
   EXPECT_EQ(rooms.space.object_name(w.report().contacts.back().triangle), "the tile is missing");
 }
 
@@ -91,14 +91,14 @@ TEST(WalkerUnknown, HoldsABodyThatIsInItAndLetsItGoByItself) {
       rooms.update(w);
       w.step({{3.0, 0.0, 0.0}}, frame);
       EXPECT_TRUE(w.held());
-      EXPECT_TRUE(w.report().held && w.report().waiting);
+      EXPECT_TRUE(w.report().held && w.report().met_unknown);
       EXPECT_EQ(w.report().clearance, 0.0);
       EXPECT_EQ(w.position(), Vec3(15.0, 0.0, 1.0));
     }
     rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
     rooms.update(w);
     for (int i = 0; i < 60; ++i) w.step({{3.0, 0.0, 0.0}}, frame);
-    EXPECT_FALSE(w.held() || w.report().waiting);
+    EXPECT_FALSE(w.held() || w.report().met_unknown);
     EXPECT_NEAR(w.position().x, 18.0, 0.02);
     EXPECT_EQ(w.grounded(), mode == Mode::walk);
   }
@@ -153,13 +153,13 @@ TEST(WalkerUnknown, StandsOnItWaitingAndComesDownWhenTheGroundIsThere) {
   Walker w(rooms.space, {}, Mode::walk, {15.0, 0.0, 4.0});
   for (int i = 0; i < 10; ++i) w.step({}, frame);
   EXPECT_TRUE(w.grounded());
-  EXPECT_TRUE(w.report().waiting);
+  EXPECT_TRUE(w.report().met_unknown);
   EXPECT_NEAR(w.feet().z, 3.0, reach_of_skin);
   rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
   rooms.update(w);
   for (int i = 0; i < 90; ++i) w.step({}, frame);
   EXPECT_TRUE(w.grounded());
-  EXPECT_FALSE(w.report().waiting);
+  EXPECT_FALSE(w.report().met_unknown);
   EXPECT_NEAR(w.feet().z, 0.0, reach_of_skin);
 }
 
@@ -171,7 +171,7 @@ TEST(WalkerUnknown, ABodyAtRestWhereSomethingNewIsExpectedIsHeldAndSaysNoClearan
   const PatchId late = rooms.space.expect({{4.0, -1.0, -1.0}, {6.0, 1.0, 3.0}});
   rooms.update(w);
   w.step({}, frame);
-  EXPECT_TRUE(w.held() && w.report().waiting);
+  EXPECT_TRUE(w.held() && w.report().met_unknown);
   EXPECT_EQ(w.report().clearance, 0.0);
   rooms.space.deliver(late, World());
   rooms.update(w);
@@ -193,7 +193,7 @@ TEST(WalkerUnknown, ABodyHeldByAWallLooksForAWayOutWhenTheSpaceChanges) {
   Walker w(space, {}, Mode::walk, {0.0, 0.0, 0.95});
   w.step({}, frame);
   EXPECT_TRUE(w.held());
-  EXPECT_FALSE(w.report().waiting);
+  EXPECT_FALSE(w.report().met_unknown);
   Mesh open;
   add_floor(open, -5.0, -5.0, 5.0, 5.0, 0.0);
   space.deliver(fine, build(open));
@@ -252,7 +252,7 @@ TEST(WalkerUnknown, ASafePlaceThatIsNoLongerFreeIsNotCalledSo) {
   w.step({{5.0, 0.0, 0.0}}, 1.0);
   w.set_mode(Mode::fly);
   EXPECT_TRUE(w.held());
-  EXPECT_TRUE(w.report().waiting);
+  EXPECT_TRUE(w.report().met_unknown);
   EXPECT_EQ(w.report().clearance, 0.0);
 }
 

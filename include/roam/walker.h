@@ -115,7 +115,7 @@ enum class EventKind : std::uint8_t {
                  ///< back to the last safe place
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
-  waiting,       ///< touched, stands on or is in what is not known yet (see space.h), and waits for it as before a wall
+  met_unknown,   ///< touched, stands on or is in what is not known yet (see space.h): solid until it is known
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -190,7 +190,7 @@ struct StepReport {
   bool grounded = false;         ///< stands on something (walk mode)
   bool blocked = false;          ///< ended this step unable to go on in the wished direction; contacts.back() is why
   bool held = false;             ///< see EventKind::held
-  bool waiting = false;          ///< see EventKind::waiting
+  bool met_unknown = false;      ///< see EventKind::met_unknown
 
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)
@@ -231,8 +231,8 @@ class Walker {
   /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
   /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost
   /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
-  /// body had been put there then. A body that is held by what is not known yet is also `waiting`; as soon as it is
-  /// known there the next step goes on likewise, in spaces without revisions too.
+  /// body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as it
+  /// is known there the next step goes on likewise, in spaces without revisions too.
   const StepReport& place(const Vec3& centre);
 
   /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is

@@ -105,7 +105,7 @@ void Move::touch(const Impact& contact, double gap) {
   c.distance = gap;
   c.triangle = contact.triangle;
   c.unknown = contact.unknown;
-  report.waiting |= c.unknown;
+  report.met_unknown |= c.unknown;
   // The last touched stands last, and once.
   InlineList<Contact, 8>& list = report.contacts;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -142,7 +142,7 @@ Move::Mark Move::mark() const {
           report.events.size(),
           report.contacts,
           report.blocked,
-          report.waiting};
+          report.met_unknown};
 }
 
 void Move::undo(const Mark& m) {
@@ -158,7 +158,7 @@ void Move::undo(const Mark& m) {
   report.events.shorten(m.events);
   report.contacts = m.contacts;
   report.blocked = m.blocked;
-  report.waiting = m.waiting;
+  report.met_unknown = m.met_unknown;
 }
 
 bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }

@@ -57,7 +57,7 @@ class Move {
     Corner corner;
     std::size_t corners, events;
     InlineList<Contact, 8> contacts;
-    bool blocked, waiting;
+    bool blocked, met_unknown;
   };
 
   const Space& space;

@@ -99,8 +99,8 @@ const char* name(EventKind kind) {
       return "returned";
     case EventKind::throttled:
       return "throttled";
-    case EventKind::waiting:
-      return "waiting";
+    case EventKind::met_unknown:
+      return "met_unknown";
   }
   return "unknown";
 }

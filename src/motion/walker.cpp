@@ -52,7 +52,7 @@ void Walker::begin() {
   report_.from = position_;
   report_.elapsed = 0.0;
   nearest_ = std::numeric_limits<double>::infinity();
-  report_.blocked = report_.held = report_.waiting = false;
+  report_.blocked = report_.held = report_.met_unknown = false;
 }
 
 void Walker::finish() {
@@ -67,8 +67,8 @@ void Walker::finish() {
         settings_.radius + std::max(space_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
-  report_.waiting |= waits_ || (stance_.grounded && stance_.unknown);
-  if (report_.waiting) report_.events.push({EventKind::waiting, position_});
+  report_.met_unknown |= waits_ || (stance_.grounded && stance_.unknown);
+  if (report_.met_unknown) report_.events.push({EventKind::met_unknown, position_});
   for (const Corner& c : report_.corners) {
     if (!c.teleport) report_.least_clearance = std::min(report_.least_clearance, c.clearance);
   }

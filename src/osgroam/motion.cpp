@@ -122,7 +122,7 @@ void Manipulator::State::change_mode(roam::Mode to) {
   journey.end();
   if (!walker) return;
   guarded([&] {
-    if (walker->set_mode(to).held && !walker->report().waiting) place_safely(*walker, walker->position());
+    if (walker->set_mode(to).held && !walker->report().met_unknown) place_safely(*walker, walker->position());
     tell_placed();
   });
 }
@@ -247,7 +247,7 @@ bool Manipulator::State::restless() const {
   if (build) return true;
   if (!walker || stuck) return false;
   return moved || keyboard.held().move() || journey.under_way() || pilot || soft.moving() || jump_left > 0.0 ||
-         walker->report().waiting;
+         walker->report().met_unknown;
 }
 
 }  // namespace osgRoam

@@ -39,7 +39,7 @@ bool fits(const roam::Space& space, const roam::Body& body, const roam::Vec3& ce
 
 void place_safely(roam::Walker& walker, const roam::Vec3& centre) {
   const roam::StepReport& report = walker.place(centre);
-  if (!report.held || report.waiting || walker.mode() == roam::Mode::ghost) return;
+  if (!report.held || report.met_unknown || walker.mode() == roam::Mode::ghost) return;
   const roam::Space& space = walker.space();
   const roam::WalkerSettings& s = walker.settings();
   const roam::Body body = roam::Body::capsule(s.radius, s.height);

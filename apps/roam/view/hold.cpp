@@ -44,7 +44,7 @@ void Hold::take(const Walker& walker, const Vec3& wish, double seconds) {
   now_ += seconds;
   const StepReport& report = walker.report();
   held_ = report.held;
-  waiting_ = report.waiting;
+  waiting_ = report.met_unknown;
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
   if (report.grounded) level_ = walker.stance().level;
