@@ -7,14 +7,12 @@
 #include "affine.h"
 #include "local_triangle.h"
 #include "osg_triangles/mesh_of.h"
+#include "vectors.h"
 
 namespace osgRoam {
 namespace {
 
 using roam::osg_triangles::Corners;
-
-roam::Vec3 to_roam(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-osg::Vec3d to_osg(const roam::Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Nobody but the sweep can tell a direction that is perpendicular to a triangle better than to this of its distance;
 /// sixty times the roundings that docs/algorithm.md counts.

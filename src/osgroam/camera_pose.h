@@ -6,6 +6,7 @@
 #include <osg/Matrixd>
 #include <osg/Vec3d>
 
+#include "osgroam/vectors.h"
 #include "roam/math.h"
 
 namespace osgRoam {
@@ -35,8 +36,5 @@ struct CameraPose {
 /// projection is not a perspective. Depth, reversed or not, does not matter.
 [[nodiscard]] std::optional<roam::Vec3> through_picture(const CameraPose& pose, const osg::Matrixd& projection,
                                                         double x, double y);
-
-[[nodiscard]] inline roam::Vec3 to_roam(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-[[nodiscard]] inline osg::Vec3d to_osg(const roam::Vec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace osgRoam

@@ -7,14 +7,12 @@
 #include "osgRoam/SceneSpace.h"
 #include "osg_triangles/mesh_of.h"
 #include "scene_visitor.h"
+#include "vectors.h"
 #include "world/query.h"
 #include "world/unknown.h"
 
 namespace osgRoam {
 namespace {
-
-roam::Vec3 to_roam(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-osg::Vec3d to_osg(const roam::Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Numbers what queries come upon, for as long as it is there.
 class Numbers {
