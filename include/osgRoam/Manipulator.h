@@ -33,6 +33,10 @@
 /// except where a window manager holds the keyboard to switch windows; Alt, Meta and Super therefore let go of all
 /// keys, and of the mouse.
 ///
+/// A camera whose near and far planes OpenSceneGraph computes, which is what it does unless told otherwise, cuts walls
+/// open in scenes of more than some 300 m, because its near plane is at least 1/2000 as far as its far plane is.
+/// updateCamera sees to it that the near plane stays before the walls: see setAdjustNearFarRatio.
+///
 /// Never throws from what a viewer calls (handle, home, setByMatrix, updateCamera, ...): see problem(). Callbacks may
 /// call anything here, also what replaces them; a report that they were given means nothing once the space or the
 /// settings have changed. All of it belongs to the thread that calls Viewer::frame(), in every threading model.
@@ -138,6 +142,14 @@ class Manipulator : public osgGA::CameraManipulator {
   /// space's own error, in fly and walk mode and not held. A near plane that cuts nothing is at most this divided by
   /// sqrt(1 + tan^2(half width) + tan^2(half height)).
   [[nodiscard]] double leastEyeDistance() const;
+  /// On, as it is at first: of a camera that updateCamera gets and that computes its near and far planes
+  /// (CullSettings::setComputeNearFarMode), the ratio of the two that each picture is made with is taken so small,
+  /// where the camera's own is not, that the near plane cuts nothing. No smaller: the resolution of depth is that of a
+  /// near plane there. Done by a ClampProjectionMatrixCallback; a camera that has one of somebody else's is left alone,
+  /// and so is one with DO_NOT_COMPUTE_NEAR_FAR. The camera's own ratio is not changed, and is what counts again as
+  /// soon as another manipulator moves the camera. Off: from the next updateCamera on the callback is gone.
+  void setAdjustNearFarRatio(bool on);
+  [[nodiscard]] bool adjustNearFarRatio() const;
   /// home() goes there; see setHomePosition for the same in the graph's frame.
   void setHomePose(const roam::Vec3& eye, double yaw, double pitch);
 

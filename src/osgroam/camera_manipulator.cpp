@@ -1,8 +1,10 @@
 // What osgGA asks of every manipulator of a camera.
+#include <algorithm>
 #include <osg/Notify>
 #include <utility>
 
 #include "osgroam/manipulator_state.h"
+#include "osgroam/near_plane.h"
 #include "osgroam/places.h"
 
 namespace osgRoam {
@@ -12,6 +14,9 @@ using Adapter = osgGA::GUIEventAdapter;
 
 /// Cosine of the angle to +z up to which a frame's up counts as roam's.
 constexpr double upright = 0.999;
+
+/// Metres that leastEyeDistance() may be wrong by in what a space has stored.
+constexpr double certified_to = 1e-6;
 
 }  // namespace
 
@@ -34,6 +39,11 @@ osg::Matrixd Manipulator::getInverseMatrix() const { return osg::Matrixd::invers
 void Manipulator::updateCamera(osg::Camera& camera) {
   _state->projection = camera.getProjectionMatrix();
   camera.setViewMatrix(getInverseMatrix());
+  if (!_state->limits_near_plane) return leave_near_plane(camera);
+  const double least = leastEyeDistance();
+  // What is drawn may lie nearer than what the space has stored.
+  const double error = (_state->space ? _state->space->largest_error() : 0.0) + certified_to;
+  limit_near_plane(camera, std::max(least - error, 0.5 * least));
 }
 
 void Manipulator::setNode(osg::Node* node) { _state->node = node; }

@@ -38,6 +38,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   s.update = from.update;
   s.origin = from.origin;
   s.pose = {other.eye(), from.pose.yaw, from.pose.pitch};
+  s.limits_near_plane = from.limits_near_plane;
   s.node = from.node;
   s.at_computed_home = from.at_computed_home;
   s.keys = from.keys;
@@ -156,6 +157,10 @@ double Manipulator::pitch() const { return _state->pose.pitch; }
 roam::Vec3 Manipulator::eye() const { return _state->eye(); }
 
 double Manipulator::leastEyeDistance() const { return least_eye_distance(_state->settings); }
+
+void Manipulator::setAdjustNearFarRatio(bool on) { _state->limits_near_plane = on; }
+
+bool Manipulator::adjustNearFarRatio() const { return _state->limits_near_plane; }
 
 void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
   demand_finite(eye.x + eye.y + eye.z + yaw + pitch, "the home pose");

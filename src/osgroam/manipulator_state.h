@@ -40,6 +40,7 @@ struct Manipulator::State {
   CameraPose pose;  ///< the eye means something while there is no walker
   SoftEye soft;
   std::optional<osg::Matrixd> projection;  ///< of the camera that was updated last
+  bool limits_near_plane = true;
   osg::ref_ptr<osg::Node> node;
   bool at_computed_home = false;  ///< and nobody has moved it from there
 

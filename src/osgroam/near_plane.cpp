@@ -1,0 +1,80 @@
+#include "osgroam/near_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <osg/observer_ptr>
+#include <osgUtil/CullVisitor>
+
+namespace osgRoam {
+namespace {
+
+/// OpenSceneGraph takes far * ratio for the least near plane: far is what this picture shows, so a ratio that is chosen
+/// for the whole scene would bring the plane much nearer than needed in most pictures, and depth is coarse then. Here
+/// the ratio is chosen for each picture.
+class NearLimit final : public osg::CullSettings::ClampProjectionMatrixCallback {
+ public:
+  explicit NearLimit(osg::Camera& camera) : camera_(&camera) {}
+
+  void renew(double distance) {
+    distance_ = distance;
+    view_ = camera_->getViewMatrix();
+  }
+
+  bool clampProjectionMatrixImplementation(osg::Matrixf& projection, double& near, double& far) const override {
+    return clamp(projection, near, far);
+  }
+  bool clampProjectionMatrixImplementation(osg::Matrixd& projection, double& near, double& far) const override {
+    return clamp(projection, near, far);
+  }
+
+ private:
+  template <class Matrix>
+  bool clamp(Matrix& projection, double& near, double& far) const {
+    const osg::ref_ptr<osgUtil::CullVisitor> usual = osgUtil::CullVisitor::create();
+    osg::ref_ptr<osg::Camera> camera;
+    if (camera_.lock(camera)) {
+      double ratio = camera->getNearFarRatio();
+      // The pictures of another manipulator are its own affair.
+      const bool ours = camera->getViewMatrix() == view_;
+      if (ours && far > 0.0) ratio = std::min(ratio, farthest_near_plane(projection, distance_) / far);
+      usual->setNearFarRatio(ratio);
+    }
+    return usual->clampProjectionMatrixImplementation(projection, near, far);
+  }
+
+  osg::observer_ptr<osg::Camera> camera_;  // the callback is in it, and in the slaves that inherit from it
+  osg::Matrixd view_;
+  double distance_ = 0.0;
+};
+
+}  // namespace
+
+double farthest_near_plane(const osg::Matrixd& projection, double distance) {
+  const bool perspective = projection(3, 3) == 0.0 && projection(2, 3) == -1.0;
+  if (!perspective || projection(0, 0) == 0.0 || projection(1, 1) == 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  // Of the corner of the picture that is farthest from where the camera looks.
+  const double across = (1.0 + std::abs(projection(2, 0))) / projection(0, 0);
+  const double above = (1.0 + std::abs(projection(2, 1))) / projection(1, 1);
+  return distance / std::sqrt(1.0 + across * across + above * above);
+}
+
+void limit_near_plane(osg::Camera& camera, double distance) {
+  osg::CullSettings::ClampProjectionMatrixCallback* present = camera.getClampProjectionMatrixCallback();
+  auto* limit = dynamic_cast<NearLimit*>(present);
+  if (!limit) {
+    if (present || camera.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR) return;
+    camera.setClampProjectionMatrixCallback(limit = new NearLimit(camera));
+  }
+  limit->renew(distance);
+}
+
+void leave_near_plane(osg::Camera& camera) {
+  if (dynamic_cast<NearLimit*>(camera.getClampProjectionMatrixCallback())) {
+    camera.setClampProjectionMatrixCallback(nullptr);
+  }
+}
+
+}  // namespace osgRoam
