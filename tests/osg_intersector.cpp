@@ -351,6 +351,19 @@ TEST(OsgIntersector, RefusesWhatHasNoRadius) {
   EXPECT_THROW(make(osgUtil::Intersector::MODEL, {0.5}, {0, 0, std::nan("")}), roam::Error);
 }
 
+TEST(OsgIntersector, FindsTrianglesWhoseNormalUnderflows) {
+  for (const double edge : {1e-200, 1e-85, 1e-82, 1e-70}) {
+    osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
+    for (const auto& corner : {osg::Vec3d(0, 0, 0.1), osg::Vec3d(edge, 0, 0.1), osg::Vec3d(0, edge, 0.1)}) {
+      vertices->push_back(corner);
+    }
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    EXPECT_TRUE(ask(*geometry, {0.5}, {0, 0, 0}, {0, 0, 0})->containsIntersections()) << edge;
+  }
+}
+
 TEST(OsgIntersector, PassesHeadUpDisplays) {
   osg::ref_ptr<osg::Camera> display = new osg::Camera;
   display->setReferenceFrame(osg::Transform::ABSOLUTE_RF);

@@ -14,28 +14,6 @@ namespace {
 
 using roam::osg_triangles::Corners;
 
-/// Nobody but the sweep can tell a direction that is perpendicular to a triangle better than to this of its distance;
-/// sixty times the roundings that docs/algorithm.md counts.
-constexpr double plane_rounding = 1e-13;
-
-/// Whether the triangle's own plane keeps the body away from it on the whole way: the supporting plane bound of
-/// roam/sweep.h, at both ends. Settles most of what a box lets through.
-bool plane_parts(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, const roam::Triangle& t) {
-  const roam::Vec3 w[3] = {t[0] - from, t[1] - from, t[2] - from};
-  const roam::Vec3 e = t[1] - t[0], f = t[2] - t[0];
-  const roam::Vec3 n{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
-  const auto dot = [](const roam::Vec3& a, const roam::Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-  const auto size = [](const roam::Vec3& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); };
-  const double s[3] = {dot(n, w[0]), dot(n, w[1]), dot(n, w[2])};
-  const double least = std::min({s[0], s[1], s[2]}), most = std::max({s[0], s[1], s[2]});
-  const double way = dot(n, motion);
-  const double reach =
-      body.radius * std::sqrt(dot(n, n)) + body.half_height * std::abs(n.z) +
-      plane_rounding * size(n) *
-          (std::max({size(w[0]), size(w[1]), size(w[2])}) + size(motion) + body.radius + body.half_height);
-  return least - std::max(way, 0.0) > reach || std::min(way, 0.0) - most > reach;
-}
-
 float rounded_down(double x) {
   const float rounded = static_cast<float>(x);
   return rounded <= x ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
@@ -150,11 +128,13 @@ void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corner
 }
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {
-  if (plane_parts(below_._body, from_, motion_, triangle)) return;
+  const roam::certified::LocalTriangle local = seen_from(from_, triangle);
+  // Settles most of what a box lets through.
+  if (roam::certified::plane_separates(below_._body, motion_, local)) return;
   const double end = below_._intersectionLimit == LIMIT_NEAREST && !root_._intersections.empty()
                          ? root_._intersections.begin()->time
                          : 1.0;
-  roam::SweepResult result = roam::certified::sweep(below_._body, motion_, seen_from(from_, triangle), 0.0, end, 0.0);
+  roam::SweepResult result = roam::certified::sweep(below_._body, motion_, local, 0.0, end, 0.0);
   if (!result.hit) return;
   result.point += from_;
   const auto earlier_than = [&](const Intersection& other) {

@@ -28,6 +28,10 @@ struct LocalTriangle {
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                                 double t_end, double hit_tolerance) noexcept;
 
+/// Whether the triangle's own plane shows that the body is clear of it on the whole motion: a sweep would miss.
+/// False says nothing.
+[[nodiscard]] bool plane_separates(const Body& body, const Vec3& motion, const LocalTriangle& triangle) noexcept;
+
 /// Closest point and certified signed gap of `body` resting at the frame's origin.
 [[nodiscard]] Proximity proximity(const Body& body, const LocalTriangle& triangle) noexcept;
 
