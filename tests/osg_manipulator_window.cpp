@@ -253,6 +253,40 @@ TEST(ManipulatorWindow, DoubleClickAndWheelArrive) {
   EXPECT_TRUE(w.until([&] { return w.manipulator->speed() > 1.5; }));
 }
 
+/// Reads the middle of each picture.
+struct Middle : osg::Camera::DrawCallback {
+  mutable osg::Vec4 color;
+  void operator()(osg::RenderInfo&) const override {
+    osg::ref_ptr<osg::Image> pixel = new osg::Image;
+    pixel->readPixels(400, 300, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    color = pixel->getColor(0, 0);
+  }
+};
+
+TEST(ManipulatorWindow, OneSeesTheWallThatTheBodyTouchesAndNotThroughIt) {
+  Window w;
+  Mesh mesh;
+  add_floor(mesh, -2000.0, -2000.0, 2000.0, 2000.0, 0.0);
+  add_box(mesh, {0.0, -5.0, 0.0}, {0.2, 5.0, 4.0});
+  osg::ref_ptr<osg::CompositeShape> shape = new osg::CompositeShape;
+  shape->addChild(new osg::Box(osg::Vec3(0.0f, 0.0f, -0.5f), 4000.0f, 4000.0f, 1.0f));
+  shape->addChild(new osg::Box(osg::Vec3(0.1f, 0.0f, 2.0f), 0.2f, 10.0f, 4.0f));
+  osg::ref_ptr<osg::ShapeDrawable> drawn = new osg::ShapeDrawable(shape);
+  drawn->setColor(osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
+  drawn->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+  w.viewer.setSceneData(drawn);
+  w.manipulator->setSpace(std::make_shared<const roam::World>(build(mesh)));
+  w.manipulator->setPose({-0.1, 0.0, 1.6}, 0.0, 0.4);  // comes to rest in touch with the wall
+  const osg::ref_ptr<Middle> middle = new Middle;
+  w.viewer.getCamera()->setFinalDrawCallback(middle);
+  w.run(0.1);
+  EXPECT_EQ(middle->color.r(), 1.0f);
+  EXPECT_EQ(middle->color.b(), 0.0f);
+  w.manipulator->setAdjustNearFarRatio(false);
+  w.run(0.1);
+  EXPECT_GT(middle->color.b(), 0.2f) << "the sky behind the wall, without that";
+}
+
 class Threads : public testing::TestWithParam<osgViewer::ViewerBase::ThreadingModel> {};
 INSTANTIATE_TEST_SUITE_P(ManipulatorWindow, Threads,
                          testing::Values(osgViewer::ViewerBase::SingleThreaded,
