@@ -6,7 +6,6 @@
 #include <osgGA/FlightManipulator>
 #include <osgGA/KeySwitchMatrixManipulator>
 #include <osgGA/TrackballManipulator>
-#include <thread>
 
 #include "osg_rig.h"
 
@@ -154,38 +153,6 @@ TEST(ManipulatorPose, ACameraDeepInACloggedPlaceIsFreedAllTheSame) {
   EXPECT_LT(glm::length(w.position()), 12.0);
 }
 
-TEST(ManipulatorPose, WithoutASpaceTheBodyIsHeldAndMayLook) {
-  Rig r;
-  EXPECT_EQ(r->walker(), nullptr);
-  EXPECT_TRUE(r->held());
-  r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
-  r.down('w');
-  r.frames(1.0);
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 0.0);
-  r.up('w');
-  r.push(400, 300);
-  r.mouse(300, 300);
-  EXPECT_GT(r->yaw(), 0.0);
-  r->setSpace(std::make_shared<const roam::World>());
-  EXPECT_FALSE(r->held());
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
-  r->setSpace(nullptr);
-  EXPECT_EQ(r->walker(), nullptr);
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
-}
-
-TEST(ManipulatorPose, AnotherSpaceFindsTheBodyWhereItIs) {
-  Rig r(room(), {}, roam::Mode::fly);
-  r->setPose({1.0, 2.0, 2.0}, 0.3, 0.1);
-  Mesh other = room();
-  add_wall(other, 1.1, -5.0, 1.1, 5.0, 0.0, 3.0);
-  r->setSpace(std::make_shared<const roam::World>(build(other)));
-  EXPECT_FALSE(r->held());
-  EXPECT_NEAR(r->eye().x, 0.8, 0.01);
-  EXPECT_DOUBLE_EQ(r->yaw(), 0.3);
-  EXPECT_GE(Judge(other).distance(r->walker()->body(), r->walker()->position(), 1.0), 0.3 - 1e-6);
-}
-
 TEST(ManipulatorPose, SettingsAreCheckedWhenTheyAreSet) {
   Rig r(room(), {}, roam::Mode::walk);
   EXPECT_THROW(r->setSettings({.radius = -1.0}), roam::Error);
@@ -237,47 +204,6 @@ TEST(ManipulatorPose, AComputedHomeSeesTheWholeNode) {
   EXPECT_GT((rig::eye_of(r->getMatrix()) - center).length(), scene->getBound().radius());
 }
 
-TEST(ManipulatorPose, OnFootAComputedHomeIsAPlaceToStand) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
-  Rig r;
-  r->setMode(roam::Mode::walk);
-  r->setNode(scene);
-  r->home(0.0);
-  r->buildSpace(*scene);
-  EXPECT_TRUE(r->held());
-  while (r->building()) {
-    EXPECT_LE(r->buildProgress(), 1.0);
-    r.frame(frame);
-    EXPECT_TRUE(!r->building() || r.viewer.continuous);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ASSERT_NE(r->walker(), nullptr);
-  r.frames(1.0);
-  EXPECT_TRUE(r->walker()->grounded());
-  EXPECT_NEAR(r->walker()->position().x, 10.0, 1.0);
-  EXPECT_NEAR(r->eye().z, 1.6, near_ground);
-}
-
-TEST(ManipulatorPose, OneLineBuildsTheWorldOfTheScene) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
-  osg::ref_ptr<osgRoam::Manipulator> m = new osgRoam::Manipulator(scene.get());
-  Rig r;
-  r.manipulator = m;
-  EXPECT_TRUE(m->building());
-  while (m->building()) {
-    r.frame(frame);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ASSERT_NE(m->walker(), nullptr);
-  EXPECT_EQ(static_cast<const roam::World&>(*m->space()).stats().triangles, 12u);
-  EXPECT_EQ(m->problem(), "");
-}
-
-TEST(ManipulatorPose, ADestroyedManipulatorEndsItsBuilding) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
-  for (int i = 0; i < 20; ++i) osg::ref_ptr<osgRoam::Manipulator>(new osgRoam::Manipulator(scene.get()));
-}
-
 TEST(ManipulatorPose, ACloneIsAnotherBodyAtTheSamePlace) {
   Rig r(room(), {.radius = 0.25}, roam::Mode::fly);
   r->setPose({1.0, 2.0, 2.0}, 0.5, 0.25);
@@ -295,19 +221,6 @@ TEST(ManipulatorPose, ACloneIsAnotherBodyAtTheSamePlace) {
   r.down('z');
   r.frames(0.5);
   EXPECT_GT((rig::eye_of(copy->getMatrix()) - rig::eye_of(r->getMatrix())).length(), 0.1);
-}
-
-TEST(ManipulatorPose, ACloneTakesIntoUseWhatItsPatchworkGets) {
-  const auto space = std::make_shared<roam::Patchwork>();
-  const roam::PatchId tile = space->expect({Vec3(-20.0), Vec3(20.0)});
-  Rig r;
-  r->setSpace(space);
-  osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
-  r.manipulator = dynamic_cast<osgRoam::Manipulator*>(clone.get());
-  EXPECT_TRUE(r->held());
-  space->deliver(tile, roam::World());
-  r.frames(0.1);
-  EXPECT_FALSE(r->held());
 }
 
 TEST(ManipulatorPose, IsOneOfTheSetOfAKeySwitchManipulator) {

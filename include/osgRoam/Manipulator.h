@@ -68,10 +68,12 @@ class Manipulator : public osgGA::CameraManipulator {
 
   /// A body without a space: one can look around, and it is held until setSpace.
   Manipulator();
-  /// A body in the triangles of `scene`, as they are now and in the graph's own frame: taken from it here, in this
-  /// thread, and indexed in another while the viewer runs; until that is done the body is held. Takes the finest level
-  /// of detail that is in memory. Throws roam::Error for bad settings.
-  explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly);
+  /// A body in the triangles of `scene`, as they are now: taken from it here, in this thread, and indexed in another
+  /// while the viewer runs; until that is done the body is held. Takes the finest level of detail that is in memory.
+  /// `origin` is what the graph was moved by, see setOrigin(). Throws roam::Error for bad settings, which setSettings()
+  /// explains, and for an origin that is not finite.
+  explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly,
+                       const osg::Vec3d& origin = osg::Vec3d());
   /// Settings, controls, space, pose and home; not the callbacks, the pilot, keys that are down, a world that is being
   /// built.
   Manipulator(const Manipulator& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
@@ -95,7 +97,11 @@ class Manipulator : public osgGA::CameraManipulator {
   /// The fraction done of buildSpace, in [0, 1]; 1 when nothing is being built.
   [[nodiscard]] double buildProgress() const;
 
-  /// The graph is the scene minus `origin`. The body stays where it is in the scene. Set it before buildSpace.
+  /// The graph is the scene minus `origin`, metres. The body stays where it is in the scene. Before buildSpace, or the
+  /// constructor has it: throws roam::Error, and changes nothing, when the origin is another one than that with which a
+  /// space was, or is being, built from the graph. Where it is the graph that has been moved, build the space with
+  /// osgRoam::buildWorld (Triangles.h) and pass it to setSpace; then the origin may change at any time. Throws
+  /// roam::Error when it is not finite.
   void setOrigin(const osg::Vec3d& origin);
   [[nodiscard]] const osg::Vec3d& origin() const;
 

@@ -18,7 +18,10 @@ void demand_finite(double sum, const char* what) {
 
 Manipulator::Manipulator() : _state(std::make_unique<State>()) {}
 
-Manipulator::Manipulator(osg::Node* scene, const roam::WalkerSettings& settings, roam::Mode mode) : Manipulator() {
+Manipulator::Manipulator(osg::Node* scene, const roam::WalkerSettings& settings, roam::Mode mode,
+                         const osg::Vec3d& origin)
+    : Manipulator() {
+  setOrigin(origin);
   setSettings(settings);
   setMode(mode);
   if (scene) buildSpace(*scene);
@@ -35,6 +38,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   s.mode = from.mode;
   s.before_ghost = from.before_ghost;
   s.space = from.space;
+  s.space_is_built = from.space_is_built;
   s.update = from.update;
   s.origin = from.origin;
   s.pose = {other.eye(), from.pose.yaw, from.pose.pitch};
@@ -84,6 +88,11 @@ double Manipulator::buildProgress() const { return _state->build ? _state->build
 
 void Manipulator::setOrigin(const osg::Vec3d& origin) {
   demand_finite(origin.x() + origin.y() + origin.z(), "the origin of the graph");
+  if (origin != _state->origin && (_state->build || _state->space_is_built)) {
+    throw roam::Error(
+        "the origin of the graph was set after a space had been built from the graph with another one: pass it to the "
+        "manipulator's constructor, or call setOrigin before buildSpace");
+  }
   const osg::Vec3d moved = std::exchange(_state->origin, origin) - origin;
   // The home position is told in the frame of the graph, which is another one from here on.
   _homeEye += moved;

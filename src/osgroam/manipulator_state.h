@@ -29,6 +29,7 @@ struct Manipulator::State {
   roam::Mode mode = roam::Mode::fly;
   roam::Mode before_ghost = roam::Mode::fly;
   std::shared_ptr<const roam::Space> space;
+  bool space_is_built = false;  ///< from the graph, with the origin as it is
   Update update;
   std::unique_ptr<roam::Walker> walker;
   std::unique_ptr<BackgroundBuild> build;

@@ -81,6 +81,7 @@ void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Upd
   const roam::Vec3 centre = walker ? walker->position() : centre_under(pose.eye);
   // A walker knows its space by address: the old one stays until the old walker is gone.
   const std::shared_ptr<const roam::Space> before = std::exchange(space, std::move(to));
+  space_is_built = false;
   update = std::move(update_of_it);
   make_walker(centre);
 }
@@ -135,6 +136,7 @@ bool Manipulator::State::take_build() {
   bool taken = false;
   guarded([&] {
     change_space(done->take(), nullptr);
+    space_is_built = true;
     taken = true;
   });
   return taken;

@@ -1,0 +1,145 @@
+// The space that the body moves in: given, built from the graph, exchanged.
+#include <glm/geometric.hpp>
+#include <osg/Shape>
+#include <osg/ShapeDrawable>
+#include <thread>
+
+#include "osg_rig.h"
+
+namespace {
+
+using namespace scenes;
+using rig::Rig;
+
+/// A room of 10 m by 10 m by 3 m with its middle at the origin of the floor.
+Mesh room() {
+  Mesh m;
+  add_box(m, {-5.0, -5.0, 0.0}, {5.0, 5.0, 3.0});
+  return m;
+}
+
+osg::ref_ptr<osg::Group> box_scene() {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  group->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(10.0f, 0.0f, -0.5f), 20.0f, 20.0f, 1.0f)));
+  return group;
+}
+
+void finish_building(Rig& r) {
+  while (r->building()) {
+    r.frame(frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+void expect_near(const osg::Vec3d& a, const osg::Vec3d& b, double tolerance) {
+  EXPECT_LE((a - b).length(), tolerance) << a.x() << " " << a.y() << " " << a.z();
+}
+
+TEST(ManipulatorSpace, WithoutASpaceTheBodyIsHeldAndMayLook) {
+  Rig r;
+  EXPECT_EQ(r->walker(), nullptr);
+  EXPECT_TRUE(r->held());
+  r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
+  r.down('w');
+  r.frames(1.0);
+  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 0.0);
+  r.up('w');
+  r.push(400, 300);
+  r.mouse(300, 300);
+  EXPECT_GT(r->yaw(), 0.0);
+  r->setSpace(std::make_shared<const roam::World>());
+  EXPECT_FALSE(r->held());
+  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
+  r->setSpace(nullptr);
+  EXPECT_EQ(r->walker(), nullptr);
+  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
+}
+
+TEST(ManipulatorSpace, AnotherSpaceFindsTheBodyWhereItIs) {
+  Rig r(room(), {}, roam::Mode::fly);
+  r->setPose({1.0, 2.0, 2.0}, 0.3, 0.1);
+  Mesh other = room();
+  add_wall(other, 1.1, -5.0, 1.1, 5.0, 0.0, 3.0);
+  r->setSpace(std::make_shared<const roam::World>(build(other)));
+  EXPECT_FALSE(r->held());
+  EXPECT_NEAR(r->eye().x, 0.8, 0.01);
+  EXPECT_DOUBLE_EQ(r->yaw(), 0.3);
+  EXPECT_GE(Judge(other).distance(r->walker()->body(), r->walker()->position(), 1.0), 0.3 - 1e-6);
+}
+
+TEST(ManipulatorSpace, OnFootAComputedHomeIsAPlaceToStand) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  Rig r;
+  r->setMode(roam::Mode::walk);
+  r->setNode(scene);
+  r->home(0.0);
+  r->buildSpace(*scene);
+  EXPECT_TRUE(r->held());
+  while (r->building()) {
+    EXPECT_LE(r->buildProgress(), 1.0);
+    r.frame(frame);
+    EXPECT_TRUE(!r->building() || r.viewer.continuous);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_NE(r->walker(), nullptr);
+  r.frames(1.0);
+  EXPECT_TRUE(r->walker()->grounded());
+  EXPECT_NEAR(r->walker()->position().x, 10.0, 1.0);
+  EXPECT_NEAR(r->eye().z, 1.6, near_ground);
+}
+
+TEST(ManipulatorSpace, OneLineBuildsTheWorldOfTheScene) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osgRoam::Manipulator> m = new osgRoam::Manipulator(scene.get());
+  Rig r;
+  r.manipulator = m;
+  EXPECT_TRUE(m->building());
+  finish_building(r);
+  ASSERT_NE(m->walker(), nullptr);
+  EXPECT_EQ(static_cast<const roam::World&>(*m->space()).stats().triangles, 12u);
+  EXPECT_EQ(m->problem(), "");
+}
+
+TEST(ManipulatorSpace, ASpaceIsBuiltWithTheOriginThatTheGraphHasOrNotAtAll) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  const osg::Vec3d far(4.5e6, 5.1e6, 300.0);
+  Rig r;
+  r.manipulator = new osgRoam::Manipulator(scene.get(), {}, roam::Mode::fly, far);
+  EXPECT_EQ(r->origin(), far);
+  const auto refuses = [&] {
+    EXPECT_THROW(r->setOrigin({1.0, 0.0, 0.0}), roam::Error);
+    EXPECT_EQ(r->origin(), far);
+    EXPECT_NO_THROW(r->setOrigin(far));
+  };
+  refuses();
+  finish_building(r);
+  refuses();
+  EXPECT_NEAR(r->space()->bounds().center().x, far.x() + 10.0, 0.1);
+  osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
+  EXPECT_THROW(dynamic_cast<osgRoam::Manipulator&>(*clone).setOrigin({}), roam::Error);
+  // A space of one's own is in the scene's frame whatever the graph is moved by.
+  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  EXPECT_NO_THROW(r->setOrigin({1.0, 0.0, 0.0}));
+  EXPECT_THROW(osg::ref_ptr<osgRoam::Manipulator>(new osgRoam::Manipulator(nullptr, {}, roam::Mode::fly, {NAN, 0, 0})),
+               roam::Error);
+}
+
+TEST(ManipulatorSpace, ADestroyedManipulatorEndsItsBuilding) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  for (int i = 0; i < 20; ++i) osg::ref_ptr<osgRoam::Manipulator>(new osgRoam::Manipulator(scene.get()));
+}
+
+TEST(ManipulatorSpace, ACloneTakesIntoUseWhatItsPatchworkGets) {
+  const auto space = std::make_shared<roam::Patchwork>();
+  const roam::PatchId tile = space->expect({Vec3(-20.0), Vec3(20.0)});
+  Rig r;
+  r->setSpace(space);
+  osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
+  r.manipulator = dynamic_cast<osgRoam::Manipulator*>(clone.get());
+  EXPECT_TRUE(r->held());
+  space->deliver(tile, roam::World());
+  r.frames(0.1);
+  EXPECT_FALSE(r->held());
+}
+
+}  // namespace
