@@ -142,4 +142,52 @@ TEST(ManipulatorSpace, ACloneTakesIntoUseWhatItsPatchworkGets) {
   EXPECT_FALSE(r->held());
 }
 
+TEST(ManipulatorSpace, APatchworkIsUpdatedWhicheverTypeThePointerHas) {
+  const auto patchwork = std::make_shared<roam::Patchwork>();
+  const auto comes = [&](const auto& pointer) {
+    const Vec3 middle(100.0 * static_cast<double>(patchwork->stats().patches), 0.0, 0.0);
+    Rig r;
+    r->setPose(middle, 0.0, 0.0);
+    r->setSpace(pointer);
+    const roam::PatchId tile = patchwork->expect({middle - Vec3(20.0), middle + Vec3(20.0)});
+    r.frames(0.1);
+    const bool waited = r->held();
+    patchwork->deliver(tile, roam::World());
+    r.frames(0.1);
+    return waited && !r->held();
+  };
+  EXPECT_TRUE(comes(patchwork));
+  EXPECT_TRUE(comes(std::shared_ptr<roam::Space>(patchwork)));
+  EXPECT_FALSE(comes(std::shared_ptr<const roam::Space>(patchwork))) << "that one is the caller's to update";
+  EXPECT_FALSE(comes(std::shared_ptr<const roam::Patchwork>(patchwork)));
+}
+
+TEST(ManipulatorSpace, AnUpdateOfOnesOwnIsForgottenWithItsSpace) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  Rig r(room(), {}, roam::Mode::fly);
+  int updates = 0;
+  r->setSpaceUpdate([&](const roam::Body&, const Vec3&) { ++updates; });
+  r->buildSpace(*scene);
+  r.frame(frame);
+  EXPECT_GT(updates, 0);
+  finish_building(r);
+  updates = 0;
+  r.frames(0.1);
+  EXPECT_EQ(updates, 0);
+  r->setSpaceUpdate([&](const roam::Body&, const Vec3&) { ++updates; });
+  r->setSpace(std::make_shared<roam::World>());
+  EXPECT_EQ(updates, 0);
+}
+
+TEST(ManipulatorSpace, AnotherSpaceEndsTheBuilding) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  Rig r;
+  r->buildSpace(*scene);
+  const auto own = std::make_shared<const roam::World>();
+  r->setSpace(own);
+  EXPECT_FALSE(r->building());
+  r.frames(0.1);
+  EXPECT_EQ(r->space(), own);
+}
+
 }  // namespace

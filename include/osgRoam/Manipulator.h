@@ -41,6 +41,7 @@
 /// call anything here, also what replaces them; a report that they were given means nothing once the space or the
 /// settings have changed. All of it belongs to the thread that calls Viewer::frame(), in every threading model.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,8 @@
 #include <osgGA/CameraManipulator>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "osgRoam/Controls.h"
 #include "roam/patchwork.h"
@@ -82,16 +85,23 @@ class Manipulator : public osgGA::CameraManipulator {
   // --- the body and what it moves in
 
   /// Puts the body, where it is, into another space (null: into none, it is held). Where it does not fit it is put to
-  /// the nearest safe place. Call between two frames.
+  /// the nearest safe place. In walk mode a body that is still where a computed home has put it, with nobody having
+  /// moved or placed it since, goes home() again: now there may be a floor to stand on. Ends a building that is under
+  /// way, and waits until that is noticed, for milliseconds mostly. Call between two frames.
+  ///
+  /// A Patchwork that is passed as const is the caller's to update, between two frames.
   void setSpace(std::shared_ptr<const roam::Space> space);
-  /// The same, and takes into use what was delivered, before the steps of each frame.
-  void setSpace(std::shared_ptr<roam::Patchwork> space);
+  /// The same; and if it is a Patchwork, whichever type the pointer has, what was delivered is taken into use before
+  /// the steps of each frame and before a placement.
+  template <std::derived_from<roam::Space> Space>
+  requires(!std::is_const_v<Space>) void setSpace(std::shared_ptr<Space> space) { setGrowingSpace(std::move(space)); }
   void setSpace(std::nullptr_t) { setSpace(std::shared_ptr<const roam::Space>()); }
   /// What the present space needs before the steps of each frame and before a placement: called with the body and its
-  /// centre. setSpace forgets it.
-  void setSpaceUpdate(std::function<bool(const roam::Body&, const roam::Vec3&)> update);
+  /// centre. Call it after setSpace, which forgets it, as does a space that buildSpace has made, when it is taken.
+  void setSpaceUpdate(std::function<void(const roam::Body&, const roam::Vec3&)> update);
   [[nodiscard]] const std::shared_ptr<const roam::Space>& space() const;
-  /// Builds a world of the triangles of `scene` as the constructor does, and takes it as the space when it is ready.
+  /// Builds a world of the triangles of `scene` as the constructor does. When it is ready, in a frame, it becomes the
+  /// space, as by setSpace; until then the present one stays. Ends a building that is under way, as setSpace does.
   void buildSpace(osg::Node& scene);
   [[nodiscard]] bool building() const;
   /// The fraction done of buildSpace, in [0, 1]; 1 when nothing is being built.
@@ -235,6 +245,8 @@ class Manipulator : public osgGA::CameraManipulator {
   ~Manipulator() override;
 
  private:
+  void setGrowingSpace(std::shared_ptr<roam::Space> space);
+
   struct State;
   const std::unique_ptr<State> _state;
 };

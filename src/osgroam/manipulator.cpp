@@ -61,11 +61,11 @@ void Manipulator::setSpace(std::shared_ptr<const roam::Space> space) {
   if (_state->at_computed_home && _state->mode == roam::Mode::walk) home(0.0);
 }
 
-void Manipulator::setSpace(std::shared_ptr<roam::Patchwork> space) {
+void Manipulator::setGrowingSpace(std::shared_ptr<roam::Space> space) {
   _state->build.reset();
   State::Update update;
-  if (space) {
-    update = [space](const roam::Body& body, const roam::Vec3& place) { return space->update(body, place); };
+  if (const auto patchwork = std::dynamic_pointer_cast<roam::Patchwork>(space)) {
+    update = [patchwork](const roam::Body& body, const roam::Vec3& place) { patchwork->update(body, place); };
   }
   _state->change_space(std::move(space), std::move(update));
   if (_state->at_computed_home && _state->mode == roam::Mode::walk) home(0.0);
@@ -73,7 +73,7 @@ void Manipulator::setSpace(std::shared_ptr<roam::Patchwork> space) {
 
 const std::shared_ptr<const roam::Space>& Manipulator::space() const { return _state->space; }
 
-void Manipulator::setSpaceUpdate(std::function<bool(const roam::Body&, const roam::Vec3&)> update) {
+void Manipulator::setSpaceUpdate(std::function<void(const roam::Body&, const roam::Vec3&)> update) {
   _state->update = std::move(update);
 }
 
