@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <osg/LOD>
 #include <osg/PagedLOD>
 #include <osg/ProxyNode>
@@ -211,6 +212,73 @@ TEST(OsgSceneSpace, ReadsPagesAndKnowsWhatItCannotKnow) {
   EXPECT_EQ(space.sweep({0.25}, {40, 0, 100}, {1, 0, 0}).time, 0.0);
 }
 
+TEST(OsgSceneSpace, IsNotSolidEverywhereForAFileThatIsNowhere) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  osg::ref_ptr<osg::PagedLOD> sizeless = new osg::PagedLOD;
+  sizeless->setFileName(0, "sizeless.osgt");
+  sizeless->setRange(0, 0.0f, 50.0f);
+  osg::ref_ptr<osg::ProxyNode> proxy = new osg::ProxyNode;
+  proxy->setFileName(0, "proxy.osgt");
+  osg::ref_ptr<osg::PagedLOD> endless = tile(0.0, false, "endless.osgt");
+  endless->setRadius(static_cast<float>(inf));
+  osg::ref_ptr<osg::PagedLOD> astray = tile(nan, false, "astray.osgt");
+  for (const double bad : {nan, inf}) {
+    osg::ref_ptr<osg::MatrixTransform> nowhere = new osg::MatrixTransform(osg::Matrixd::translate(0, bad, 0));
+    nowhere->addChild(tile(0.0, false, "nowhere.osgt"));
+    nowhere->addChild(square({0, 0, 0}, 5.0, "nowhere"));
+    for (const osg::ref_ptr<osg::Node>& node :
+         std::vector<osg::ref_ptr<osg::Node>>{sizeless, proxy, endless, astray, nowhere}) {
+      osg::ref_ptr<osg::Group> scene = new osg::Group;
+      scene->addChild(square({0, 0, 0}, 5.0, "floor"));
+      scene->addChild(node);
+      const SceneSpace space(scene, {100, 0, 0});
+      const roam::Impact down = space.sweep({0.25}, {100, 0, 1}, {0, 0, -2});
+      ASSERT_TRUE(down.hit);
+      EXPECT_NEAR(down.time, 0.375, 1e-6);
+      EXPECT_EQ(space.object_name(down.triangle), "floor");
+      EXPECT_FALSE(space.sweep({0.25}, {100, 0, 1}, {0, 0, 1}).hit);
+      EXPECT_NEAR(space.clearance({0.25}, {100, 0, 1}, 5.0).distance, 0.75, 1e-6);
+      EXPECT_FALSE(space.clearance({0.25}, {100, 0, 9}, 5.0).found);
+      const roam::Box bounds = space.bounds();
+      EXPECT_LE(bounds.lower.x, 95.0);
+      EXPECT_GE(bounds.upper.x, 105.0);
+      EXPECT_GT(bounds.lower.x, 80.0);
+      EXPECT_LT(bounds.upper.x, 120.0);
+      EXPECT_EQ(space.getUnplacedFiles().size(), 1u);
+    }
+  }
+}
+
+TEST(OsgSceneSpace, BoundsWhatIsThereBesideVerticesThatAreNotFinite) {
+  osg::ref_ptr<osg::Geometry> broken = square({0, 0, 0}, 5.0, "broken");
+  static_cast<osg::Vec3Array*>(broken->getVertexArray())
+      ->push_back(osg::Vec3(std::numeric_limits<float>::infinity(), 0, 0));
+  broken->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 2, 3));
+  osg::ref_ptr<osg::Group> scene = new osg::Group;
+  scene->addChild(broken);
+  scene->addChild(tile(20.0, false, "gone.osgt"));
+  const SceneSpace space(scene);
+  const roam::Impact down = space.sweep({0.25}, {0, 0, 1}, {0, 0, -2});
+  ASSERT_TRUE(down.hit);
+  EXPECT_EQ(space.object_name(down.triangle), "broken");
+  EXPECT_TRUE(space.sweep({0.25}, {20, 0, 10}, {0, 0, -2}).unknown);
+  const roam::Box bounds = space.bounds();
+  EXPECT_NEAR(bounds.lower.x, -5.0, 1e-3);
+  EXPECT_NEAR(bounds.upper.x, 28.0, 1e-3);
+}
+
+TEST(OsgSceneSpace, GivesWhatIsUnknownRoomForTheRoundingOfItsSphere) {
+  // The sphere of a file that was written in doubles, rounded to floats.
+  const osg::Vec3d centre(5678901.3, 0.0, 0.0);
+  const SceneSpace space(tile(centre.x(), false, "gone.osgt"), -centre);
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(space.sweep({0.1}, {side * 8.05, 0, 0}, Vec3(0.0)).unknown);
+    const roam::Impact border = space.sweep({0.1}, {side * 100.0, 0, 0}, {-side * 100.0, 0, 0});
+    ASSERT_TRUE(border.hit);
+    EXPECT_LT(100.0 - 100.0 * border.time, 8.1 + 33.0 * 0x1p-24 * centre.x());
+  }
+}
+
 TEST(OsgSceneSpace, LeavesOutWhatTheOthersLeaveOut) {
   osg::ref_ptr<osg::Camera> display = new osg::Camera;
   display->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
@@ -228,6 +296,9 @@ TEST(OsgSceneSpace, RefusesWhatNoSpaceTakes) {
   osg::ref_ptr<osg::Group> scene = new osg::Group;
   const SceneSpace space(scene);
   EXPECT_THROW((SceneSpace(nullptr)), roam::Error);
+  SceneSpace other(scene);
+  for (const double margin : {-1.0, std::nan(""), HUGE_VAL}) EXPECT_THROW(other.setBoundsMargin(margin), roam::Error);
+  EXPECT_NO_THROW(static_cast<void>(other.sweep({0.3}, Vec3(0.0), Vec3(0.0))));
   EXPECT_THROW(static_cast<void>(space.sweep({-1.0}, Vec3(0.0), Vec3(0.0))), roam::Error);
   EXPECT_THROW(static_cast<void>(space.clearance({0.3}, Vec3(std::nan("")), 1.0)), roam::Error);
   EXPECT_TRUE(space.bounds().empty());

@@ -104,7 +104,8 @@ class BoxIntersector : public osgUtil::Intersector {
     return _parent ? _parent->getCandidateDrawables() : _candidateDrawables;
   }
 
-  /// Metres by which bounding spheres and boxes are taken larger than they say. See boundsMargin.
+  /// Metres by which bounding spheres and boxes are taken larger than they say. See boundsMargin. Throws
+  /// roam::Error for a margin that is negative or not finite.
   void setBoundsMargin(double margin);
   double getBoundsMargin() const { return _boundsMargin; }
 

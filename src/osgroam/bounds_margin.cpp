@@ -111,8 +111,10 @@ double boundsMargin(osg::Node& node) {
   // Measured in doubles, far from the origin perhaps.
   constexpr double rounding = 1e-9;
   const osg::BoundingSphere& all = node.getBound();
-  const double coordinates = all.valid() ? osg::Vec3d(all.center()).length() + all.radius() : 0.0;
-  return visitor.excess() * (1.0 + rounding) + rounding * coordinates;
+  const double coordinates = osg::Vec3d(all.center()).length() + all.radius();
+  // A sphere that is not finite rejects nothing.
+  const bool bounds = all.valid() && std::isfinite(coordinates);
+  return visitor.excess() * (1.0 + rounding) + (bounds ? rounding * coordinates : 0.0);
 }
 
 }  // namespace osgRoam

@@ -10,13 +10,13 @@
 #include "osgRoam/BoxIntersector.h"
 #include "osg_triangles/graph_walk.h"
 #include "roam/error.h"
+#include "sphere_box.h"
 
 namespace osgRoam {
 namespace {
 
-/// Of each coordinate: roundings of a bounding sphere, in floats, that eight nested transforms make with four each.
-constexpr double sphereRounding = 32.0 * 0x1p-24;
-/// The same of a bounding box, which only takes over coordinates, for vertices in doubles.
+/// Of each coordinate: as sphereRounding, of a bounding box, which only takes over coordinates, for vertices in
+/// doubles.
 constexpr double boxRounding = 0x1p-23;
 /// The same of everything here, in doubles.
 constexpr double ownRounding = 1e-12;
@@ -57,9 +57,7 @@ BoxIntersector::BoxIntersector(CoordinateFrame frame, const roam::Body& body, co
 }
 
 void BoxIntersector::setBoundsMargin(double margin) {
-  if (!(margin >= 0.0 && std::isfinite(margin))) {
-    throw roam::Error("the margin of bounding volumes must be finite and not negative; boundsMargin() measures it.");
-  }
+  checkBoundsMargin(margin);
   _boundsMargin = margin;
 }
 

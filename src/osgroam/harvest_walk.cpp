@@ -3,32 +3,13 @@
 #include <algorithm>
 #include <set>
 
-#include "affine.h"
 #include "osg_triangles/mesh_of.h"
-#include "roam/space.h"
+#include "sphere_box.h"
 
 namespace osgRoam {
 namespace {
 
 namespace triangles = roam::osg_triangles;
-
-/// The box of a bounding sphere in the scene; empty where that has no size.
-roam::Box box_of(const osg::BoundingSphere& sphere, const osg::Matrixd& to_scene) {
-  roam::Box box;
-  if (!sphere.valid() || !(sphere.radius() > 0.0f)) return box;
-  const osg::Vec3d local = sphere.center();
-  const osg::Vec3d centre = local * to_scene;
-  // Spheres are floats: see BoxIntersector, which allows for the same roundings.
-  const double rounding = 0x1p-19 * (local.length() + sphere.radius());
-  const double radius = (sphere.radius() + rounding) * greatestStretch(to_scene);
-  constexpr double limit = roam::Space::coordinate_limit;
-  for (const double side : {-radius, radius}) {
-    roam::Vec3 corner;
-    for (int k = 0; k < 3; ++k) corner[k] = std::clamp(centre[k] + side, -limit, limit);
-    box.include(corner);
-  }
-  return box;
-}
 
 class HarvestWalk : public triangles::GraphWalk {
  public:
@@ -38,7 +19,7 @@ class HarvestWalk : public triangles::GraphWalk {
   using GraphWalk::apply;
   void apply(osg::ProxyNode& proxy) override {
     if (!inside_level_ && proxy.getLoadingExternalReferenceMode() != osg::ProxyNode::NO_AUTOMATIC_LOADING) {
-      NamedFiles named{to_world(), box_of(proxy.getBound(), to_world()), {}, {{}}, {}};
+      NamedFiles named{to_world(), boxOf(proxy.getBound(), to_world()), {}, {{}}, {}};
       for (unsigned i = proxy.getNumChildren(); i < proxy.getNumFileNames(); ++i) {
         if (!proxy.getFileName(i).empty()) {
           named.levels[0].push_back(proxy.getDatabasePath() + proxy.getFileName(i));
@@ -86,7 +67,7 @@ class HarvestWalk : public triangles::GraphWalk {
       std::erase_if(for_good, [&](unsigned i) { return !std::binary_search(level->begin(), level->end(), i); });
     }
     accept(lod, {for_good.begin(), for_good.end()}, {});
-    NamedFiles named{to_world(), box_of(lod.getBound(), to_world()), {}, {}, {}};
+    NamedFiles named{to_world(), boxOf(lod.getBound(), to_world()), {}, {}, {}};
     if (here != levels.end()) copy(lod, *here, for_good, named.coarse);
     named.box.include(osgRoam::box_of(named.coarse));
     for (auto level = here; level != levels.begin();) {

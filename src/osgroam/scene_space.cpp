@@ -7,6 +7,7 @@
 #include "osgRoam/SceneSpace.h"
 #include "osg_triangles/mesh_of.h"
 #include "scene_visitor.h"
+#include "sphere_box.h"
 #include "vectors.h"
 #include "world/query.h"
 #include "world/unknown.h"
@@ -65,6 +66,8 @@ class Numbers {
   std::size_t forget_at_ = 1024;
 };
 
+constexpr std::size_t unplaced_limit = 100;
+
 std::string name_on(const osg::NodePath& path, const osg::Drawable& drawable) {
   std::vector<std::string> names;
   for (const osg::Node* node : path) names.push_back(node->getName());
@@ -81,20 +84,40 @@ struct SceneSpace::State {
   bool kd_tree = true;
   double margin = 0.0;
   Numbers numbers;
+  std::vector<std::string> unplaced;
 
   /// Sends the body, grown by `reach`, through the graph; it comes back with what it met. `from` is in its frame.
   struct Visit {
     osg::ref_ptr<BoxIntersector> box;
     SceneVisitor visitor;
 
-    Visit(const State& state, const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, bool gather)
+    Visit(State& state, const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, bool gather)
         : box(new BoxIntersector(body, to_osg(from), to_osg(from + motion))), visitor(box, state.read) {
       box->setBoundsMargin(state.margin);
       box->setGatherCandidates(gather);
       visitor.setUseKdTreeWhenAvailable(state.kd_tree);
       state.scene->accept(visitor);
+      for (const std::string& file : visitor.unplaced()) state.note_unplaced(file);
     }
   };
+
+  void note_unplaced(const std::string& file) {
+    if (unplaced.size() < unplaced_limit && std::find(unplaced.begin(), unplaced.end(), file) == unplaced.end()) {
+      unplaced.push_back(file);
+    }
+  }
+
+  /// The box of all that queries can meet, in the frame of the graph, found without its spheres.
+  roam::Box everything() {
+    // A body that reaches everywhere.
+    const Visit visit(*this, {2.0 * coordinate_limit}, roam::Vec3(0.0), roam::Vec3(0.0), true);
+    roam::Box box;
+    for (const auto& candidate : visit.box->getCandidates()) {
+      for (const roam::Vec3& corner : candidate.triangle) box.include(corner);
+    }
+    for (const auto& unknown : visit.visitor.unknown()) box.include(unknown.box);
+    return box;
+  }
 
   roam::TriangleId number(const SceneVisitor::Unknown& unknown) {
     return numbers.base(unknown.path, unknown.path.back(), unknown.file);
@@ -140,7 +163,10 @@ SceneSpace::~SceneSpace() = default;
 
 void SceneSpace::setReadCallback(osgUtil::IntersectionVisitor::ReadCallback* callback) { _state->read = callback; }
 void SceneSpace::setUseKdTreeWhenAvailable(bool use) { _state->kd_tree = use; }
-void SceneSpace::setBoundsMargin(double margin) { _state->margin = margin; }
+void SceneSpace::setBoundsMargin(double margin) {
+  checkBoundsMargin(margin);
+  _state->margin = margin;
+}
 
 roam::Impact SceneSpace::sweep(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion) const {
   roam::query::check(body, from, motion);
@@ -192,15 +218,14 @@ roam::Clearance SceneSpace::clearance(const roam::Body& body, const roam::Vec3& 
 }
 
 roam::Box SceneSpace::bounds() const {
-  roam::Box box;
-  const osg::BoundingSphere& sphere = _state->scene->getBound();
-  if (!sphere.valid()) return box;
-  // A float is 2^-24 of itself off, and so is the radius.
-  const roam::Vec3 centre = to_roam(sphere.center());
-  const double radius = sphere.radius() + _state->margin + 0x1p-20 * (roam::largest(centre) + sphere.radius());
-  for (const double side : {-radius, radius}) box.include(centre + _state->origin + side);
-  return box;
+  roam::Box box = boxOf(_state->scene->getBound(), osg::Matrixd::identity());
+  // One vertex that is not finite spoils the spheres of all that it is in.
+  if (box.empty()) box = _state->everything();
+  if (box.empty()) return box;
+  return {box.lower + (_state->origin - _state->margin), box.upper + (_state->origin + _state->margin)};
 }
+
+std::vector<std::string> SceneSpace::getUnplacedFiles() const { return _state->unplaced; }
 
 std::string SceneSpace::object_name(roam::TriangleId triangle) const { return _state->numbers.name(triangle); }
 

@@ -6,10 +6,9 @@
 #include <osg/ProxyNode>
 #include <osg/Sequence>
 
-#include "affine.h"
 #include "osg_triangles/graph_walk.h"
 #include "osg_triangles/level_of_detail.h"
-#include "roam/space.h"
+#include "sphere_box.h"
 
 namespace osgRoam {
 
@@ -86,18 +85,11 @@ void SceneVisitor::apply(osg::ProxyNode& proxy) {
 }
 
 void SceneVisitor::add_unknown(const osg::Node& node, const std::string& file) {
-  const osg::BoundingSphere& sphere = node.getBound();
-  roam::Box box;
-  if (sphere.valid()) {
-    const osg::Matrixd matrix = getModelMatrix() == nullptr ? osg::Matrixd() : *getModelMatrix();
-    const osg::Vec3d centre = osg::Vec3d(sphere.center()) * matrix;
-    const double radius = sphere.radius() * greatestStretch(matrix);
-    for (const double side : {-radius, radius}) box.include(roam::Vec3(centre.x(), centre.y(), centre.z()) + side);
-  } else {
-    // It may be anywhere.
-    for (const double side : {-roam::Space::coordinate_limit, roam::Space::coordinate_limit}) {
-      box.include(roam::Vec3(side));
-    }
+  const osg::Matrixd matrix = getModelMatrix() == nullptr ? osg::Matrixd() : *getModelMatrix();
+  const roam::Box box = boxOf(node.getBound(), matrix);
+  if (box.empty()) {
+    unplaced_.push_back(file);
+    return;
   }
   unknown_.push_back({box, getNodePath(), file});
 }

@@ -23,6 +23,8 @@ class SceneVisitor : public osgUtil::IntersectionVisitor {
     std::string file;
   };
   [[nodiscard]] const std::vector<Unknown>& unknown() const { return unknown_; }
+  /// Files that are not loaded and of which the graph does not say where they belong.
+  [[nodiscard]] const std::vector<std::string>& unplaced() const { return unplaced_; }
 
   using osgUtil::IntersectionVisitor::apply;
   void apply(osg::Billboard&) override {}
@@ -38,6 +40,7 @@ class SceneVisitor : public osgUtil::IntersectionVisitor {
   void add_unknown(const osg::Node& node, const std::string& file);
 
   std::vector<Unknown> unknown_;
+  std::vector<std::string> unplaced_;
 };
 
 }  // namespace osgRoam
