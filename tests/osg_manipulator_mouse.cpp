@@ -237,6 +237,37 @@ TEST(ManipulatorMouse, GoingEndsAtTheFirstKeyThatMoves) {
   EXPECT_FALSE(r->going());
 }
 
+TEST(ManipulatorMouse, GoingComesToRestBesideTheSurface) {
+  Rig r(floor_mesh(), {.radius = 0.25}, roam::Mode::fly);
+  r->setPose({0.0, 0.0, 5.0}, 0.0, 0.0);
+  const double skin = r->walker()->skin();
+  for (const Vec3& normal : {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.0, 0.8)}) {
+    const Vec3 point(-3.0, 1.0, 2.0);
+    r->goTo(point, normal);
+    r.frames(5.0);
+    EXPECT_FALSE(r->going());
+    const roam::Body body = r->walker()->body();
+    const double support = body.radius + body.half_height * std::abs(normal.z);
+    EXPECT_NEAR(glm::dot(r->walker()->position() - point, normal) - support, 2.0 * skin, 1e-3 + 2.0 * skin);
+  }
+  EXPECT_THROW(r->goTo({1.0, 1.0, 1.0}, Vec3(0.0)), roam::Error);
+  EXPECT_THROW(r->goTo({1.0, 1.0, 1.0}, Vec3(0.0, 0.0, 2.0)), roam::Error);
+  EXPECT_THROW(r->goTo({1.0, 1.0, 1.0}, Vec3(0.0, 0.0, NAN)), roam::Error);
+  EXPECT_THROW(r->goTo({1.0, INFINITY, 1.0}, Vec3(0.0, 0.0, 1.0)), roam::Error);
+  EXPECT_FALSE(r->going());
+}
+
+TEST(ManipulatorMouse, NobodyGoesWhoCanNot) {
+  Rig r;
+  r->goTo({5.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  EXPECT_FALSE(r->going()) << "without a space";
+  r->setSpace(std::make_shared<const roam::World>());
+  EXPECT_FALSE(r->going());
+  r->setPilot([](roam::Walker& walker, double seconds) { return &walker.step({}, seconds); });
+  r->goTo({5.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  EXPECT_FALSE(r->going()) << "with a pilot";
+}
+
 TEST(ManipulatorMouse, AClickIntoTheSkyGoesNowhere) {
   Standing r;
   r->look(0.0, 1.0);

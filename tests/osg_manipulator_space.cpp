@@ -4,6 +4,7 @@
 #include <osg/ShapeDrawable>
 #include <thread>
 
+#include "osgRoam/Triangles.h"
 #include "osg_rig.h"
 
 namespace {
@@ -86,6 +87,37 @@ TEST(ManipulatorSpace, OnFootAComputedHomeIsAPlaceToStand) {
   EXPECT_TRUE(r->walker()->grounded());
   EXPECT_NEAR(r->walker()->position().x, 10.0, 1.0);
   EXPECT_NEAR(r->eye().z, 1.6, near_ground);
+}
+
+TEST(ManipulatorSpace, OnFootANewFloorLeavesAloneWhoHasMovedFromTheComputedHome) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  const auto world = std::make_shared<const roam::World>(roam::World());
+  const auto floor = std::make_shared<const roam::World>(osgRoam::buildWorld(*scene));
+  using Move = std::function<void(Rig&)>;
+  const auto moved_home = [&](const Move& move) {
+    Rig r;
+    r->setMode(roam::Mode::walk);
+    r->setNode(scene);
+    r->setSpace(world);
+    r->home(0.0);
+    move(r);
+    const Vec3 before = r->eye();
+    r->setSpace(floor);
+    return glm::length(r->eye() - before) > 1.0;
+  };
+  EXPECT_TRUE(moved_home([](Rig&) {}));
+  EXPECT_TRUE(moved_home([](Rig& r) { r->look(1.0, 0.2); })) << "who only looks has not moved";
+  const Vec3 away(40.0, 0.0, 3.0);
+  EXPECT_FALSE(moved_home([&](Rig& r) { r->setPose(away, 0.0, 0.0); }));
+  EXPECT_FALSE(moved_home([&](Rig& r) { r->setFeet(away, 0.0, 0.0); }));
+  EXPECT_FALSE(moved_home([&](Rig& r) { r->setByMatrix(osg::Matrixd::translate(40.0, 0.0, 3.0)); }));
+  EXPECT_FALSE(moved_home([&](Rig& r) { r->goTo(away, {0.0, 0.0, 1.0}); }));
+  EXPECT_FALSE(moved_home([](Rig& r) { r->placed(); }));
+  EXPECT_FALSE(moved_home([](Rig& r) {
+    r.frame(frame);
+    r.down('w');
+    r.frame(frame);
+  }));
 }
 
 TEST(ManipulatorSpace, OneLineBuildsTheWorldOfTheScene) {

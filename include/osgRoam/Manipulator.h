@@ -171,8 +171,12 @@ class Manipulator : public osgGA::CameraManipulator {
 
   // --- going without keys
 
-  /// Goes to `point`, metres, as a double click on it does: straight, with collision, hurrying. Ends when it is there,
-  /// when it no longer comes nearer, and at the first key that moves.
+  /// Goes to `point`, metres, as a double click on it does: straight, with collision, hurrying. `normal` is that of the
+  /// surface there, of length 1, on the side from which one comes: the body comes to rest beside the plane that it
+  /// stands on, with a gap of two skins (Walker::skin). On foot only the horizontal part of the way counts. Ends when
+  /// it is there, when it no longer comes nearer, and at the first key that moves. Does nothing without a space, while
+  /// a pilot moves the body, and after a problem(). Throws roam::Error for a point that is not finite and for a normal
+  /// whose length is not 1 to within 1e-3.
   void goTo(const roam::Vec3& point, const roam::Vec3& normal);
   [[nodiscard]] bool going() const;
   void stopGoing();

@@ -85,7 +85,7 @@ bool Manipulator::State::scroll(const Adapter& event) {
 }
 
 bool Manipulator::State::go_to_clicked(const Adapter& event) {
-  if (!walker || !projection || stuck || pilot) return false;
+  if (!projection || !can_go()) return false;
   const bool grabbed = pointer.grab_wanted();  // then the pointer is where the middle of the picture is
   const double x = grabbed ? 0.0 : event.getXnormalized(), y = grabbed ? 0.0 : event.getYnormalized();
   const roam::Vec3 from = eye();
@@ -98,8 +98,7 @@ bool Manipulator::State::go_to_clicked(const Adapter& event) {
     seen = space->ray(from, std::min(farthest, click_limit) * *direction);
   });
   if (!seen.hit || seen.unknown) return false;
-  at_computed_home = false;
-  journey.begin(*walker, seen.point, seen.normal);
+  go(seen.point, seen.normal);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 #include <utility>
 
 #include "osgRoam/Triangles.h"
@@ -9,6 +10,9 @@
 
 namespace osgRoam {
 namespace {
+
+/// A normal of a graph's floats is of length 1 to within this.
+constexpr double unit_tolerance = 1e-3;
 
 void demand_finite(double sum, const char* what) {
   if (!std::isfinite(sum)) throw roam::Error(std::string(what) + " is not a finite number");
@@ -181,8 +185,12 @@ void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
 // --- going without keys
 
 void Manipulator::goTo(const roam::Vec3& point, const roam::Vec3& normal) {
-  demand_finite(point.x + point.y + point.z + normal.x + normal.y + normal.z, "the place to go to");
-  if (_state->walker) _state->journey.begin(*_state->walker, point, normal);
+  demand_finite(point.x + point.y + point.z, "the place to go to");
+  const double length = glm::length(normal);
+  if (!(std::abs(length - 1.0) <= unit_tolerance)) {
+    throw roam::Error("the normal at the place to go to has a length of " + std::to_string(length) + "; it must be 1");
+  }
+  if (_state->can_go()) _state->go(point, normal);
 }
 
 bool Manipulator::going() const { return _state->journey.under_way(); }

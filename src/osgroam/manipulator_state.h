@@ -105,6 +105,9 @@ struct Manipulator::State {
   void frame(double time);
   void run(double seconds, const HeldCommands& held);
   void step(double seconds, const HeldCommands& held);
+  /// Whether the body could go somewhere by itself.
+  [[nodiscard]] bool can_go() const { return walker && !stuck && !pilot; }
+  void go(const roam::Vec3& point, const roam::Vec3& normal);
   void fly_pilot(double seconds);
   [[nodiscard]] roam::Vec3 wish(const HeldCommands& held) const;
   /// Whether the next frame will differ from this one although nothing happens.

@@ -206,6 +206,11 @@ void Manipulator::State::step(double seconds, const HeldCommands& held) {
   call(on_step, report, seconds);
 }
 
+void Manipulator::State::go(const roam::Vec3& point, const roam::Vec3& normal) {
+  at_computed_home = false;
+  journey.begin(*walker, point, normal);
+}
+
 void Manipulator::State::fly_pilot(double seconds) {
   owed += seconds;
   for (int count = 0; count < pilot_limit && pilot && walker && owed > least_owed; ++count) {
