@@ -89,6 +89,37 @@ TEST(ManipulatorSpace, OnFootAComputedHomeIsAPlaceToStand) {
   EXPECT_NEAR(r->eye().z, 1.6, near_ground);
 }
 
+TEST(ManipulatorSpace, WhoIsPutBackFromBelowTheSceneIsNotHeld) {
+  Mesh m;
+  add_floor(m, -2.0, -2.0, 2.0, 2.0, 0.0);
+  Rig r(m, {}, roam::Mode::walk);
+  r->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
+  int put_back = 0;
+  r->setStepCallback([&](const roam::StepReport& report, double) { put_back += report.held; });
+  r.down('w');
+  for (int i = 0; i < 600; ++i) {
+    r.frame(frame);
+    EXPECT_FALSE(r->held());
+  }
+  EXPECT_GT(put_back, 0);
+}
+
+TEST(ManipulatorSpace, WhoIsHeldIsHeldInEveryMode) {
+  const auto space = std::make_shared<roam::Patchwork>();
+  space->expect({Vec3(-20.0), Vec3(20.0)});
+  Rig r;
+  r->setSpace(space);
+  r.frames(0.1);
+  for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly, roam::Mode::walk}) {
+    r->setMode(mode);
+    EXPECT_TRUE(r->held());
+    r.frames(0.1);
+    EXPECT_TRUE(r->held());
+  }
+  r->setMode(roam::Mode::ghost);
+  EXPECT_FALSE(r->held());
+}
+
 TEST(ManipulatorSpace, OnFootANewFloorLeavesAloneWhoHasMovedFromTheComputedHome) {
   osg::ref_ptr<osg::Group> scene = box_scene();
   const auto world = std::make_shared<const roam::World>(roam::World());

@@ -135,7 +135,8 @@ class Manipulator : public osgGA::CameraManipulator {
   void placed();
   /// Of the last step or placement; an empty one before.
   [[nodiscard]] const roam::StepReport& report() const;
-  /// Cannot move: there is no space yet, or the body is held in it.
+  /// Cannot move: there is no space yet, the body does not fit where it is (Walker::held), or there was a problem(). A
+  /// body that fell out of the bottom of the scene and was put back can move: only report() says `held` then.
   [[nodiscard]] bool held() const;
   /// What went wrong inside the viewer's loop, for people; empty when nothing did. The body is held from then on until
   /// it is placed, or gets another space.

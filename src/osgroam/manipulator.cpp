@@ -141,7 +141,7 @@ const roam::StepReport& Manipulator::report() const {
   return _state->walker ? _state->walker->report() : none;
 }
 
-bool Manipulator::held() const { return !_state->walker || _state->stuck || _state->walker->report().held; }
+bool Manipulator::held() const { return !_state->walker || _state->stuck || _state->walker->held(); }
 
 const std::string& Manipulator::problem() const { return _state->problem; }
 
