@@ -6,6 +6,7 @@
 #include <fstream>
 #include <osgDB/ReadFile>
 #include <string>
+#include <utility>
 
 #include "graphics/capture.h"
 #include "graphics/child_process.h"
@@ -133,6 +134,53 @@ TEST_F(GraphicsCapture, SaysWhyAPictureCannotBeWritten) {
   fs::create_directories(folder / "taken.png" / "inside");
   EXPECT_NE(complaint([&] { graphics::write_image(*plain_image(8, 8, 9), folder / "taken.png"); }).find("taken.png"),
             std::string::npos);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(GraphicsCapture, APictureThatIsTooLargeIsAnErrorThatSaysWhatCanBeDrawn) {
+  Stage stage(64, 48, {.samples = 4});
+  stage.viewer.getCamera()->setViewport(0, 0, 100'000, 48);
+  Screenshot shot(stage.frame, folder / "large.png", true);
+  stage.viewer.frame();
+  const std::string words = complaint([&] { shot.finish(); });
+  EXPECT_NE(words.find("100000 x 48 pixels"), std::string::npos) << words;
+  EXPECT_TRUE(shot.done());
+  EXPECT_EQ(files(), 0u);
+  // Nor does a film get pictures of nothing.
+  bool any = false;
+  stage.frame.request_picture(true, [&](const osg::ref_ptr<osg::Image>&) { any = true; });
+  stage.viewer.frame();
+  EXPECT_FALSE(any);
+
+  // The size that it names can be drawn.
+  const std::size_t option = words.find("--size ");
+  ASSERT_NE(option, std::string::npos) << words;
+  int width = 0, height = 0;
+  ASSERT_EQ(std::sscanf(words.c_str() + option, "--size %dx%d", &width, &height), 2) << words;
+  EXPECT_GE(width, 4096);
+  EXPECT_LT(width, 100'000);
+  stage.viewer.getCamera()->setViewport(0, 0, width, height);
+  const auto named = stage.picture(true);
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->s(), width);
+  EXPECT_EQ(named->t(), height);
+
+  // And the first size again, as if nothing had been.
+  stage.viewer.getCamera()->setViewport(0, 0, 64, 48);
+  Stage other(64, 48, {.samples = 4});
+  EXPECT_EQ(differing(*stage.picture(true), *other.picture(true)), 0);
+}
+
+TEST_F(GraphicsCapture, AScreenshotThatWasMovedFromHasNothingToFinish) {
+  Stage stage(64, 48);
+  Screenshot first(stage.frame, folder / "shot.png", true);
+  Screenshot second(std::move(first));
+  EXPECT_TRUE(first.done());  // NOLINT(bugprone-use-after-move): the header says so
+  EXPECT_TRUE(first.path().empty());
+  EXPECT_EQ(complaint([&] { first.finish(); }), "");
+  EXPECT_FALSE(second.done());
+  stage.viewer.frame();
+  second.finish();
   EXPECT_EQ(files(), 1u);
 }
 

@@ -87,9 +87,9 @@ struct Stage {
   void look(const osg::Vec3d& eye, const osg::Vec3d& at_point) {
     viewer.getCamera()->setViewMatrixAsLookAt(eye, at_point, osg::Vec3d(0, 0, 1));
   }
-  osg::ref_ptr<osg::Image> picture(bool with_display = false) {
+  osg::ref_ptr<osg::Image> picture(bool with_hud = false) {
     osg::ref_ptr<osg::Image> taken;
-    frame.request_picture(with_display, [&](osg::ref_ptr<osg::Image> image) { taken = image; });
+    frame.request_picture(with_hud, [&](osg::ref_ptr<osg::Image> image) { taken = image; });
     viewer.frame();
     return taken;
   }

@@ -24,19 +24,20 @@ void write_image(const osg::Image& image, const std::filesystem::path& path);
 ///     shot.finish();
 class Screenshot {
  public:
-  /// Asks for the picture. with_display: with the head-up display. Throws roam::Error at once for an extension it
-  /// cannot write.
-  Screenshot(Frame& frame, std::filesystem::path path, bool with_display);
+  /// Asks for the picture. with_hud: with the head-up display. Throws roam::Error at once for an extension it cannot
+  /// write.
+  Screenshot(Frame& frame, std::filesystem::path path, bool with_hud);
   /// Waits for a file that is being written.
   ~Screenshot();
+  /// What was moved from is done, has nothing to finish and an empty path.
   Screenshot(Screenshot&&) noexcept;
   Screenshot& operator=(Screenshot&&) noexcept;
 
   /// Whether the file is written, or will not be: then finish() does not wait.
   [[nodiscard]] bool done() const;
-  /// Waits until the file is written. Throws roam::Error with the reason when it could not be, or when no frame was
-  /// drawn since. In threaded viewers the frame may still be being drawn when viewer.frame() returns: this waits for it
-  /// for at most 10 s.
+  /// Waits until the file is written. Throws roam::Error with the reason when it could not be, and when the picture was
+  /// too large to be drawn: then there is no file. In threaded viewers the frame may still be being drawn when
+  /// viewer.frame() returns, so this waits for it: 10 s in vain, and then throws, when no frame was drawn at all.
   void finish();
   [[nodiscard]] const std::filesystem::path& path() const;
 

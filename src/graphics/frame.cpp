@@ -92,7 +92,7 @@ Frame::Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSetti
   check_vertical_fov(settings.vertical_fov);
   if (settings.samples < 0) throw Error("a pixel cannot have " + std::to_string(settings.samples) + " samples");
   pipeline_ = new Pipeline(settings.reversed_depth && context.abilities.reversed_depth,
-                           std::min(settings.samples, context.abilities.samples));
+                           std::min(settings.samples, context.abilities.samples), context.headless);
 
   camera_->setGraphicsContext(context.window);
   camera_->setViewport(0, 0, context.width(), context.height());
@@ -149,8 +149,12 @@ std::string Frame::describe() const {
     depth = "ordinary 24-bit depth, so that far things flicker";
     if (wished) depth += " (the driver lacks GL_ARB_clip_control or float depth buffers)";
   }
-  return context_.describe() + ", " + depth + ", " +
-         (pipeline_->samples() > 1 ? std::to_string(pipeline_->samples()) + " samples a pixel" : "1 sample a pixel");
+  const int samples = std::max(1, pipeline_->samples());
+  std::string smoothness = samples > 1 ? std::to_string(samples) + " samples a pixel" : "1 sample a pixel";
+  if (samples < pipeline_->wished_samples()) {
+    smoothness += " (the driver has no room for " + std::to_string(pipeline_->wished_samples()) + ")";
+  }
+  return context_.describe() + ", " + depth + ", " + smoothness;
 }
 
 Ray Frame::ray(double x, double y) const {
@@ -166,8 +170,9 @@ Ray Frame::ray(double x, double y) const {
   return {{origin.x(), origin.y(), origin.z()}, {direction.x(), direction.y(), direction.z()}};
 }
 
-void Frame::request_picture(bool with_display, std::function<void(osg::ref_ptr<osg::Image>)> done) {
-  pipeline_->request(with_display, std::move(done));
+void Frame::request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
+                            std::function<void(const std::string&)> failed) {
+  pipeline_->request(with_hud, std::move(done), std::move(failed));
 }
 
 const char* depth_glsl() {

@@ -29,9 +29,11 @@ namespace roam::graphics {
 
 struct FrameSettings {
   double vertical_fov = 65.0;  ///< degrees, in [10, 150]
-  /// Metres, > 0: nothing nearer is drawn. For a body of radius r to see every wall it can touch: near_limit(r, ...).
+  /// Metres, in (0, 1000]: nothing nearer is drawn. For a body of radius r to see every wall it can touch:
+  /// near_limit(r, ...).
   double near = 0.05;
-  int samples = 4;             ///< a pixel; 0 or 1: jagged edges, and the least work. At most what the driver can.
+  /// A pixel; 0 or 1: jagged edges, and the least work. At most what the driver can; 1 where it has no room for more.
+  int samples = 4;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even where a reversed one could be had
 };
 
@@ -39,9 +41,10 @@ struct FrameSettings {
 /// corners of the picture are further out than its centre.
 [[nodiscard]] double near_limit(double radius, double vertical_fov, double aspect);
 
-/// A line of sight in the frame of the scene graph (scene minus origin).
+/// A line of sight. In the frame of the scene graph: what is drawn is the scene minus one origin, so add that to
+/// `origin` to have a place of the scene.
 struct Ray {
-  Vec3 origin{0.0};
+  Vec3 origin{0.0};     ///< metres
   Vec3 direction{0.0};  ///< length 1
 };
 
@@ -75,12 +78,14 @@ class Frame {
   [[nodiscard]] std::string describe() const;
 
   /// What lies under a pixel of the window, by the camera's present place: x to the right, y up, from the lower left
-  /// corner, as osgGA's events count them.
+  /// corner, as osgGA's events count them. In the frame of the scene graph, as the camera is: scene minus origin.
   [[nodiscard]] Ray ray(double x, double y) const;
 
   /// Asks for the picture of the next frame that is drawn: RGB, 8 bit, rows from the bottom, as osg::Image is used to.
-  /// `done` is called once, in the thread that draws. with_display: with what is drawn in flat().
-  void request_picture(bool with_display, std::function<void(osg::ref_ptr<osg::Image>)> done);
+  /// with_hud: with what is drawn in flat(). Either `done` or `failed` is called, once, in the thread that draws:
+  /// `failed` where the picture is too large for the driver, with the reason and a size that can be drawn.
+  void request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
+                       std::function<void(const std::string& reason)> failed = {});
 
  private:
   class Pipeline;

@@ -1,6 +1,7 @@
 #include "graphics/pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <osg/GraphicsContext>
 #include <osg/Notify>
 #include <osg/RenderInfo>
@@ -27,6 +28,21 @@ osg::ref_ptr<osg::Camera::DrawCallback> callback(osg::Referenced* owner, Step st
   return new StepCallback<Step>(owner, step);
 }
 
+/// The longest sides that the driver draws to, pixels.
+std::array<int, 2> largest_sides() {
+  GLint buffer = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE_EXT, &buffer);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  return {std::min(buffer, viewport[0]), std::min(buffer, viewport[1])};
+}
+
+/// Takes back what OpenGL complained about, so that OpenSceneGraph does not find it and complain again.
+void forget_errors() {
+  constexpr int most = 8;  // a lost context complains without end
+  for (int i = 0; i < most && glGetError() != GL_NO_ERROR; ++i) continue;
+}
+
 osg::GLExtensions& functions(osg::RenderInfo& info) { return *info.getState()->get<osg::GLExtensions>(); }
 
 }  // namespace
@@ -40,9 +56,9 @@ void Frame::Pipeline::attach(osg::Camera& camera) {
   camera.setFinalDrawCallback(callback(this, [this](osg::RenderInfo& info) { finish(info); }));
 }
 
-void Frame::Pipeline::request(bool with_display, Done done) {
+void Frame::Pipeline::request(bool with_hud, Done done, Failed failed) {
   const std::lock_guard lock(mutex_);
-  requests_.push_back({with_display, std::move(done)});
+  requests_.push_back({with_hud, std::move(done), std::move(failed)});
 }
 
 void Frame::Pipeline::begin(osg::RenderInfo& info) {
@@ -72,38 +88,73 @@ void Frame::Pipeline::finish(osg::RenderInfo& info) {
   const osg::GraphicsContext& window = *state.getGraphicsContext();
   state.applyMode(GL_SCISSOR_TEST, false);
   serve(true);
-  gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, picture_.frame);
-  gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, window.getDefaultFboId());
-  state.glDrawBuffer(window.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT);
-  gl.glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (problem_.empty()) {
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, picture_.frame);
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, window.getDefaultFboId());
+    state.glDrawBuffer(window.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT);
+    gl.glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, window.getDefaultFboId());
 }
 
 void Frame::Pipeline::resize(osg::GLExtensions& gl, int width, int height) {
-  release(gl, scene_);
-  if (samples_ > 1) release(gl, picture_);
   width_ = width;
   height_ = height;
-  bool complete = allocate(gl, scene_, samples_, true);
-  if (samples_ > 1) {
-    complete = allocate(gl, picture_, 0, false) && complete;
-  } else {
-    picture_ = scene_;
+  problem_.clear();
+  const auto [widest, highest] = largest_sides();
+  const bool within = width <= widest && height <= highest;
+  for (const int samples : {wished_samples_, 1}) {
+    samples_ = samples;
+    if (within && allocate(gl, width, height, samples)) return;
   }
-  if (!complete) {
-    OSG_WARN << "The graphics card has no room for a picture of " << width << " x " << height << " pixels with "
-             << std::max(1, samples_) << " samples each. Choose a smaller window or fewer samples.\n";
+  problem_ = refuse(gl);
+  // OpenSceneGraph draws whatever happens: into a pixel that nobody sees.
+  allocate(gl, 1, 1, 1);
+  // Who draws without a screen hears of it by the picture that is asked for.
+  if (!headless_) OSG_WARN << "The picture cannot be drawn: " << problem_ << ".\n";
+}
+
+std::string Frame::Pipeline::refuse(osg::GLExtensions& gl) {
+  const auto text = [](int width, int height, const char* times) {
+    return std::to_string(width) + times + std::to_string(height);
+  };
+  const std::string refusal = text(width_, height_, " x ") + " pixels are too many for this graphics driver";
+  constexpr double smaller = 0.7;  // half the pixels
+  const auto [widest, highest] = largest_sides();
+  double scale = std::min({1.0, static_cast<double>(widest) / width_, static_cast<double>(highest) / height_});
+  for (;; scale *= smaller) {
+    const int width = static_cast<int>(scale * width_), height = static_cast<int>(scale * height_);
+    if (width < 1 || height < 1) return refusal;
+    if (!allocate(gl, width, height, 1)) continue;
+    if (headless_)
+      return refusal + ". " + text(width, height, " x ") + " can be drawn: --size " + text(width, height, "x");
+    return refusal + ". Make the window smaller: " + text(width, height, " x ") + " can be drawn";
   }
 }
 
-bool Frame::Pipeline::allocate(osg::GLExtensions& gl, Buffers& buffers, int samples, bool with_depth) const {
+bool Frame::Pipeline::allocate(osg::GLExtensions& gl, int width, int height, int samples) {
+  release(gl);
+  bool complete = make(gl, scene_, width, height, samples, true);
+  if (samples > 1) {
+    complete = complete && make(gl, picture_, width, height, 1, false);
+  } else {
+    picture_ = scene_;
+  }
+  if (complete) return true;
+  release(gl);
+  forget_errors();
+  return false;
+}
+
+bool Frame::Pipeline::make(osg::GLExtensions& gl, Buffers& buffers, int width, int height, int samples,
+                           bool with_depth) const {
   const auto attach = [&](GLuint& buffer, GLenum where, GLenum format) {
     gl.glGenRenderbuffers(1, &buffer);
     gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffer);
     if (samples > 1) {
-      gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, width_, height_);
+      gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, width, height);
     } else {
-      gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, width_, height_);
+      gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, width, height);
     }
     gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, where, GL_RENDERBUFFER_EXT, buffer);
   };
@@ -117,24 +168,33 @@ bool Frame::Pipeline::allocate(osg::GLExtensions& gl, Buffers& buffers, int samp
   return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
 }
 
-void Frame::Pipeline::release(osg::GLExtensions& gl, Buffers& buffers) {
-  // Zeros are passed over by OpenGL.
-  gl.glDeleteFramebuffers(1, &buffers.frame);
-  gl.glDeleteRenderbuffers(1, &buffers.color);
-  gl.glDeleteRenderbuffers(1, &buffers.depth);
-  buffers = {};
+void Frame::Pipeline::release(osg::GLExtensions& gl) {
+  if (picture_.frame == scene_.frame) picture_ = {};
+  for (Buffers* buffers : {&scene_, &picture_}) {
+    // Zeros are passed over by OpenGL.
+    gl.glDeleteFramebuffers(1, &buffers->frame);
+    gl.glDeleteRenderbuffers(1, &buffers->color);
+    gl.glDeleteRenderbuffers(1, &buffers->depth);
+    *buffers = {};
+  }
 }
 
-void Frame::Pipeline::serve(bool with_display) {
+void Frame::Pipeline::serve(bool with_hud) {
   std::vector<Request> served;
   {
     const std::lock_guard lock(mutex_);
     const auto rest = std::stable_partition(requests_.begin(), requests_.end(),
-                                            [&](const Request& r) { return r.with_display != with_display; });
+                                            [&](const Request& r) { return r.with_hud != with_hud; });
     served.assign(std::make_move_iterator(rest), std::make_move_iterator(requests_.end()));
     requests_.erase(rest, requests_.end());
   }
   if (served.empty()) return;
+  if (!problem_.empty()) {
+    for (const Request& request : served) {
+      if (request.failed) request.failed(problem_);
+    }
+    return;
+  }
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->readPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE);
   for (const Request& request : served) request.done(image);

@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -61,12 +60,20 @@ struct Screenshot::State {
   std::condition_variable changed;
   osg::ref_ptr<osg::Image> image;
   bool given_up = false, written = false;
-  std::string problem;
+  std::string refusal;  // why it was not drawn
+  std::string problem;  // why there is no file
   std::thread writer;
 
   void give(osg::ref_ptr<osg::Image> taken) {
     const std::lock_guard lock(mutex);
     image = std::move(taken);
+    changed.notify_all();
+  }
+
+  void refuse(const std::string& reason) {
+    const std::lock_guard lock(mutex);
+    refusal = reason;
+    given_up = true;
     changed.notify_all();
   }
 
@@ -83,6 +90,8 @@ struct Screenshot::State {
       }
       lock.lock();
       problem = why;
+    } else if (!refusal.empty()) {
+      problem = "cannot draw the picture " + path.string() + ": " + refusal;
     } else {
       problem = "no picture was drawn for " + path.string();
     }
@@ -101,13 +110,14 @@ struct Screenshot::State {
   }
 };
 
-Screenshot::Screenshot(Frame& frame, fs::path path, bool with_display) : state_(std::make_shared<State>()) {
+Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud) : state_(std::make_shared<State>()) {
   check_extension(path);
   state_->path = std::move(path);
   // The thread does not own the state: ~Screenshot waits for it. The request does: its frame may come later.
   state_->writer = std::thread([state = state_.get()] { state->run(); });
-  frame.request_picture(with_display,
-                        [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); });
+  frame.request_picture(
+      with_hud, [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); },
+      [state = state_](const std::string& reason) { state->refuse(reason); });
 }
 
 Screenshot::~Screenshot() {
@@ -122,15 +132,20 @@ Screenshot& Screenshot::operator=(Screenshot&& other) noexcept {
 }
 
 bool Screenshot::done() const {
+  if (!state_) return true;
   const std::lock_guard lock(state_->mutex);
   return state_->written;
 }
 
 void Screenshot::finish() {
+  if (!state_) return;
   state_->end(frame_patience);
   if (!state_->problem.empty()) throw Error(state_->problem);
 }
 
-const fs::path& Screenshot::path() const { return state_->path; }
+const fs::path& Screenshot::path() const {
+  static const fs::path none;
+  return state_ ? state_->path : none;
+}
 
 }  // namespace roam::graphics
