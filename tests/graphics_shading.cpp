@@ -1,10 +1,14 @@
 // How surfaces look.
 
+#include <unistd.h>
+
+#include <chrono>
 #include <filesystem>
 #include <osg/BlendFunc>
 #include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/Material>
+#include <osg/PagedLOD>
 #include <osg/Program>
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
@@ -286,6 +290,38 @@ TEST(GraphicsShading, WhatIsReadByTheCallbackIsPrepared) {
   std::filesystem::remove(file);
   ASSERT_TRUE(node && node->asGeometry());
   EXPECT_TRUE(node->asGeometry()->getColorArray());
+}
+
+TEST(GraphicsShading, PagesThatThePagerReadsThroughTheRegistryArePrepared) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("roam-graphics-pages-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  ASSERT_TRUE(osgDB::writeNodeFile(*wall(), (folder / "page.osgb").string()));
+  osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+  paged->setDatabasePath(folder.string() + "/");
+  paged->setCenter(osg::Vec3(0, 4, 0));
+  paged->setRadius(10);
+  paged->setFileName(0, "page.osgb");
+  paged->setRange(0, 0, 1e6f);
+
+  osgDB::Registry::instance()->setReadFileCallback(graphics::make_preparing_reader());
+  {
+    Stage stage(64, 64);
+    stage.scene->addChild(paged);
+    for (int i = 0; i < 500 && paged->getNumChildren() == 0; ++i) {
+      stage.viewer.frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (paged->getNumChildren() == 1) {
+      EXPECT_EQ(at(*stage.picture(), 32, 32), middle_of(wall()));
+      ASSERT_TRUE(paged->getChild(0)->asGeometry());
+      EXPECT_TRUE(paged->getChild(0)->asGeometry()->getColorArray());
+    } else {
+      ADD_FAILURE() << "the page was not read";
+    }
+  }
+  osgDB::Registry::instance()->setReadFileCallback(nullptr);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(GraphicsShading, TextsOfFilesAreNotDrawnAndTheirSharedStateIsLeftAlone) {

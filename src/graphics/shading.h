@@ -39,10 +39,13 @@ namespace roam::graphics {
 /// twice, and what several graphs share may be drawn meanwhile once it has been prepared.
 ///
 /// Thread-safe; calls wait for each other. A graph that is being drawn must have been prepared before.
+///
+/// Parts of roam::read_display need it too: they may lack normals, and pages come as their files have them.
 void prepare(osg::Node& graph);
 
-/// A read callback that prepares every node that OpenSceneGraph reads, the pager's tiles too. It asks `next` to read
-/// when there is one. Give it to osgDB::Options::setReadFileCallback or osgDB::Registry::setReadFileCallback.
+/// A read callback that prepares every node that OpenSceneGraph reads with it. It asks `next` to read when there is
+/// one. For scenes with pages give it to osgDB::Registry::setReadFileCallback: the pager does not pass on the
+/// osgDB::Options that a scene was read with, so that one in osgDB::Options prepares what is read with these only.
 [[nodiscard]] osg::ref_ptr<osgDB::ReadFileCallback> make_preparing_reader(
     osg::ref_ptr<osgDB::ReadFileCallback> next = nullptr);
 
