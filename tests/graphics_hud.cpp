@@ -139,7 +139,8 @@ TEST(GraphicsHud, TheCrosshairIsSeenOnWhiteAndOnBlack) {
 }
 
 TEST(GraphicsHud, HelpFitsTheWindow) {
-  for (const auto& [width, height] : {std::pair{640, 360}, std::pair{1920, 1080}, std::pair{480, 800}}) {
+  for (const auto& [width, height] :
+       {std::pair{640, 360}, std::pair{1920, 1080}, std::pair{480, 800}, std::pair{480, 360}, std::pair{300, 200}}) {
     Stage stage(width, height);
     Hud hud(stage.frame);
     hud.set_help(many_keys);
@@ -151,6 +152,37 @@ TEST(GraphicsHud, HelpFitsTheWindow) {
     EXPECT_LE(help.right, width - 3) << width;
     EXPECT_LE(help.top, height - 3) << width;
   }
+}
+
+/// Pixels of the help's text, which is light on its dark panel; all of it, or that of the headings, which is blue.
+int letters_of(const std::vector<graphics::HelpLine>& lines, int width, int height) {
+  Stage stage(width, height);
+  fill_with(stage, 0);
+  Hud hud(stage.frame);
+  hud.set_help(lines);
+  hud.show_help(true);
+  const auto picture = stage.picture(true);
+  int count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) count += at(*picture, x, y).g > 120;
+  }
+  return count;
+}
+
+TEST(GraphicsHud, HelpShowsItsLastLinesInASmallWindowToo) {
+  const std::vector<graphics::HelpLine> but_last(many_keys.begin(), many_keys.end() - 1);
+  EXPECT_GT(letters_of(many_keys, 480, 360), letters_of(but_last, 480, 360) + 50);
+}
+
+TEST(GraphicsHud, HelpThatHasNoRoomSaysSoInsteadOfBeingCut) {
+  // Only the first lines are there, whatever follows, and what is shown is not empty.
+  std::vector<graphics::HelpLine> more = many_keys;
+  more.emplace_back("Section 4", "");
+  more.emplace_back("Shift+Ctrl+9", "what this key does, said shortly");
+  const int letters = letters_of(many_keys, 300, 200);
+  EXPECT_EQ(letters, letters_of(more, 300, 200));
+  EXPECT_GT(letters, 500);
+  EXPECT_EQ(letters_of(many_keys, 24, 16), 0);
 }
 
 TEST(GraphicsHud, TextGrowsWithTheWindow) {
@@ -194,6 +226,46 @@ TEST(GraphicsHud, LongTextsStayInThePicture) {
   EXPECT_LE(shown.right, 638);
   EXPECT_GE(shown.bottom, 2);
   EXPECT_LE(shown.top, 358);
+}
+
+TEST(GraphicsHud, LongValuesAreBrokenIntoLines) {
+  const auto panel = [](int width, int height, const std::vector<graphics::StatusLine>& lines) {
+    Stage stage(width, height);
+    fill_with(stage, 255);
+    Hud hud(stage.frame);
+    hud.set_crosshair(false);
+    hud.set_status(lines);
+    return shown_in(stage);
+  };
+  const auto high = [](const Region& r) { return r.top - r.bottom; };
+  const std::string note = "the display shows 12 of 14 parts; run roam info on the file to see which are missing";
+  const Region one = panel(1280, 720, {{"Note", "short"}}), two = panel(1280, 720, {{"Note", "short"}, {"", "x"}});
+  const int line = high(two) - high(one);
+  const Region broken = panel(1280, 720, {{"Note", note}});
+  EXPECT_EQ(high(broken), high(two));
+  EXPECT_LT(broken.right, 0.5 * 1280);
+  // Lines below follow, and no value has more than three.
+  EXPECT_EQ(high(panel(1280, 720, {{"Note", note}, {"Mode", "walk"}})), high(two) + line);
+  EXPECT_EQ(high(panel(1280, 720, {{"Note", note + note + note + note}})), high(two) + line);
+  // Where there is no room for all of it, there are fewer.
+  std::vector<graphics::StatusLine> many;
+  for (int i = 0; i < 6; ++i) many.push_back({"Note", note + note});
+  EXPECT_LT(high(panel(480, 300, many)), 220);
+}
+
+TEST(GraphicsHud, AValueThatGrowsAndShrinksTakesAndGivesBackLines) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  const auto shown = [&](const std::string& value) {
+    hud.set_status({{"Note", value}, {"Mode", "walk"}});
+    const auto picture = stage.picture(true);
+    return picture;
+  };
+  const auto before = shown("short");
+  const auto meanwhile = shown("a note that is far too long to stand on one line of the panel of so small a window");
+  EXPECT_GT(differing(*before, *meanwhile, 6), 1000);
+  EXPECT_EQ(differing(*before, *shown("short")), 0);
 }
 
 TEST(GraphicsHud, TheBarShowsHowMuchIsDone) {

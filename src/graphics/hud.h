@@ -7,8 +7,8 @@
 ///     hud.set_message("opening 0.62 m, body 0.60 m", Tone::warning);
 ///     hud.set_help({{"Move", ""}, {"W A S D", "go"}, {"Space", "jump"}});
 ///
-/// Text grows with the window: it is readable from 640 x 360 to 3840 x 2160. Setting what is set already costs
-/// nothing; what changed is laid out anew before the next frame.
+/// Text grows with the window: it is readable from 640 x 360 to 3840 x 2160, and stays inside smaller ones. Setting
+/// what is set already costs nothing; what changed is laid out anew before the next frame.
 
 #include <cstdint>
 #include <osg/ref_ptr>
@@ -26,7 +26,8 @@ enum class Detail : std::uint8_t { full, minimal, off };
 /// What a text is about. A warning is amber with a bar at its side, an info is white.
 enum class Tone : std::uint8_t { info, warning };
 
-/// One line of the status panel, at the upper left. UTF-8. An empty label: the value begins at the left edge.
+/// One line of the status panel, at the upper left. UTF-8. An empty label: the value begins at the left edge. A value
+/// that would make the panel wider than about half of the picture is broken into up to three lines.
 struct StatusLine {
   std::string label{};
   std::string value{};
@@ -52,6 +53,8 @@ class Hud {
   void clear_message() { set_message({}); }
   /// A bar below the message, in [0, 1]; negative: none. For loading.
   void set_progress(double share);
+  /// All lines are seen from about 480 x 360 pixels on; of more than there is room for the first, and a line that says
+  /// so.
   void set_help(std::vector<HelpLine> lines);
   /// The help takes the place of the status and the crosshair; the message stays.
   void show_help(bool shown);

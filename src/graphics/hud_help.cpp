@@ -11,9 +11,13 @@ const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.90f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 text_color(0.86f, 0.89f, 0.92f, 1.0f);
-/// Below this nobody reads; a help of more keys than fit so is cut.
+/// Below this nobody reads.
 constexpr int smallest_letter = 7;
+/// Rather than smaller than this, lines are broken.
+constexpr int comfortable_letter = 10;
 constexpr std::size_t most_columns = 5;
+constexpr float columns_gap = 2.5f;  ///< in gaps between a key and what it does
+constexpr const char* more = "… enlarge the window";
 
 /// One column: lines [first, last), and how wide their two halves are.
 struct Column {
@@ -22,6 +26,7 @@ struct Column {
 };
 
 struct Arrangement {
+  std::vector<HelpLine> lines;
   int letter = 0;
   float line = 0, gap = 0;
   float width = 0, height = 0;
@@ -71,12 +76,19 @@ std::vector<Column> cut_evenly(const std::vector<HelpLine>& lines, std::size_t c
   return columns;
 }
 
-Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::size_t count) {
+Arrangement blank(int letter) {
   Arrangement a;
   a.letter = letter;
   a.line = std::round(1.5f * static_cast<float>(letter));
   a.gap = std::round(1.0f * static_cast<float>(letter));
-  a.columns = cut_evenly(lines, count);
+  return a;
+}
+
+/// Says where the columns lie.
+Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<Column> columns) {
+  Arrangement a = blank(letter);
+  a.lines = lines;
+  a.columns = std::move(columns);
   float highest = 0;
   for (Column& column : a.columns) {
     highest = std::max(highest, height_of(lines, column));
@@ -91,7 +103,7 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::size_t 
     }
     a.width += std::ceil(column.keys + a.gap + column.deeds);
   }
-  a.width += 2.5f * a.gap * static_cast<float>(a.columns.size() - 1) + 3 * a.gap;
+  a.width += columns_gap * a.gap * static_cast<float>(a.columns.size() - 1) + 3 * a.gap;
   a.height = a.line * highest + 2 * a.gap;
   return a;
 }
@@ -99,18 +111,72 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::size_t 
 /// The message stays seen below the help.
 float bottom_of_help(const Page& page) { return 0.07f * page.height + 3.6f * static_cast<float>(page.letter); }
 
-/// The largest letters with which all fits, and with them the fewest columns.
-Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
-  const float width = page.width - 2 * page.margin, height = page.height - bottom_of_help(page) - page.margin;
-  Arrangement last;
-  for (int letter = page.letter; letter >= smallest_letter; --letter) {
-    for (std::size_t count = 1; count <= most_columns; ++count) {
-      last = arrange(lines, letter, count);
-      if (last.width > width) break;
-      if (last.height <= height) return last;
+/// The lines, broken so that a column of them is at most `width` pixels wide. What has no space is shortened.
+std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, float width) {
+  const Look key_look{letter, true, key_color}, deed_look{letter, false, text_color};
+  const float gap = blank(letter).gap;
+  float keys = 0;
+  for (const HelpLine& line : lines) {
+    if (!is_heading(line)) keys = std::max(keys, width_of(line.first, key_look));
+  }
+  keys = std::min(keys, 0.5f * width);
+  const float deeds = width - keys - gap;
+  std::vector<HelpLine> broken;
+  for (const auto& [key, deed] : lines) {
+    if (deed.empty()) {
+      broken.emplace_back(shorten(key, key_look, width), "");
+      continue;
+    }
+    std::string first = shorten(key, key_look, keys);
+    for (const std::string& line : break_lines(deed, deed_look, deeds)) {
+      broken.emplace_back(std::exchange(first, {}), shorten(line, deed_look, deeds));
     }
   }
-  return last;
+  return broken;
+}
+
+/// What fits of the lines, in at most `count` columns of at most `most` lines and `width` pixels each, and that there
+/// are more.
+Arrangement first_of(const std::vector<HelpLine>& lines, int letter, std::size_t count, float most, float width) {
+  std::vector<Column> columns = cut(lines, most - heading_space);
+  columns.resize(std::min(columns.size(), count));
+  const std::size_t shown = columns.back().last - 1;
+  std::vector<HelpLine> some(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(shown));
+  some.emplace_back(shorten(more, {letter, true, heading_color}, width), "");
+  return arrange(some, letter, std::move(columns));
+}
+
+/// The largest letters with which all fits, with them lines that are not broken if that is possible, and the fewest
+/// columns; else as many lines as possible.
+Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
+  const float width = page.width - 2 * page.margin, height = page.height - bottom_of_help(page) - page.margin;
+  const auto fits = [&](const Arrangement& a) { return a.width <= width && a.height <= height; };
+  const int comfortable = std::min(page.letter, comfortable_letter);
+  for (int letter = page.letter; letter >= comfortable; --letter) {
+    for (std::size_t count = 1; count <= most_columns; ++count) {
+      Arrangement a = arrange(lines, letter, cut_evenly(lines, count));
+      if (a.width > width) break;
+      if (fits(a)) return a;
+    }
+  }
+  Arrangement best;
+  for (int letter = comfortable; letter >= smallest_letter; --letter) {
+    const Arrangement none = blank(letter);
+    for (std::size_t count = 1; count <= most_columns; ++count) {
+      const auto n = static_cast<float>(count);
+      const float column = std::floor((width - 3 * none.gap - columns_gap * none.gap * (n - 1)) / n) - 1;
+      constexpr float least_column = 14.0f;  // letters; below, each line is a word
+      if (count > 1 && column < least_column * static_cast<float>(letter)) break;
+      const std::vector<HelpLine> broken = narrowed(lines, letter, column);
+      Arrangement a = arrange(broken, letter, cut_evenly(broken, count));
+      if (fits(a)) return a;
+      const float most = std::floor((height - 2 * none.gap) / none.line);
+      if (letter > smallest_letter || most < 2) continue;
+      a = first_of(broken, letter, count, most, column);
+      if (fits(a) && a.lines.size() > best.lines.size()) best = std::move(a);
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -119,6 +185,7 @@ osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>&
   osg::ref_ptr<osg::Group> group = new osg::Group;
   if (lines.empty()) return group;
   const Arrangement a = fit(page, lines);
+  if (a.columns.empty()) return group;
   const float left = std::round(0.5f * (page.width - a.width));
   const float middle = 0.5f * (bottom_of_help(page) + page.height - page.margin);
   const float top = std::round(middle + 0.5f * a.height);
@@ -131,16 +198,16 @@ osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>&
   for (const Column& column : a.columns) {
     float y = top - a.gap - std::round(1.1f * static_cast<float>(a.letter));
     for (std::size_t i = column.first; i < column.last; ++i) {
-      if (is_heading(lines[i]) && i > column.first) y -= std::round(heading_space * a.line);
-      const osg::Vec4& color = is_heading(lines[i]) ? heading_color : key_color;
-      group->addChild(make_text(lines[i].first, {a.letter, true, color}, std::round(x), y));
-      if (!is_heading(lines[i])) {
+      if (is_heading(a.lines[i]) && i > column.first) y -= std::round(heading_space * a.line);
+      const osg::Vec4& color = is_heading(a.lines[i]) ? heading_color : key_color;
+      group->addChild(make_text(a.lines[i].first, {a.letter, true, color}, std::round(x), y));
+      if (!is_heading(a.lines[i])) {
         const float deed_x = std::round(x + column.keys + a.gap);
-        group->addChild(make_text(lines[i].second, {a.letter, false, text_color}, deed_x, y));
+        group->addChild(make_text(a.lines[i].second, {a.letter, false, text_color}, deed_x, y));
       }
       y -= a.line;
     }
-    x += std::ceil(column.keys + a.gap + column.deeds) + 2.5f * a.gap;
+    x += std::ceil(column.keys + a.gap + column.deeds) + columns_gap * a.gap;
   }
   return group;
 }

@@ -24,6 +24,9 @@ osg::ref_ptr<osg::Geometry> plate(osg::StateSet* plates, const Rectangle& where,
   return made;
 }
 
+/// A note with its remedy has two or three.
+constexpr std::size_t most_value_lines = 3;
+
 float up_to(float value, float step) { return std::ceil(value / step) * step; }
 
 }  // namespace
@@ -45,28 +48,80 @@ Page Page::of(float width, float height) {
 void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines) {
   std::vector<std::string> labels;
   for (const StatusLine& line : lines) labels.push_back(line.label);
-  if (page != page_ || labels != labels_) {
+  const bool rebuilt = page != page_ || labels != labels_;
+  if (rebuilt) {
     page_ = page;
     labels_ = labels;
     width_ = 0;
-    rebuild(page, lines);
+    rebuild(lines);
   }
   if (rows_.empty()) return;
-  const float most = 0.62f * page.width - value_left_;
-  float widest = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) break_value(i, lines[i].value);
+  // The message below stays free.
+  const auto room = static_cast<std::size_t>(0.7f * page.height / page.line);
+  std::size_t most = most_value_lines;
+  while (most > 1 && lines_in_all(most) > room) --most;
+  bool moved = rebuilt;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Look look{page.letter, false, color_of(lines[i].tone)};
-    change_text(*rows_[i].value, shorten(lines[i].value, look, most), look.color);
-    const osg::BoundingBox& box = rows_[i].value->getBoundingBox();
+    Row& row = rows_[i];
+    const std::size_t count = std::min(row.broken.size(), most);
+    moved = moved || count != row.lines;
+    if (count != row.lines) row.shown = first_lines(i, count);
+    row.lines = count;
+    change_text(*row.value, row.shown, color_of(lines[i].tone));
+  }
+  if (moved) place_rows();
+  float widest = 0;
+  for (const Row& row : rows_) {
+    const osg::BoundingBox& box = row.value->getBoundingBox();
     if (box.valid()) widest = std::max(widest, box.xMax());
   }
   // In steps, and slow to shrink: a panel that follows each digit is restless.
   const float step = 3.0f * static_cast<float>(page.letter);
   const float wished = up_to(widest - page.margin, step);
-  if (wished > width_ || wished + 2 * step < width_) place(page, wished);
+  const bool resized = wished > width_ || wished + 2 * step < width_;
+  if (moved || resized) place_plate(resized ? wished : width_);
 }
 
-void StatusPanel::rebuild(const Page& page, const std::vector<StatusLine>& lines) {
+float StatusPanel::width_for(std::size_t row) const {
+  // Less than half of the picture, but in small windows more: there it would be a word a line.
+  const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 24.0f * page_.margin));
+  return right - (labels_[row].empty() ? 1.8f * page_.margin : value_left_);
+}
+
+void StatusPanel::break_value(std::size_t row, const std::string& words) {
+  Row& r = rows_[row];
+  // Most stay what they were: measuring them with every frame would take longer than drawing them.
+  if (!r.broken.empty() && r.words == words) return;
+  const Look look{page_.letter, false, text_color};
+  r.words = words;
+  r.broken = {words};
+  const bool fits = words.find('\n') == std::string::npos && width_of(words, look) <= width_for(row);
+  if (!fits) r.broken = break_lines(words, look, width_for(row));
+  if (r.lines > 0) r.shown = first_lines(row, std::min(r.lines, r.broken.size()));
+}
+
+std::size_t StatusPanel::lines_in_all(std::size_t most_lines) const {
+  std::size_t count = 0;
+  for (const Row& row : rows_) count += std::min(row.broken.size(), most_lines);
+  return count;
+}
+
+std::string StatusPanel::first_lines(std::size_t row, std::size_t count) const {
+  const Look look{page_.letter, false, text_color};
+  const std::vector<std::string>& broken = rows_[row].broken;
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::string line = broken[k];
+    // Too long then, so that "…" ends it.
+    if (k + 1 == count && count < broken.size()) line.append(1, ' ').append(broken[count]);
+    if (k > 0) text += '\n';
+    text += shorten(line, look, width_for(row));
+  }
+  return text;
+}
+
+void StatusPanel::rebuild(const std::vector<StatusLine>& lines) {
   group_->removeChildren(0, group_->getNumChildren());
   rows_.clear();
   plate_ = nullptr;
@@ -74,29 +129,38 @@ void StatusPanel::rebuild(const Page& page, const std::vector<StatusLine>& lines
   plate_ = plate(plates_.get(), {}, 0, panel_color);
   group_->addChild(plate_);
 
-  const Look label_look{page.letter, false, label_color};
+  const Look label_look{page_.letter, false, label_color};
   float widest = 0;
   for (const StatusLine& line : lines) widest = std::max(widest, width_of(line.label, label_look));
-  const float left = 1.8f * page.margin;
-  value_left_ = std::round(left + (widest > 0 ? widest + page.margin : 0));
-  float y = page.height - 1.55f * page.margin - static_cast<float>(page.letter);
+  value_left_ = std::round(1.8f * page_.margin + (widest > 0 ? widest + page_.margin : 0));
   for (const StatusLine& line : lines) {
     Row row;
-    row.label = make_text(line.label, label_look, std::round(left), std::round(y));
-    const float x = line.label.empty() ? left : value_left_;
-    row.value = make_text(line.value, {page.letter, false, color_of(line.tone)}, std::round(x), std::round(y));
+    row.label = make_text(line.label, label_look, 0, 0);
+    row.value = make_text({}, {page_.letter, false, color_of(line.tone)}, 0, 0);
+    row.value->setLineSpacing(page_.line / static_cast<float>(page_.letter) - 1.0f);
     group_->addChild(row.label);
     group_->addChild(row.value);
     rows_.push_back(row);
-    y -= page.line;
   }
 }
 
-void StatusPanel::place(const Page& page, float width) {
+void StatusPanel::place_rows() {
+  const float left = std::round(1.8f * page_.margin);
+  lines_ = 0;
+  float y = std::round(page_.height - 1.55f * page_.margin - static_cast<float>(page_.letter));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].label->setPosition(osg::Vec3(left, y, 0));
+    rows_[i].value->setPosition(osg::Vec3(labels_[i].empty() ? left : value_left_, y, 0));
+    y -= page_.line * static_cast<float>(rows_[i].lines);
+    lines_ += rows_[i].lines;
+  }
+}
+
+void StatusPanel::place_plate(float width) {
   width_ = width;
-  const float height = page.line * static_cast<float>(rows_.size()) + 0.8f * page.margin;
-  move_plate(*plate_, {page.margin, page.height - page.margin - height, width + 0.8f * page.margin, height},
-             0.5f * page.margin);
+  const float height = page_.line * static_cast<float>(lines_) + 0.8f * page_.margin;
+  move_plate(*plate_, {page_.margin, page_.height - page_.margin - height, width + 0.8f * page_.margin, height},
+             0.5f * page_.margin);
 }
 
 osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,

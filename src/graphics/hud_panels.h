@@ -25,7 +25,8 @@ struct Page {
   bool operator==(const Page&) const = default;
 };
 
-/// The status lines at the upper left. Keeps its texts, because what they say changes with every frame.
+/// The status lines at the upper left. Keeps its texts, because what they say changes with every frame. Long values are
+/// broken into up to three lines, fewer where there would be no room for all below each other.
 class StatusPanel {
  public:
   explicit StatusPanel(osg::ref_ptr<osg::StateSet> plates) : plates_(std::move(plates)) {}
@@ -35,9 +36,20 @@ class StatusPanel {
  private:
   struct Row {
     osg::ref_ptr<osgText::Text> label, value;
+    std::string words;                // the value as it came
+    std::vector<std::string> broken;  // as many lines as it would take
+    std::string shown;                // the first of them
+    std::size_t lines = 0;            // and how many it has; 0: not yet said
   };
-  void rebuild(const Page& page, const std::vector<StatusLine>& lines);
-  void place(const Page& page, float width);
+  void rebuild(const std::vector<StatusLine>& lines);
+  /// Pixels that a row has for its value.
+  [[nodiscard]] float width_for(std::size_t row) const;
+  void break_value(std::size_t row, const std::string& words);
+  [[nodiscard]] std::size_t lines_in_all(std::size_t most_lines) const;
+  /// A row's first lines, with "…" where that is not all.
+  [[nodiscard]] std::string first_lines(std::size_t row, std::size_t count) const;
+  void place_rows();
+  void place_plate(float width);
 
   osg::ref_ptr<osg::StateSet> plates_;
   osg::ref_ptr<osg::Group> group_ = new osg::Group;
@@ -47,13 +59,15 @@ class StatusPanel {
   std::vector<Row> rows_;
   float value_left_ = 0;
   float width_ = 0;
+  std::size_t lines_ = 0;
 };
 
 /// The message in the lower middle, with the bar of progress.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
                                                    std::optional<double> progress, osg::StateSet* plates);
 
-/// The keys, over the whole picture: in as many columns, and as small, as they need to fit.
+/// The keys, over the whole picture: in as many columns, as small and broken into as many lines as they need to fit.
+/// Where not even that is enough, the first of them and "… enlarge the window".
 [[nodiscard]] osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>& lines,
                                                 osg::StateSet* plates);
 
