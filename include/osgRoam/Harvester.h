@@ -8,7 +8,10 @@
 ///
 /// Each file is copied in the thread that read it, before anybody else sees its nodes, and becomes patches of the
 /// patchwork: what stands for itself, and for each PagedLOD its coarse children, which the files that it names refine.
-/// What is not there yet is unknown, and solid: the box of the bounding sphere of the PagedLOD or ProxyNode. Call
+/// What is not there yet is unknown, and solid: the box of the bounding sphere of the PagedLOD or ProxyNode; where that
+/// has no usable one, and no coarse children, the box of the file that names it. A root file has no box: what it names
+/// so holds no space, and counts as failed, until it comes; then it is taken where it lies. What is under a transform
+/// that is not finite is left out: triangles, and files, which count as failed. Call
 /// Patchwork::update between two steps, as its header says, and once after the root has been read, before there is a
 /// body: of a patchwork into which nothing has come nothing is solid.
 ///
@@ -20,6 +23,9 @@
 /// that osgDB answers from its object cache (osgDB::Options::CACHE_NODES): leave that hint off. LOD nodes without files
 /// count with their finest level. Files that are read while another is being read (ProxyNode, pseudo loaders) are part
 /// of that one.
+///
+/// What cannot be built, or is stored less exactly than Patchwork::error_limit (a triangle of 1e8 m), fails with its
+/// reason and is solid; the rest of its file comes. Nothing is thrown into the pager's threads.
 ///
 /// Everything may be called from any thread.
 
@@ -44,12 +50,13 @@ class Harvester : public osgDB::ReadFileCallback {
   };
 
   /// `space` takes the patches. Coordinates of files are moved by `origin` (metres): where the graph that is drawn is
-  /// the scene minus an origin, pass that origin.
+  /// the scene minus an origin, pass that origin. Throws roam::Error for a null `space`.
   explicit Harvester(std::shared_ptr<roam::Patchwork> space, Levels levels = ACCEPT_COARSE,
                      const osg::Vec3d& origin = osg::Vec3d());
 
   /// Takes a graph that is not, or not as it is, a file: from here on the files that it names are known. `place` is the
-  /// product of the transforms that it will stand under. The graph must not be part of a running scene yet.
+  /// product of the transforms that it will stand under. The graph must not be part of a running scene yet. Throws
+  /// roam::Error for a graph that contains itself, and, when all the rest of it has come, for what could not be built.
   void add(osg::Node& graph, const osg::Matrixd& place = osg::Matrixd::identity());
 
   /// Whether files that nothing read or added before names are taken too, as they are; true at first. They are the
@@ -64,7 +71,7 @@ class Harvester : public osgDB::ReadFileCallback {
     std::uint64_t expected = 0;            ///< places where a file is named and has not come
     std::uint64_t triangles = 0;           ///< copied, coarse ones included
     std::uint64_t leftOut = 0;             ///< triangles with vertices that cannot be used
-    std::uint64_t failed = 0;              ///< places whose file is missing or broken
+    std::uint64_t failed = 0;              ///< places whose file is missing or broken or has no place
     std::vector<std::string> failedFiles;  ///< the first 100 names, in the order in which they failed
   };
   Stats getStats() const;

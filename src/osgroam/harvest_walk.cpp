@@ -25,7 +25,7 @@ class HarvestWalk : public triangles::GraphWalk {
           named.levels[0].push_back(proxy.getDatabasePath() + proxy.getFileName(i));
         }
       }
-      if (!named.levels[0].empty()) harvest_.named.push_back(std::move(named));
+      if (!named.levels[0].empty()) keep(std::move(named));
     }
     GraphWalk::apply(static_cast<osg::Group&>(proxy));
   }
@@ -75,7 +75,17 @@ class HarvestWalk : public triangles::GraphWalk {
       add_level(*paged, *level, level == levels.begin(), named);
     }
     copy(lod, levels.front(), for_good, named.finest);
-    harvest_.named.push_back(std::move(named));
+    keep(std::move(named));
+  }
+
+  void keep(NamedFiles&& named) {
+    if (isFinite(named.to_scene)) {
+      harvest_.named.push_back(std::move(named));
+    } else {
+      // The triangles are left out one by one.
+      for (const auto& level : named.levels)
+        harvest_.nowhere.insert(harvest_.nowhere.end(), level.begin(), level.end());
+    }
   }
 
   static bool loaded(const osg::LOD& lod, unsigned i) { return i < lod.getNumChildren(); }

@@ -30,7 +30,8 @@ struct NamedFiles {
 struct Harvest {
   std::vector<roam::Mesh> meshes;  ///< what stays as it is, whatever else is read
   std::vector<NamedFiles> named;
-  std::vector<std::string> loaded;  ///< files that are named, but whose nodes are in the graph already
+  std::vector<std::string> loaded;   ///< files that are named, but whose nodes are in the graph already
+  std::vector<std::string> nowhere;  ///< files that are named under a transform that is not finite
   std::uint64_t triangles = 0, left_out = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <new>
 #include <osgDB/FileNameUtils>
 #include <set>
 #include <utility>
@@ -41,21 +42,31 @@ struct Place {
   std::shared_ptr<const Trail> trail;
   osg::Matrixd to_scene;
   roam::Box box;
-  roam::PatchId patch = roam::PatchId::none;    ///< what the file holds for good
+  roam::PatchId patch = roam::PatchId::none;    ///< what the file holds for good; none until a box is known
   roam::PatchId refines = roam::PatchId::none;  ///< and takes the place of, with what it names
   std::shared_ptr<Substitute> substitute;
-  bool is_named = true;  ///< else it is a root file
   State state = State::waiting;
-};
 
-roam::Box everywhere() {
-  return {roam::Vec3(-roam::Space::coordinate_limit), roam::Vec3(roam::Space::coordinate_limit)};
-}
+  // Of whoever takes it.
+  bool is_expected = false;          ///< all that the file holds and names is, whatever came of it
+  std::vector<roam::PatchId> parts;  ///< what the file holds, as Harvester::State::parts counts; none for what has come
+};
 
 roam::World build(const std::vector<roam::Mesh>& meshes) {
   roam::BuildOptions options;
   options.threads = 1;  // there are as many readers as there should be
   return roam::World::build(meshes, options);
+}
+
+/// In a handler: what was caught, for people.
+std::string caught() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "something was thrown that is no std::exception";
+  }
 }
 
 /// The harvesters that this thread is reading for.
@@ -73,9 +84,6 @@ class Reading {
 
 struct Harvester::State {
   using Lock = std::lock_guard<std::mutex>;
-  /// What is built and delivered once everything that it stands beside is expected.
-  using Deliveries = std::vector<std::pair<roam::PatchId, const std::vector<roam::Mesh>*>>;
-
   State(std::shared_ptr<roam::Patchwork> to, Levels which, const osg::Vec3d& moved)
       : space(std::move(to)), levels(which), origin(osg::Matrixd::translate(moved)) {}
 
@@ -87,68 +95,118 @@ struct Harvester::State {
   osg::ref_ptr<osgDB::ReadFileCallback> next;
   bool takes_unnamed = true;
   std::map<std::string, std::vector<std::shared_ptr<Place>>> named;
-  std::set<std::string> taken;  ///< roots, and files that were loaded before
+  std::set<std::string> not_roots;  ///< files that were loaded before, or belong nowhere
   Stats stats;
 
   /// The places that a file which has been read is to be taken to; from now on nobody else takes it there.
   std::vector<std::shared_ptr<Place>> claim(const std::string& file) {
     const Lock lock(mutex);
+    if (takes_unnamed && !named.contains(file) && !not_roots.contains(file)) {
+      const auto root = std::make_shared<Place>();
+      root->trail = std::make_shared<Trail>(Trail{file, nullptr});
+      root->to_scene = origin;
+      named[file].push_back(root);
+      ++stats.expected;
+    }
     std::vector<std::shared_ptr<Place>> claimed;
     const auto places = named.find(file);
-    if (places != named.end()) {
-      for (const auto& place : places->second) {
-        if (place->state != Place::State::waiting && place->state != Place::State::failed) continue;
-        if (place->state == Place::State::failed) {
-          --stats.failed;
-          ++stats.expected;
-        }
-        place->state = Place::State::being_taken;
-        claimed.push_back(place);
+    if (places == named.end()) return claimed;
+    claimed.reserve(places->second.size());  // nothing may throw once a place has been claimed
+    for (const auto& place : places->second) {
+      if (place->state != Place::State::waiting && place->state != Place::State::failed) continue;
+      if (place->state == Place::State::failed) {
+        --stats.failed;
+        ++stats.expected;
       }
-    } else if (takes_unnamed && taken.insert(file).second) {
-      claimed.push_back(std::make_shared<Place>());
-      claimed.back()->trail = std::make_shared<Trail>(Trail{file, nullptr});
-      claimed.back()->to_scene = origin;
-      claimed.back()->is_named = false;
-      claimed.back()->state = Place::State::being_taken;
+      place->state = Place::State::being_taken;
+      claimed.push_back(place);
     }
     return claimed;
   }
 
-  void take(osg::Node& node, const std::string& name, const std::shared_ptr<Place>& place) {
+  /// Ends what claim() began: from now on somebody else may claim the place.
+  void settle(Place& place, Place::State state, bool is_failure) {
+    const Lock lock(mutex);
+    place.state = state;
+    --stats.expected;
+    if (is_failure) note_failure(place.trail->file);
+  }
+
+  /// In a pager's thread there is nobody to catch what is thrown.
+  void take(osg::Node& node, const std::string& name, Place& place) {
     try {
-      install(harvest(node, place->to_scene, name), *place);
-      const Lock lock(mutex);
-      place->state = Place::State::taken;
-      if (place->is_named) --stats.expected;
-    } catch (const std::exception& error) {
-      // In a pager's thread there is nobody to catch it.
-      fail(*place, error.what());
+      const Harvest harvested = harvest(node, place.to_scene, name);
+      promise(harvested, place);
+      const bool failed = bring(harvested, place) != nullptr;
+      settle(place, failed ? Place::State::failed : Place::State::taken, failed);
+    } catch (...) {
+      fail(place, caught());
     }
   }
 
-  void install(const Harvest& harvest, Place& place) {
-    Deliveries deliveries;
-    {
-      const Lock lock(mutex);
-      // Everything is expected before anything comes: what refines one patch takes its place together.
-      for (const NamedFiles& named_files : harvest.named) expect(named_files, place, deliveries);
-      taken.insert(harvest.loaded.begin(), harvest.loaded.end());
+  /// What a file holds, part by part, each of which comes or fails by itself; first what stays for good.
+  [[nodiscard]] std::vector<const std::vector<roam::Mesh>*> parts(const Harvest& harvest) const {
+    std::vector<const std::vector<roam::Mesh>*> all{&harvest.meshes};
+    for (const NamedFiles& files : harvest.named) {
+      if (!files.coarse.empty() && levels != FINEST_ONLY) all.push_back(&files.coarse);
+      if (!files.finest.empty()) all.push_back(&files.finest);
+    }
+    return all;
+  }
+
+  /// Expects all that a file holds and names, before anything of it comes: what refines one patch takes its place
+  /// together. Once only, whatever fails later.
+  void promise(const Harvest& harvest, Place& place) {
+    const Lock lock(mutex);
+    if (!place.is_expected) {
+      if (place.patch == roam::PatchId::none && !harvest.meshes.empty()) {
+        place.patch = space->expect(box_of(harvest.meshes), place.refines);
+      }
+      place.parts.push_back(place.patch);
+      place.is_expected = true;
+      for (const NamedFiles& files : harvest.named) expect(files, place);
+      for (const std::string& file : harvest.nowhere) note_failure(file);
+      not_roots.insert(harvest.loaded.begin(), harvest.loaded.end());
+      not_roots.insert(harvest.nowhere.begin(), harvest.nowhere.end());
       stats.triangles += harvest.triangles;
       stats.leftOut += harvest.left_out;
       ++stats.files;
-      if (place.patch == roam::PatchId::none && !harvest.meshes.empty()) {
-        place.patch = space->expect(box_of(harvest.meshes));
+    }
+    if (parts(harvest).size() != place.parts.size()) {
+      throw roam::Error(place.trail->file +
+                        " does not hold what it held when it was first read; start anew to take it");
+    }
+  }
+
+  /// Returns what was thrown first, where something was: the parts that it concerns have failed, the others have come.
+  std::exception_ptr bring(const Harvest& harvest, Place& place) {
+    std::exception_ptr first;
+    const auto all = parts(harvest);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      roam::PatchId& patch = place.parts[i];
+      if (patch == roam::PatchId::none) continue;
+      try {
+        space->deliver(patch, build(*all[i]));
+        patch = roam::PatchId::none;
+      } catch (...) {
+        if (!first) first = std::current_exception();
+        tell(patch, caught());
       }
     }
-    for (const auto& [patch, meshes] : deliveries) space->deliver(patch, build(*meshes));
-    if (place.patch != roam::PatchId::none) space->deliver(place.patch, build(harvest.meshes));
+    return first;
+  }
+
+  void tell(roam::PatchId patch, const std::string& reason) {
+    try {
+      if (patch != roam::PatchId::none) space->fail(patch, reason);
+    } catch (...) {
+      // There is no memory even for that: it stays unknown and solid, and its file counts as failed.
+    }
   }
 
   /// Under the lock.
-  void expect(const NamedFiles& files, const Place& from, Deliveries& deliveries) {
-    roam::Box box = files.box;
-    if (box.empty()) box = from.box.empty() ? everywhere() : from.box;
+  void expect(const NamedFiles& files, Place& from) {
+    const roam::Box box = files.box.empty() ? from.box : files.box;
     roam::PatchId refines = from.refines;
     std::shared_ptr<Substitute> substitute;
     if (!files.coarse.empty()) {
@@ -156,7 +214,7 @@ struct Harvester::State {
         substitute = std::make_shared<Substitute>(Substitute{files.coarse});
       } else {
         const roam::PatchId coarse = space->expect(box_of(files.coarse), refines);
-        deliveries.emplace_back(coarse, &files.coarse);
+        from.parts.push_back(coarse);
         refines = coarse;
       }
     }
@@ -164,7 +222,7 @@ struct Harvester::State {
       const bool finest = &level == &files.levels.back();
       if (levels == FINEST_ONLY && !finest) continue;
       if (finest && !files.finest.empty()) {
-        deliveries.emplace_back(space->expect(box_of(files.finest), refines), &files.finest);
+        from.parts.push_back(space->expect(box_of(files.finest), refines));
       }
       roam::PatchId last = refines;
       for (const std::string& file : level) last = expect(file, files.to_scene, box, refines, from, substitute);
@@ -179,17 +237,23 @@ struct Harvester::State {
     place->trail = std::make_shared<Trail>(Trail{file, from.trail});
     place->to_scene = to_scene;
     place->box = box;
-    place->patch = space->expect(box, refines);
     place->refines = refines;
     place->substitute = substitute;
+    if (!box.empty()) place->patch = space->expect(box, refines);
     if (holds(from.trail.get(), file)) {
       place->state = Place::State::failed;
       note_failure(file);
-      space->fail(place->patch, file + " names itself");
+      tell(place->patch, file + " names itself");
       return place->patch;
     }
     named[file].push_back(place);
-    ++stats.expected;
+    if (box.empty()) {
+      // It holds no space until it comes.
+      place->state = Place::State::failed;
+      note_failure(file);
+    } else {
+      ++stats.expected;
+    }
     return place->patch;
   }
 
@@ -198,30 +262,36 @@ struct Harvester::State {
     ++stats.failed;
     auto& files = stats.failedFiles;
     if (files.size() < failed_names_limit && std::find(files.begin(), files.end(), file) == files.end()) {
-      files.push_back(file);
+      try {
+        files.push_back(file);
+      } catch (const std::bad_alloc&) {
+        // The count says it.
+      }
     }
   }
 
   /// The file of a place that has been claimed cannot be had.
   void fail(Place& place, const std::string& reason) {
-    const std::vector<roam::Mesh>* substitute = nullptr;
+    std::shared_ptr<Substitute> substitute;
     {
       const Lock lock(mutex);
-      note_failure(place.trail->file);
-      place.state = Place::State::failed;
-      if (!place.is_named) return;
-      --stats.expected;
-      if (place.substitute != nullptr && !place.substitute->used) {
-        place.substitute->used = true;
-        substitute = &place.substitute->meshes;
-        place.state = Place::State::taken;
+      if (place.substitute != nullptr && !place.is_expected && !std::exchange(place.substitute->used, true)) {
+        substitute = place.substitute;
       }
     }
-    if (substitute == nullptr) {
-      space->fail(place.patch, reason);
-    } else {
-      space->deliver(place.patch, build(*substitute));
+    Place::State state = Place::State::failed;
+    if (substitute != nullptr) {
+      try {
+        space->deliver(place.patch, build(substitute->meshes));
+        state = Place::State::taken;
+      } catch (...) {
+        tell(place.patch, caught());
+      }
+    } else if (!place.is_expected) {
+      tell(place.patch, reason);
     }
+    for (const roam::PatchId patch : place.parts) tell(patch, reason);
+    settle(place, state, true);
   }
 
   void fail_all(const std::string& file, const std::string& reason) {
@@ -250,7 +320,15 @@ Harvester::~Harvester() = default;
 void Harvester::add(osg::Node& graph, const osg::Matrixd& place) {
   Place root;
   root.to_scene = place * _state->origin;
-  _state->install(harvest(graph, root.to_scene, graph.getName()), root);
+  root.trail = std::make_shared<Trail>(Trail{graph.getName(), nullptr});
+  const Harvest harvested = harvest(graph, root.to_scene, graph.getName());
+  try {
+    _state->promise(harvested, root);
+  } catch (...) {
+    for (const roam::PatchId patch : root.parts) _state->tell(patch, caught());
+    throw;
+  }
+  if (const std::exception_ptr first = _state->bring(harvested, root)) std::rethrow_exception(first);
 }
 
 void Harvester::setTakesUnnamedFiles(bool takes) {
@@ -279,11 +357,15 @@ osgDB::ReaderWriter::ReadResult Harvester::readNode(const std::string& file, con
   osgDB::ReaderWriter::ReadResult result =
       next.valid() ? next->readNode(file, options) : osgDB::ReadFileCallback::readNode(file, options);
   if (nested) return result;
-  if (osg::Node* node = result.getNode()) {
-    const std::string name = osgDB::getStrippedName(file);
-    for (const auto& place : _state->claim(file)) _state->take(*node, name, place);
-  } else {
-    _state->fail_all(file, file + " cannot be read: " + result.statusMessage());
+  try {
+    if (osg::Node* node = result.getNode()) {
+      const std::string name = osgDB::getStrippedName(file);
+      for (const auto& place : _state->claim(file)) _state->take(*node, name, *place);
+    } else {
+      _state->fail_all(file, file + " cannot be read: " + result.statusMessage());
+    }
+  } catch (...) {
+    // There is no memory to begin: what is expected stays so, and solid, until the file is read again.
   }
   return result;
 }
