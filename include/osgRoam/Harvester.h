@@ -24,6 +24,15 @@
 /// count with their finest level. Files that are read while another is being read (ProxyNode, pseudo loaders) are part
 /// of that one.
 ///
+/// The Registry has one ReadFileCallback: setting this one replaces an earlier one. To keep that, pass it to
+/// setNextCallback; it is asked first, and its answer harvested. To be behind another, set that one and let its
+/// readNode call the harvester's. Other callbacks (FindFileCallback, a pager's FileCache) are osgDB's business as
+/// before.
+///
+/// The Registry keeps the harvester, and that its patchwork, alive until the process ends. To end it, stop the pager
+/// (viewer.getDatabasePager()->cancel()), then setReadFileCallback(nullptr), or what was there before. Another scene
+/// wants a new Patchwork and a new Harvester, in the same order: one takes each file once, and nothing is taken back.
+///
 /// What cannot be built, or is stored less exactly than Patchwork::error_limit (a triangle of 1e8 m), fails with its
 /// reason and is solid; the rest of its file comes. Nothing is thrown into the pager's threads.
 ///
