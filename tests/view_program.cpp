@@ -242,10 +242,9 @@ TEST(ViewMissing, TextureIsNotedAndTheRestShown) {
 }
 
 TEST(ViewMissing, PagesOfTilesAreNoted) {
-  const char* data = std::getenv("ROAM_TEST_DATA");
-  if (data == nullptr) GTEST_SKIP() << "ROAM_TEST_DATA names no folder of scenes";
+  ROAM_NEEDS_TEST_DATA();
   View view;
-  view.scene = std::string(data) + "/contextcapture_tiles/Tile_+010_+005_L22_000020t4.osgb";
+  view.scene = roam::test::test_data() / "contextcapture_tiles/Tile_+010_+005_L22_000020t4.osgb";
   view.shot({});
   ASSERT_EQ(view.result.status, 0) << view.result.err;
   EXPECT_GT(view.json()["missing_pages"], 0);

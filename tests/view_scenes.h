@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cli_scenes.h"
+#include "import_files.h"
 #include "program.h"
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

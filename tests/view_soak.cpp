@@ -136,9 +136,8 @@ TEST(Soak, OnTheGallery) {
 }
 
 TEST(Soak, OnThePit) {
-  const char* data = std::getenv("ROAM_TEST_DATA");
-  if (data == nullptr) GTEST_SKIP() << "ROAM_TEST_DATA names no folder of scenes";
-  soak({std::string(data) + "/pit_osgb"}, number_from("ROAM_SOAK_HOURS", 0.1), false);
+  ROAM_NEEDS_TEST_DATA();
+  soak({(roam::test::test_data() / "pit_osgb").string()}, number_from("ROAM_SOAK_HOURS", 0.1), false);
 }
 
 TEST(Soak, DrawnOnTheGallery) {
@@ -147,9 +146,8 @@ TEST(Soak, DrawnOnTheGallery) {
 }
 
 TEST(Soak, DrawnOnThePitWhilePagesComeAndGo) {
-  const char* data = std::getenv("ROAM_TEST_DATA");
-  if (data == nullptr) GTEST_SKIP() << "ROAM_TEST_DATA names no folder of scenes";
-  soak({std::string(data) + "/pit_osgb"}, number_from("ROAM_SOAK_DRAWN", 0.05) / 60.0, true);
+  ROAM_NEEDS_TEST_DATA();
+  soak({(roam::test::test_data() / "pit_osgb").string()}, number_from("ROAM_SOAK_DRAWN", 0.05) / 60.0, true);
 }
 
 }  // namespace
