@@ -13,6 +13,9 @@
 /// Shift, Ctrl and Alt are one key each, and the keypad without Num Lock is the keys it stands for. Names are read in
 /// either case; "Comma" and "Plus" are words, since the characters part keys from each other.
 ///
+/// A Command that commands(), find() or lookup() leads to is where it is until the next add() or rebind(): copy what is
+/// to be kept.
+///
 /// Not for several threads at a time.
 
 #include <compare>
@@ -60,10 +63,10 @@ class Controls {
   [[nodiscard]] std::string text() const;
 
   [[nodiscard]] const std::vector<Command>& commands() const { return _commands; }
-  /// Null when there is no such command.
+  /// Null when there is no such command. Ends with the next add() or rebind().
   [[nodiscard]] const Command* find(std::string_view name) const;
-  /// The command of a key, or null. `key` as osgGA::GUIEventAdapter::getUnmodifiedKey() says it, or getKey() where that
-  /// is 0. With Ctrl down "Ctrl+W" comes first and "W" second.
+  /// The command of a key, or null; ends likewise. `key` as osgGA::GUIEventAdapter::getUnmodifiedKey() says it, or
+  /// getKey() where that is 0. With Ctrl down "Ctrl+W" comes first and "W" second.
   [[nodiscard]] const Command* lookup(int key, bool ctrl) const;
 
   /// What people press for a command: "W, Up", "Drag"; empty when nothing calls it.
