@@ -362,4 +362,22 @@ TEST(ManipulatorKeys, TheViewerIsKeptDrawingWhileAnythingMovesAndNoLonger) {
   EXPECT_FALSE(r.viewer.continuous);
 }
 
+TEST(ManipulatorKeys, AGhostAtRestLetsTheViewerRestInAWallToo) {
+  Mesh m = floor_mesh();
+  add_box(m, {1.0, -3.0, 0.0}, {9.0, 3.0, 3.0});
+  Rig r(m, {}, roam::Mode::ghost);
+  r->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
+  r.frame(frame);
+  for (int i = 0; i < 3; ++i) {
+    r.down('w');
+    r.frame(frame);
+    EXPECT_TRUE(r.viewer.continuous);
+    r.frames(0.5);
+    r.up('w');
+    r.frames(0.5);
+    EXPECT_FALSE(r.viewer.continuous) << r->eye().x;
+  }
+  EXPECT_GT(r->eye().x, 1.5);
+}
+
 }  // namespace

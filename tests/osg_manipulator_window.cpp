@@ -253,6 +253,21 @@ TEST(ManipulatorWindow, DoubleClickAndWheelArrive) {
   EXPECT_TRUE(w.until([&] { return w.manipulator->speed() > 1.5; }));
 }
 
+TEST(ManipulatorWindow, AViewerThatDrawsOnDemandRestsWhenTheBodyDoes) {
+  Window w;
+  w.viewer.setRunFrameScheme(osgViewer::ViewerBase::ON_DEMAND);
+  for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly, roam::Mode::ghost}) {
+    w.manipulator->setMode(mode);
+    const int pressed = w.watch->count(Adapter::KEYDOWN, 'w'), let_go = w.watch->count(Adapter::KEYUP, 'w');
+    xdo("keydown w");
+    EXPECT_TRUE(w.until([&] { return w.watch->count(Adapter::KEYDOWN, 'w') > pressed; }));
+    EXPECT_TRUE(w.viewer.checkNeedToDoFrame());
+    xdo("keyup w");
+    EXPECT_TRUE(w.until([&] { return w.watch->count(Adapter::KEYUP, 'w') > let_go; }));
+    EXPECT_TRUE(w.until([&] { return !w.viewer.checkNeedToDoFrame(); })) << name(mode);
+  }
+}
+
 /// Reads the middle of each picture.
 struct Middle : osg::Camera::DrawCallback {
   mutable osg::Vec4 color;
