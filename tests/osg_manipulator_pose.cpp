@@ -1,4 +1,5 @@
 // Matrices, home, placements: what osgGA expects of a manipulator of a camera.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <osg/ApplicationUsage>
 #include <osg/Shape>
@@ -162,6 +163,12 @@ TEST(ManipulatorPose, SettingsAreCheckedWhenTheyAreSet) {
   r->setSpeed(1e9);
   EXPECT_DOUBLE_EQ(r->speed(), osgRoam::Manipulator::greatest_speed);
   EXPECT_DOUBLE_EQ(r->settings().speed, r->speed());
+  for (const double speed : {5000.0, 0.001}) {  // good for a walker, but no speed that a wheel could set
+    r->setSettings({.speed = speed});
+    EXPECT_DOUBLE_EQ(r->speed(), std::clamp(speed, osgRoam::Manipulator::least_speed, 1000.0));
+  }
+  EXPECT_THROW(r->setSettings({.radius = 0.2, .speed = 2e4}), roam::Error);
+  EXPECT_DOUBLE_EQ(r->settings().radius, 0.3);
 }
 
 TEST(ManipulatorPose, OtherSettingsKeepTheFeet) {

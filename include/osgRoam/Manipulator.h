@@ -116,7 +116,8 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] const osg::Vec3d& origin() const;
 
   /// The feet stay where they are; where the new body does not fit it is put to the nearest safe place. Throws
-  /// roam::Error for settings out of range.
+  /// roam::Error for settings out of range, and changes nothing then. A speed that is in its own range (roam::check),
+  /// but not in [least_speed, greatest_speed], is brought into that, as by setSpeed.
   void setSettings(const roam::WalkerSettings& settings);
   [[nodiscard]] const roam::WalkerSettings& settings() const;  ///< with the speed as it is now
 
@@ -147,8 +148,12 @@ class Manipulator : public osgGA::CameraManipulator {
   /// Puts the eye of the standing body to `eye`, metres, and looks. Throws roam::Error when anything is not finite.
   /// Where the body does not fit it is put to the nearest safe place: by a way that is checked, where there is one
   /// (Walker::place), else to the nearest place found in any direction.
+  ///
+  /// Viewer::setCameraManipulator and setSceneData go home(), as with every manipulator of osgGA: a pose that was set
+  /// before them is lost. Where the viewer is to begin there, use setHomePose, or pass false as the second argument of
+  /// setCameraManipulator.
   void setPose(const roam::Vec3& eye, double yaw, double pitch);
-  /// The same for the lowest point of the body.
+  /// The same for the lowest point of the body, and as short-lived before the viewer goes home().
   void setFeet(const roam::Vec3& feet, double yaw, double pitch);
   void look(double yaw, double pitch);
   [[nodiscard]] double yaw() const;
@@ -167,7 +172,8 @@ class Manipulator : public osgGA::CameraManipulator {
   /// soon as another manipulator moves the camera. Off: from the next updateCamera on the callback is gone.
   void setAdjustNearFarRatio(bool on);
   [[nodiscard]] bool adjustNearFarRatio() const;
-  /// home() goes there; see setHomePosition for the same in the graph's frame.
+  /// home() goes there, and so a viewer begins there: see setPose. See setHomePosition for the same in the graph's
+  /// frame.
   void setHomePose(const roam::Vec3& eye, double yaw, double pitch);
 
   // --- going without keys
