@@ -87,7 +87,7 @@ class Manipulator : public osgGA::CameraManipulator {
   /// Puts the body, where it is, into another space (null: into none, it is held). Where it does not fit it is put to
   /// the nearest safe place. In walk mode a body that is still where a computed home has put it, with nobody having
   /// moved or placed it since, goes home() again: now there may be a floor to stand on. Ends a building that is under
-  /// way, and waits until that is noticed, for milliseconds mostly. Call between two frames.
+  /// way, and waits until that is noticed. Call between two frames.
   ///
   /// A Patchwork that is passed as const is the caller's to update, between two frames.
   void setSpace(std::shared_ptr<const roam::Space> space);
