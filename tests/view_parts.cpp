@@ -5,6 +5,7 @@
 
 #include "exit_status.h"
 #include "program.h"
+#include "recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "view/bookmarks.h"
@@ -105,6 +106,27 @@ TEST(ViewSettings, GiveCommandsOtherKeysOrSayWhyNot) {
   EXPECT_TRUE(contains(what, "s.json") && contains(what, "help")) << what;
 }
 
+TEST(ViewSettings, NameTheEntryOfAKeyAndLeaveTheDigitsToTheCameras) {
+  const auto error = [](const std::string& command, const std::string& key) {
+    osgRoam::Controls controls;
+    controls.add("forward", "W", "goes", osgRoam::Controls::Kind::held);
+    ViewSettings settings;
+    settings.file = "s.json";
+    settings.keys = {{"bookmark", {"J"}}, {command, {key}}};
+    return error_of([&] { set_up(controls, settings); });
+  };
+  EXPECT_TRUE(contains(error("forward", "NoSuchKey"), "s.json: the entry \"keys.forward\": "));
+  EXPECT_FALSE(contains(error("forward", "NoSuchKey"), "line"));
+  EXPECT_TRUE(contains(error("fly_away", "Z"), "s.json: the entry \"keys.fly_away\": there is no such command"));
+  EXPECT_TRUE(contains(error("cameras", "Z"), "s.json: the entry \"keys.cameras\" is no command"));
+  for (const char* key : {"1", "8", "Ctrl+2"}) {
+    const std::string what = error("forward", key);
+    EXPECT_TRUE(contains(what, "\"cameras\" and \"forward\"")) << key << ": " << what;
+  }
+  EXPECT_EQ(error("forward", "9"), "");
+  EXPECT_EQ(error("forward", "#"), "");
+}
+
 // ------------------------------------------------------------------------------------------------------- options
 
 TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
@@ -174,6 +196,33 @@ TEST(ViewPlan, RefusesWhatCannotBeMeant) {
   EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(over, {})); }), "would overwrite the scene"));
 }
 
+TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
+  const TestFolder folder;
+  ViewOptions options;
+  options.trace = folder.file("one");
+  options.record_path = folder.file("./one");
+  const auto error = [&](const ViewSettings& settings = {}) {
+    return error_of([&] { static_cast<void>(make_plan(options, settings)); });
+  };
+  EXPECT_TRUE(contains(error(), "would overwrite what --record-path writes")) << error();
+  options.record_path.clear();
+  EXPECT_EQ(error(), "");
+  ViewSettings settings;
+  settings.file = folder.file("one");
+  EXPECT_TRUE(contains(error(settings), "would overwrite the settings"));
+  options.record = folder.file("gone/film.mp4");
+  EXPECT_TRUE(contains(error(), "there is no folder " + folder.file("gone"))) << error();
+}
+
+TEST(ViewPlan, RefusesPlacesThatNoSceneReaches) {
+  ViewOptions far;
+  far.at = {2e9, 0, 0};
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(far, {})); }), "--at: 2e+09"));
+  ViewOptions unnamed;
+  unnamed.scene.scenes = {""};
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(unnamed, {})); }), "no name"));
+}
+
 // ----------------------------------------------------------------------------------------------------- bookmarks
 
 TEST(Bookmarks, AreKeptForTheirSceneAlone) {
@@ -215,10 +264,11 @@ TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
 
 TEST(PathRecorder, WritesAPathThatCanBeWalked) {
   const TestFolder folder;
-  PathRecorder recorder(folder.file("way.path"));
-  for (int i = 0; i <= 60; ++i) recorder.add(5.0 + i / 60.0, {i / 60.0, 2.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
-  for (int i = 0; i < 120; ++i) recorder.add(6.0 + i / 60.0, {1.0, 2.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
-  recorder.add(8.5, {1.0, 4.0, 3.0}, {0.5, 0.5, -0.5, -0.5});
+  PathRecorder recorder(folder.file("way.path"), {}, Mode::walk);
+  const std::array<double, 4> ahead{0.5, 0.5, -0.5, -0.5};
+  for (int i = 0; i <= 60; ++i) recorder.add(5.0 + i / 60.0, {i / 60.0, 2.0, 3.0}, ahead, Mode::walk);
+  for (int i = 0; i < 120; ++i) recorder.add(6.0 + i / 60.0, {1.0, 2.0, 3.0}, ahead, Mode::walk);
+  recorder.add(8.5, {1.0, 4.0, 3.0}, ahead, Mode::walk);
   recorder.close();
   const std::vector<Waypoint> path = load_path(folder.file("way.path"));
   // Ten a second while it moves; of the rest its begin and its end.
@@ -234,7 +284,68 @@ TEST(PathRecorder, WritesAPathThatCanBeWalked) {
 }
 
 TEST(PathRecorder, SaysWhereItCannotWrite) {
-  EXPECT_TRUE(contains(error_of([] { PathRecorder("/nowhere/way.path"); }), "/nowhere/way.path"));
+  EXPECT_TRUE(contains(error_of([] { PathRecorder("/nowhere/way.path", {}, Mode::walk); }), "/nowhere/way.path"));
+}
+
+TEST(PathRecorder, SaysTheBodyAndItsModes) {
+  const TestFolder folder;
+  const std::string file = folder.file("way.path");
+  const auto record = [&](const std::vector<Mode>& modes) {
+    PathRecorder recorder(file, {.radius = 0.25, .height = 1.7, .eye = 1.4, .step = 0.2, .slope_degrees = 40},
+                          modes[0]);
+    for (std::size_t i = 0; i < modes.size(); ++i) recorder.add(static_cast<double>(i), {1.0 * i, 0, 0}, {}, modes[i]);
+    recorder.close();
+    EXPECT_EQ(load_path(file).size(), modes.size());
+    return recorded_body(file).value();
+  };
+  const RecordedBody walked = record({Mode::walk, Mode::walk});
+  EXPECT_EQ(walked.mode, Mode::walk);
+  EXPECT_EQ(walked.radius, 0.25);
+  EXPECT_EQ(walked.height, 1.7);
+  EXPECT_EQ(walked.eye, 1.4);
+  EXPECT_EQ(walked.step, 0.2);
+  EXPECT_EQ(walked.slope_degrees, 40.0);
+  EXPECT_FALSE(walked.ghost);
+  const RecordedBody mixed = record({Mode::walk, Mode::ghost, Mode::walk});
+  EXPECT_EQ(mixed.mode, Mode::fly);
+  EXPECT_EQ(mixed.radius, 0.25);
+  EXPECT_TRUE(mixed.ghost);
+}
+
+TEST(RecordedBody, IsSaidByNoOtherComment) {
+  const TestFolder folder;
+  EXPECT_FALSE(recorded_body(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")));
+  const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius wide\n4 5 6\n");
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(recorded_body(bad)); }), "bad.path:2"));
+}
+
+TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
+  RecordedBody body;
+  body.mode = Mode::fly;
+  body.radius = 0.25;
+  body.height = 1.7;
+  body.slope_degrees = 30.0;
+  ViewOptions options;
+  options.path = "tour.path";
+  ViewSettings settings;
+  settings.radius = 0.2;
+  const ViewPlan same = make_plan(options, settings, body);
+  EXPECT_EQ(same.walker.radius, 0.25);
+  EXPECT_EQ(same.walker.height, 1.7);
+  EXPECT_EQ(same.walker.slope_degrees, 30.0);
+  EXPECT_EQ(same.mode, Mode::fly);
+  EXPECT_EQ(same.note, "");
+  options.radius = 0.4;
+  options.mode = "walk";
+  const ViewPlan other = make_plan(options, settings, body);
+  EXPECT_EQ(other.walker.height, 0.8);
+  EXPECT_EQ(other.walker.slope_degrees, 45.0);
+  EXPECT_EQ(other.mode, Mode::walk);
+  EXPECT_EQ(other.note,
+            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is a sphere of radius 0.4 m");
+  options.radius.reset();
+  options.height = 1.0;
+  EXPECT_EQ(make_plan(options, settings, body).walker.eye, 1.0);
 }
 
 TEST(UnusedName, NeverNamesWhatIsThere) {
@@ -279,6 +390,27 @@ TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {
   EXPECT_LT(load_share(status.display, status.collision), 0.0);
 }
 
+TEST(Status, TellsNewsInFullBelowWhatHolds) {
+  Status status;
+  status.mode = Mode::walk;
+  status.hold = {"blocked: wall", false};
+  status.news = {{"written: a.png", false}, {std::string(200, 'x'), true}};
+  const Told message = status_message(status);
+  EXPECT_EQ(message.text, "blocked: wall\nwritten: a.png\n" + std::string(200, 'x'));
+  EXPECT_TRUE(message.warning);
+}
+
+TEST(Status, KnowsNoMinusZero) {
+  Status status;
+  status.mode = Mode::walk;
+  status.yaw = -0.3;
+  status.pitch = -0.2;
+  std::string text;
+  for (const StatusText& line : status_lines(status)) text += line.value + "\n";
+  EXPECT_TRUE(contains(text, "0\u00b0, +0\u00b0")) << text;
+  EXPECT_FALSE(contains(text, "-0\u00b0")) << text;
+}
+
 TEST(Status, SaysModeSpeedBodyAndPlace) {
   Status status;
   status.mode = Mode::walk;
@@ -288,6 +420,7 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   status.triangles = 1'970'000;
   std::string text;
   for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
+  EXPECT_FALSE(contains(text, "ms")) << text;  // no frame yet
   for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
   }

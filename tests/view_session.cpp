@@ -43,6 +43,18 @@ class Driven {
   void run(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 60.0 + 0.5); ++i) ASSERT_TRUE(session->frame());
   }
+  /// Where the window's middle is (0, 0), from -1 to 1.
+  void double_click(float x, float y) {
+    osgGA::EventQueue& queue = events();
+    const osgGA::GUIEventAdapter& now = *queue.getCurrentEventState();
+    const float across = 0.5f * (1 + x) * (now.getXmax() - now.getXmin()) + now.getXmin();
+    const float up = 0.5f * (1 + y) * (now.getYmax() - now.getYmin()) + now.getYmin();
+    queue.mouseButtonPress(across, up, 1);
+    queue.mouseButtonRelease(across, up, 1);
+    queue.mouseDoubleButtonPress(across, up, 1);
+    queue.mouseButtonRelease(across, up, 1);
+    run(1.0 / 60.0);
+  }
   [[nodiscard]] const Vec3& place() { return session->roamer().walker()->position(); }
   [[nodiscard]] std::string hud() {
     run(0.2);
@@ -75,6 +87,59 @@ TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
   const Verification proof = d.verified();
   EXPECT_GT(proof.pieces, 300u);
   EXPECT_EQ(proof.violations, 0u);
+}
+
+TEST(Session, GoesToWhatIsDoubleClicked) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.session->stage().draw(0.0);  // one clicks on what one sees
+  d.double_click(0, 0);
+  d.run(5.0);
+  EXPECT_GT(d.place().x, 15.0);
+  EXPECT_EQ(d.verified().violations, 0u);
+}
+
+TEST(Session, FliesWhereThereIsNothingToStandOn) {
+  // Beside the house: at the start, and by the key.
+  Driven d(room_obj(), {40, 0, 0.95, 0});
+  EXPECT_EQ(d.session->roamer().mode(), Mode::fly);
+  EXPECT_TRUE(contains(d.hud(), "There is nothing below to stand on: flying. G walks again.")) << d.hud();
+  EXPECT_NEAR(d.place().z, 0.95, 0.1);
+  d.tap('g');
+  d.run(3.0);
+  EXPECT_EQ(d.session->roamer().mode(), Mode::fly);
+  EXPECT_NEAR(d.place().z, 0.95, 0.2);
+  EXPECT_FALSE(contains(d.hud(), "fit")) << d.hud();
+}
+
+TEST(Session, FliesWhenItIsPutBackToWhereItNeverStood) {
+  // Above the floor's edge, gliding off it while it falls.
+  Driven d("v 0 -2 0\nv 5 -2 0\nv 5 2 0\nv 0 2 0\nf 1 2 3 4\n", {4.5, 0, 6, 0});
+  EXPECT_EQ(d.session->roamer().mode(), Mode::walk);
+  d.press('w');
+  d.run(6.0);
+  EXPECT_EQ(d.session->roamer().mode(), Mode::fly);
+}
+
+TEST(Session, EscapeClosesTheHelpFirst) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.tap('h');
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(d.session->stage().hud().help_shown());
+  d.press(osgGA::GUIEventAdapter::KEY_Escape);
+  d.run(1.0 / 60.0);
+  d.release(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(d.session->frame());
+}
+
+TEST(Session, ShowsNoSpeedOfABodyThatWasPutSomewhere) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.press('w');
+  d.run(2.0);
+  EXPECT_NEAR(d.session->status().speed, 1.4, 0.1);
+  d.release('w');
+  d.tap(osgGA::GUIEventAdapter::KEY_Home);
+  d.run(0.2);
+  EXPECT_LT(d.session->status().speed, 0.1);
 }
 
 TEST(Session, TakesTheKeysOfTheSettings) {
@@ -151,6 +216,23 @@ TEST(Session, RecordsTheWayThatWasWalked) {
   EXPECT_LT(glm::distance(path.back().position, d.place()), 1e-6);
   ASSERT_TRUE(path.back().pose.has_value());
   EXPECT_GT(path.back().pose->time, 1.9);
+  // Whoever goes it again is the same body, without being told.
+  const Vec3 end = d.place();
+  for (const char* verb : {"walk", "view"}) {
+    std::vector<std::string> arguments{verb, d.folder.file("scene.obj"), "--json", "--path",
+                                       d.folder.file("roam-1.path")};
+    if (arguments[0] == "view") arguments.emplace_back("--headless");
+    const ProgramResult again = run_program(ROAM_PROGRAM, arguments);
+    ASSERT_EQ(again.status, 0) << verb << again.err << again.out;
+    const nlohmann::json report = nlohmann::json::parse(again.out);
+    EXPECT_EQ(report["height"], 1.8) << verb;
+    EXPECT_NEAR(report["end"]["position"][0], end.x, 0.31) << verb;
+    EXPECT_NEAR(report["end"]["position"][2], end.z, 0.01) << verb;
+    EXPECT_FALSE(contains(again.err, "another body"));
+  }
+  const ProgramResult smaller = run_program(
+      ROAM_PROGRAM, {"walk", d.folder.file("scene.obj"), "--path", d.folder.file("roam-1.path"), "--radius", "0.2"});
+  EXPECT_TRUE(contains(smaller.err, "recorded by another body: radius 0.3 m, height 1.8 m")) << smaller.err;
 }
 
 TEST(Session, SwitchesToTheCamerasOfOsgviewerAndBack) {

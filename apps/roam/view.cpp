@@ -42,36 +42,42 @@ ExitStatus view(const ViewOptions& options) {
     return done;
   }
   if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
-  const ViewPlan plan = make_plan(options, settings);
+  std::optional<RecordedBody> recorded;
+  if (!options.path.empty()) recorded = recorded_body(options.path);
+  const ViewPlan plan = make_plan(options, settings, recorded);
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
   ViewReport report;
+  bool cancelled = false;
   {
     Session session(options, plan, settings);
     try {
       while (session.frame()) {
       }
     } catch (const Cancelled&) {
-      // What was asked for is written as far as it has come.
-      static_cast<void>(session.finish());
-      throw;
+      // What was asked for is written, checked and told as far as it has come.
+      cancelled = true;
     }
     report = session.finish();
   }
   for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");
-    report.verified = verify(report.meshes, report.pieces,
-                             [&](std::uint64_t checked) { return progress.goes_on(checked, report.pieces.size()); });
+    // A second Ctrl-C ends the program at once.
+    report.verified = verify(report.meshes, report.pieces, [&](std::uint64_t checked) {
+      return progress.goes_on(checked, report.pieces.size()) || cancelled;
+    });
   }
   if (options.json) {
     print(json_report(report));
   } else {
     print(text_report(report));
   }
-  return report.result && report.result->outcome != Outcome::reached ? answer_no : done;
+  if (cancelled) throw Cancelled();
+  const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
+  return report.result && !reached ? answer_no : done;
 }
 
 constexpr const char* help =
@@ -80,7 +86,9 @@ constexpr const char* help =
     "are held.\n\n"
     "Positions are of the body's centre, in metres, as in the file. A body that you do not describe is a person, 0.3 "
     "m\n"
-    "in radius and 1.8 m high; with --radius or --path alone it is a sphere, as for `roam walk`.\n\n"
+    "in radius and 1.8 m high; with --radius or --path alone it is a sphere, as for `roam walk`. A path that was "
+    "recorded\n"
+    "here says its body.\n\n"
     "Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config; bookmarks are kept\n"
     "beside it. --path, --screenshot and --time end by themselves, and work with --headless. Exit status 3 when a "
     "path\n"

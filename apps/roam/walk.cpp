@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "picture/picture.h"
 #include "progress.h"
+#include "recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
@@ -36,11 +37,10 @@ struct WalkOptions {
   std::filesystem::path path;
   std::optional<double> wander;  ///< seconds
   std::vector<double> from;      ///< where wandering starts: x, y, z, or nothing
-  std::string mode = "walk";
+  std::optional<std::string> mode;
   WalkerSettings settings;
-  std::optional<double> height;
-  std::optional<double> eye;
-  std::optional<double> step;
+  std::optional<double> radius, height, eye, step, slope;
+  std::optional<RecordedBody> recorded;  ///< that the path was recorded with
   RouteOptions route;
   std::filesystem::path trace;
   std::filesystem::path picture;
@@ -48,18 +48,30 @@ struct WalkOptions {
   bool json = false;
 
   [[nodiscard]] Mode walker_mode() const {
-    return mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
+    if (!mode) return recorded ? recorded->mode : Mode::walk;
+    return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;
   }
 };
 
-/// The options as they are meant: the height that follows from the radius, the eye that follows from the height.
-/// Throws UsageError for what cannot be.
+/// The options as they are meant: the body that recorded the path, where its radius is left out; the height that
+/// follows from the radius, the eye that follows from the height. Throws UsageError for what cannot be.
 WalkerSettings walker_settings(const WalkOptions& options) {
   constexpr double sphere = 2.0;  // height of a sphere in radii
   WalkerSettings settings = options.settings;
-  settings.height = options.height.value_or(sphere * settings.radius);
-  settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
-  settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+  if (options.recorded && !options.radius) {
+    const RecordedBody& body = *options.recorded;
+    settings.radius = body.radius;
+    settings.height = options.height.value_or(body.height);
+    settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
+    settings.step = options.step.value_or(std::min(body.step, 0.5 * settings.height));
+    settings.slope_degrees = body.slope_degrees;
+  } else {
+    settings.radius = options.radius.value_or(settings.radius);
+    settings.height = options.height.value_or(sphere * settings.radius);
+    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
+    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+  }
+  settings.slope_degrees = options.slope.value_or(settings.slope_degrees);
   settings.speed = options.route.speed;
   try {
     check(settings);
@@ -203,6 +215,7 @@ Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces
 }
 
 ExitStatus walk(WalkOptions options) {
+  if (!options.path.empty()) options.recorded = recorded_body(options.path);
   options.settings = walker_settings(options);
   check_outputs(options);
   if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
@@ -215,6 +228,10 @@ ExitStatus walk(WalkOptions options) {
   }
   std::vector<Vec3> path;
   if (!options.path.empty()) path = positions(load_path(options.path));
+  if (options.recorded) {
+    const std::string other = compare(*options.recorded, options.settings, mode);
+    if (!other.empty()) fmt::print(stderr, "roam: note: {}\n", other);
+  }
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
@@ -279,7 +296,8 @@ constexpr const char* help =
     "times\n"
     "and rotations are not used, --speed and --dt say how it is walked. Positions are of the body's centre. A "
     "waypoint\n"
-    "counts as reached within the body's radius, and, walking, within the step height above and below.\n\n"
+    "counts as reached within the body's radius, and, walking, within the step height above and below. A path that\n"
+    "`roam view` recorded says its body and mode: they are taken where --radius or --mode do not say another.\n\n"
     "Examples:\n"
     "  roam walk mine.dae --path tour.path\n"
     "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
@@ -310,14 +328,13 @@ void add_walk(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
       ->check(CLI::IsMember({"fly", "walk", "ghost"}))
       ->type_name("MODE");
-  verb->add_option("--radius", o.settings.radius, "Of the body, in metres (default: 0.3)")->type_name("R");
+  verb->add_option("--radius", o.radius, "Of the body, in metres (default: 0.3)")->type_name("R");
   verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")->type_name("H");
   verb->add_option("--eye", o.eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H)")
       ->type_name("E");
   verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
       ->type_name("M");
-  verb->add_option("--slope", o.settings.slope_degrees, "What walking climbs, in degrees (default: 45)")
-      ->type_name("DEG");
+  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")->type_name("DEG");
   verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
   verb->add_option("--dt", o.route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
       ->check(positive)

@@ -10,7 +10,8 @@
 namespace roam::app {
 namespace {
 
-using Kind = osgRoam::Controls::Kind;
+using osgRoam::Controls;
+using Kind = Controls::Kind;
 
 struct Line {
   Command command;
@@ -34,6 +35,30 @@ constexpr Line lines[] = {
 /// Headings of the help, and the commands that they stand above.
 constexpr std::pair<const char*, const char*> headings[] = {{"forward", "Move"}, {"grab", "Mouse"}, {"help", "View"}};
 
+/// The keys as Controls::rebind reads them. Throws roam::Error that begins with `entry` for a name of none.
+std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& entry) {
+  std::vector<std::string> keys;
+  for (const std::string& name : names) {
+    try {
+      keys.push_back(Controls::print(Controls::parseKey(name)));
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: {}", entry, error.what()));
+    }
+  }
+  return keys;
+}
+
+/// The cameras have their digits whatever else is pressed with them.
+void demand_free_digits(const Controls& controls) {
+  for (const Controls::Command& command : controls.commands()) {
+    for (const Controls::Key& key : command.keys) {
+      if (key.symbol < '1' || key.symbol >= '1' + static_cast<int>(camera_names().size())) continue;
+      throw Error(fmt::format("the key {} is wanted by both \"cameras\" and \"{}\"; give \"{}\" another key",
+                              Controls::print(key), command.name, command.name));
+    }
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& camera_names() {
@@ -53,9 +78,16 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
   controls.add("cameras", fmt::format("1 to {}", camera_names().size()),
                "other cameras, as in osgviewer; only the first meets walls", Kind::gesture);
   std::string changes;
-  for (const auto& [command, keys] : settings.keys) changes += fmt::format("{} = {}\n", command, fmt::join(keys, ", "));
+  for (const auto& [command, keys] : settings.keys) {
+    const std::string entry = fmt::format("{}: the entry \"keys.{}\"", settings.file.string(), command);
+    const Controls::Command* const known = controls.find(command);
+    if (known == nullptr) throw Error(entry + ": there is no such command; `roam view --keys` lists them");
+    if (known->kind == Kind::gesture) throw Error(entry + " is no command that can be given another key");
+    changes += fmt::format("{} = {}\n", command, fmt::join(printed(keys, entry), ", "));
+  }
   try {
     controls.rebind(changes);
+    demand_free_digits(controls);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: keys: {}", settings.file.string(), error.what()));
   }

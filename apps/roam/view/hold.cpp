@@ -32,9 +32,11 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
   if (length <= 0.0) return text;
   const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
                                                 opening_skins * walker.skin());
-  if (opening) {
-    text += fmt::format(", opening {:.2f} m for a body of {:.2f} m", *opening, 2.0 * walker.settings().radius);
-  }
+  if (!opening) return text;
+  const double width = 2.0 * walker.settings().radius;
+  // What is wide enough is too low.
+  const double needed = *opening > width ? walker.body().height() : width;
+  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", *opening, *opening > width ? "high " : "", needed);
   return text;
 }
 
@@ -43,7 +45,7 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
 void Hold::take(const Walker& walker, const Vec3& wish, double seconds) {
   now_ += seconds;
   const StepReport& report = walker.report();
-  held_ = report.held;
+  held_ = walker.held();
   waiting_ = report.met_unknown;
   note_events(walker);
   look_at_blockage(walker, wish, seconds);

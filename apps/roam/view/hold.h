@@ -28,8 +28,8 @@ class Hold {
   void note_events(const Walker& walker);
   void look_at_blockage(const Walker& walker, const Vec3& wish, double seconds);
 
-  double now_ = 0.0;  ///< s of all steps
-  bool held_ = false;
+  double now_ = 0.0;   ///< s of all steps
+  bool held_ = false;  ///< it does not fit where it is
   bool waiting_ = false;
   double blocked_for_ = 0.0;   ///< s without a break
   double blocked_at_ = -1e9;   ///< when last

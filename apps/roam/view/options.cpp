@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
+#include <sstream>
 
 #include "exit_status.h"
 #include "roam/error.h"
@@ -42,52 +42,101 @@ std::array<int, 2> parse_size(const std::string& text) {
   return size;
 }
 
-WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& settings) {
+std::string not_a_place(const std::string& text) {
+  return fmt::format("'{}' is no place: X,Y,Z[,YAW[,PITCH]], three to five numbers with commas and no blanks", text);
+}
+
+/// "1,2,1.5,90": a place, perhaps yaw, perhaps pitch.
+std::vector<double> parse_place(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    double value = 0.0;
+    if (!CLI::detail::lexical_cast(part, value)) throw CLI::ValidationError("--at", not_a_place(text));
+    numbers.push_back(value);
+  }
+  if (numbers.size() < 3 || numbers.size() > 5) throw CLI::ValidationError("--at", not_a_place(text));
+  return numbers;
+}
+
+WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& settings,
+                               const std::optional<RecordedBody>& recorded) {
   WalkerSettings walker;
   const bool replay = !options.path.empty();
-  const bool described = options.radius.has_value() || replay;
+  ViewSettings known = replay ? ViewSettings{} : settings;
+  if (recorded) {
+    known.radius = recorded->radius;
+    known.height = recorded->height;
+    known.eye = recorded->eye;
+    known.step = recorded->step;
+    known.slope = recorded->slope_degrees;
+  }
+  const bool described = options.radius.has_value() || (replay && !recorded);
   // What belongs together is taken from one place: a height from the settings is no height for a radius from the
   // command line.
   const auto body = [&](const std::optional<double>& option, const std::optional<double>& setting) {
     return option || described ? option : setting;
   };
-  walker.radius = body(options.radius, settings.radius).value_or(walker.radius);
+  walker.radius = body(options.radius, known.radius).value_or(walker.radius);
   const double sphere = 2.0 * walker.radius;
-  const double tall = described || settings.radius ? sphere : walker.height;
-  walker.height = body(options.height, settings.height).value_or(tall);
+  const double tall = described || known.radius ? sphere : walker.height;
+  walker.height = body(options.height, known.height).value_or(tall);
   // On the body's axis the camera is a radius from everything.
   const double eye = std::max(std::min(walker.eye, walker.height - walker.radius), 0.0);
-  walker.eye = body(options.eye, settings.eye).value_or(eye);
-  walker.step = body(options.step, settings.step).value_or(std::min(walker.step, 0.5 * walker.height));
+  walker.eye = body(options.eye, known.eye).value_or(eye);
+  walker.step = body(options.step, known.step).value_or(std::min(walker.step, 0.5 * walker.height));
+  if (recorded && options.height) {
+    // Another height for the body that was recorded: the rest of it is made to fit.
+    walker.eye = options.eye.value_or(std::min(walker.eye, walker.height));
+    walker.step = options.step.value_or(std::min(walker.step, 0.5 * walker.height));
+  }
+  const bool same_body = !options.radius || !replay;
   walker.slope_degrees = (options.slope ? options.slope
-                          : replay      ? std::nullopt
-                                        : settings.slope)
+                          : same_body   ? known.slope
+                                        : std::nullopt)
                              .value_or(walker.slope_degrees);
-  walker.speed = (options.speed ? options.speed : replay ? std::nullopt : settings.speed).value_or(walker.speed);
+  walker.speed = (options.speed ? options.speed : known.speed).value_or(walker.speed);
   return walker;
 }
 
-/// Refuses to write over what is read.
-void check_files(const ViewOptions& options) {
+/// A file that a session writes, and the option that names it.
+struct Written {
+  const char* option;
+  const std::filesystem::path& file;
+};
+
+/// Refuses to write over what is read or written besides, and into folders that do not exist.
+void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code none;
-    return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, none);
+    if (a.empty() || b.empty()) return false;
+    return std::filesystem::equivalent(a, b, none) ||
+           std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none);
   };
-  struct Written {
-    const char* option;
-    const std::filesystem::path& file;
-  };
-  for (const auto& [option, file] :
-       {Written{"--screenshot", options.screenshot}, Written{"--record", options.record},
-        Written{"--record-path", options.record_path}, Written{"--trace", options.trace}}) {
-    const auto refuse = [&, o = option, f = file](const char* what) {
-      throw UsageError(fmt::format("{} {} would overwrite the {}", o, f.string(), what));
+  const Written outputs[] = {{"--screenshot", options.screenshot},
+                             {"--record", options.record},
+                             {"--record-path", options.record_path},
+                             {"--trace", options.trace}};
+  for (const Written& output : outputs) {
+    if (output.file.empty()) continue;
+    const auto refuse = [&](const std::string& what) {
+      throw UsageError(fmt::format("{} {} would overwrite {}", output.option, output.file.string(), what));
     };
     for (const auto& scene : options.scene.scenes) {
-      if (same(scene, file)) refuse("scene");
+      if (same(scene, output.file)) refuse("the scene");
     }
-    if (same(options.path, file)) refuse("path");
-    if (same(options.settings, file)) refuse("settings");
+    if (same(options.path, output.file)) refuse("the path");
+    if (same(settings.file, output.file)) refuse("the settings");
+    for (const Written& other : outputs) {
+      if (&other == &output) break;
+      if (same(other.file, output.file)) refuse(std::string("what ") + other.option + " writes");
+    }
+    const std::filesystem::path folder = output.file.parent_path();
+    std::error_code none;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
+      throw UsageError(fmt::format("{} {}: there is no folder {}; make it, or name another", output.option,
+                                   output.file.string(), folder.string()));
+    }
   }
 }
 
@@ -97,12 +146,12 @@ void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   // Not for --keys, which needs no scene.
   verb.get_option("SCENE")->required(false);
-  constexpr double metres = 250.0;
+  constexpr double metres = Space::reach_limit / 4.0;
   verb.add_option("--mode", mode, "walk, fly or ghost to begin with (default: walk)")
       ->check(CLI::IsMember({"fly", "walk", "ghost"}))
       ->type_name("MODE");
   verb.add_option("--radius", radius, "Of the body, in metres (default: 0.3)")
-      ->check(within(1e-6, metres))
+      ->check(within(1e-6, 0.5 * metres))
       ->type_name("R");
   verb.add_option("--height", height, "Whole height, in metres (default: a person's 1.8; with --radius or --path: 2 R)")
       ->check(within(1e-6, metres))
@@ -117,18 +166,18 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->check(within(0.0, 89.0))
       ->type_name("DEG");
   verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(within(1e-3, 1e4))->type_name("V");
-  auto* from =
-      verb.add_option("--at", at, "Start with the body's centre here, looking there, in degrees: yaw 0 is +x, 90 is +y")
-          ->expected(3, 5)
-          ->delimiter(',')
-          ->type_name("X,Y,Z[,YAW[,PITCH]]");
+  auto* from = verb.add_option_function<std::string>(
+                       "--at", [this](const std::string& text) { at = parse_place(text); },
+                       "Start with the body's centre here, looking there, in degrees: yaw 0 is +x, 90 is +y")
+                   ->type_name("X,Y,Z[,YAW[,PITCH]]");
   verb.add_option("--bookmark", bookmark, "Start at a place that was kept with the key B")
       ->excludes(from)
       ->type_name("NAME");
-  auto* replay = verb.add_option("--path", path, "Go along a path file as `roam walk` does, and end")
-                     ->excludes(from)
-                     ->excludes("--bookmark")
-                     ->type_name("FILE");
+  auto* replay =
+      verb.add_option("--path", path, "Go along a path file as `roam walk` does, with the body that it says, and end")
+          ->excludes(from)
+          ->excludes("--bookmark")
+          ->type_name("FILE");
   verb.add_option("--dt", dt, "Of one step of the path, in seconds, 1e-6 or more (default: 1/60)")
       ->needs(replay)
       ->check(within(Route::shortest_step, 10.0))
@@ -148,7 +197,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
   verb.add_option("--time", time_limit, "End after so many seconds of roaming")
-      ->check(within(0.0, 1e9))
+      ->check(within(1e-3, 1e9))
       ->type_name("S");
   verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
@@ -158,17 +207,21 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_flag("--keys", keys, "Print what the keys do, as the settings have it, and end");
 }
 
-ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings) {
-  check_files(options);
+ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
+                   const std::optional<RecordedBody>& recorded) {
+  for (const auto& scene : options.scene.scenes) {
+    if (scene.empty()) throw UsageError("view: a scene has no name: \"\"; give it a file or a folder");
+  }
+  check_files(options, settings);
   ViewPlan plan;
-  plan.walker = walker_settings(options, settings);
+  plan.walker = walker_settings(options, settings, recorded);
   try {
     check(plan.walker);
   } catch (const Error& error) {
     throw UsageError(settings.file.empty() ? error.what()
                                            : fmt::format("{} (with {})", error.what(), settings.file.string()));
   }
-  const std::string mode = options.mode.value_or("walk");
+  const std::string mode = options.mode.value_or(name(recorded ? recorded->mode : Mode::walk));
   plan.mode = mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
   plan.fov = options.fov.value_or(settings.fov.value_or(plan.fov));
   plan.sensitivity = settings.sensitivity.value_or(plan.sensitivity);
@@ -179,11 +232,15 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings) {
   plan.height = height;
   if (!options.at.empty()) {
     for (const double x : options.at) {
-      if (!std::isfinite(x)) throw UsageError("--at: not a finite number");
+      if (!(std::abs(x) <= Space::coordinate_limit)) {
+        throw UsageError(fmt::format("--at: {:g} is no number from {:g} to {:g}", x, -Space::coordinate_limit,
+                                     Space::coordinate_limit));
+      }
     }
     const auto value = [&](std::size_t i) { return i < options.at.size() ? options.at[i] : 0.0; };
     plan.at = Pose{{value(0), value(1), value(2)}, value(3), value(4)};
   }
+  if (recorded) plan.note = compare(*recorded, plan.walker, plan.mode);
   if (!options.path.empty() && plan.mode == Mode::ghost) {
     throw UsageError("--path with --mode ghost: a ghost meets nothing on its way; take walk or fly");
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "recorded_body.h"
 #include "roam/walker.h"
 #include "scene_options.h"
 #include "view/pose.h"
@@ -48,11 +49,14 @@ struct ViewPlan {
   HudMode hud = HudMode::full;
   int width = 0, height = 0;  ///< pixels
   std::optional<Pose> at;
+  std::string note;  ///< what the person should know of it; or empty
 };
 
 /// A body that nobody described is a grown person (WalkerSettings); of one that was, as of `roam walk`, the height
-/// follows from the radius. A path is replayed by the body of `roam walk`, described or not. Throws UsageError for
-/// what cannot be meant, naming the settings file where a value comes from there.
-[[nodiscard]] ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings);
+/// follows from the radius. A path is replayed by the body that `recorded` it, else by that of `roam walk`, described
+/// or not. Throws UsageError for what cannot be meant, naming the settings file where a value comes from there, and for
+/// outputs that cannot be written or would overwrite each other or what is read.
+[[nodiscard]] ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
+                                 const std::optional<RecordedBody>& recorded = std::nullopt);
 
 }  // namespace roam::app

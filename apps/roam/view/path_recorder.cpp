@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "recorded_body.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -11,12 +12,17 @@ constexpr double period = 0.1;  // s: what a person does in less is not a way of
 
 }  // namespace
 
-PathRecorder::PathRecorder(std::filesystem::path file) : file_(std::move(file)), out_(file_) {
-  out_ << "# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n" << std::flush;
+PathRecorder::PathRecorder(std::filesystem::path file, const WalkerSettings& body, Mode mode)
+    : file_(std::move(file)), out_(file_), mode_(mode) {
+  out_ << "# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n"
+       << body_line(body, mode) << '\n'
+       << std::flush;
   if (!out_) throw Error(file_.string() + ": cannot be written; is its folder yours, and the disk not full?");
 }
 
-void PathRecorder::add(double time, const Vec3& position, const std::array<double, 4>& rotation) {
+void PathRecorder::add(double time, const Vec3& position, const std::array<double, 4>& rotation, Mode mode) {
+  if (mode != mode_) out_ << mode_line(mode) << '\n';
+  mode_ = mode;
   if (empty_) begin_ = time;
   const Line line{time, position, rotation};
   if (empty_) {

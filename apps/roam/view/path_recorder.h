@@ -7,21 +7,21 @@
 #include <fstream>
 #include <string>
 
-#include "roam/math.h"
+#include "roam/walker.h"
 
 namespace roam::app {
 
 /// Writes osgViewer's lines `t x y z qx qy qz qw`: the time since the recording began, the body's centre in the scene's
-/// frame, and the rotation of the camera. What is written can be walked again by `--path`. Each line is on disk when it
-/// has been written.
+/// frame, and the rotation of the camera; and the body, see recorded_body.h. What is written can be gone again by
+/// `--path`. Each line is on disk when it has been written.
 class PathRecorder {
  public:
-  /// Begins a file; what was there is replaced. Throws roam::Error when it cannot be written.
-  explicit PathRecorder(std::filesystem::path file);
+  /// Begins a file, and says the body in it; what was there is replaced. Throws roam::Error when it cannot be written.
+  PathRecorder(std::filesystem::path file, const WalkerSettings& body, Mode mode);
 
   /// Where the body is at `time` (s, never less than the time before). Writes when a tenth of a second has passed since
   /// the last line and something moved.
-  void add(double time, const Vec3& position, const std::array<double, 4>& rotation);
+  void add(double time, const Vec3& position, const std::array<double, 4>& rotation, Mode mode);
   /// Writes where it ends. Throws roam::Error when not everything could be written.
   void close();
 
@@ -38,6 +38,7 @@ class PathRecorder {
 
   std::filesystem::path file_;
   std::ofstream out_;
+  Mode mode_;
   double begin_ = 0.0;
   Line last_;     ///< that was seen
   Line written_;  ///< that was written last

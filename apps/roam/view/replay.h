@@ -18,6 +18,8 @@ class Replay {
   /// One step; its report, or null when the path has come to its end before.
   const StepReport* advance();
   [[nodiscard]] bool done() const { return route_.done() || left_; }
+  /// The path has come to an end of its own: result() says to which.
+  [[nodiscard]] bool ended() const { return route_.done(); }
   [[nodiscard]] const RouteResult& result() const { return route_.result(); }
   [[nodiscard]] std::size_t waypoints() const { return path_.size(); }
   /// The person has changed the mode: the rest of the path is not gone.

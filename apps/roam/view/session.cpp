@@ -70,6 +70,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   roamer_->setLookInverted(plan_.invert_y);
   stage_.emplace(options_, plan_);
   if (!bookmark_problem_.empty()) note(bookmark_problem_);
+  if (!plan_.note.empty()) note(plan_.note);
   if (!options_.record.empty()) stage_->start_film(options_.record);
   set_up_cameras();
   stage_->hud().set_help(key_lines(roamer_->controls()));
@@ -86,7 +87,7 @@ Session::~Session() {
 }
 
 void Session::set_up_cameras() {
-  cameras_ = new osgGA::KeySwitchMatrixManipulator;
+  cameras_ = new Cameras;
   osgGA::CameraManipulator* const others[] = {
       new osgGA::TrackballManipulator, new osgGA::FlightManipulator, new osgGA::DriveManipulator,
       new osgGA::TerrainManipulator,   new osgGA::OrbitManipulator,  new osgGA::FirstPersonManipulator,
@@ -100,6 +101,8 @@ void Session::set_up_cameras() {
   }
   roamer_->setCommandCallback([this](const std::string& name) { run(parse_command(name)); });
   stage_->viewer().addEventHandler(new SessionHandler(*this));
+  // The handler does it: the viewer would end on Escape before anybody could take it for something else.
+  stage_->viewer().setKeyEventSetsDone(0);
 }
 
 bool Session::frame() {
@@ -116,7 +119,9 @@ bool Session::frame() {
   if (headless && placed_ && !replay_is_over()) now_ += headless_frame;
   frame_time_ = now_ - before;
 
+  fly_without_ground();
   see_events();
+  fly_without_ground();
   if (quits_ || stage_->viewer().done()) return false;
   if (placed_) {
     if (replay_) look_along_path(frame_time_);

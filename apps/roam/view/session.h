@@ -5,13 +5,13 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <osgGA/KeySwitchMatrixManipulator>
 #include <string>
 #include <vector>
 
 #include "osgRoam/Manipulator.h"
 #include "roam/path_file.h"
 #include "view/bookmarks.h"
+#include "view/cameras.h"
 #include "view/collision_loader.h"
 #include "view/commands.h"
 #include "view/hold.h"
@@ -55,6 +55,8 @@ class Session {
   [[nodiscard]] bool roaming() const { return placed_; }
   /// Keys go to the body's camera, not to one of the others.
   [[nodiscard]] bool roamer_leads() const;
+  /// Escape goes down: closes the help, else gives the mouse back. False when there is neither.
+  bool escape();
   /// What the person should read once: shown for some seconds.
   void tell(std::string news, bool warning = false);
   /// The same of what is not as it should be: kept for the report, too.
@@ -69,6 +71,9 @@ class Session {
   void begin_replay();
   void see_events();
   void step_taken(const StepReport& report, double seconds);
+  void watch_footing(const StepReport& report, double seconds);
+  [[nodiscard]] bool ground_below() const;
+  void fly_without_ground();
   [[nodiscard]] Vec3 wish() const;
   void look_along_path(double seconds);
   void show_overview();
@@ -97,7 +102,7 @@ class Session {
   std::size_t bookmark_ = 0;
   std::vector<Waypoint> path_;
   osg::ref_ptr<osgRoam::Manipulator> roamer_;
-  osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> cameras_;
+  osg::ref_ptr<Cameras> cameras_;
   WalkLog log_;
   std::optional<Stage> stage_;
   std::optional<SceneGraph> scene_;
@@ -107,6 +112,9 @@ class Session {
   std::optional<Replay> replay_;
   std::optional<PathRecorder> recorder_;
   Hold hold_;
+  bool has_stood_ = false;       ///< since it was placed
+  int put_backs_ = 0;            ///< since it stood last
+  bool without_ground_ = false;  ///< it walks, and would fall for ever
   Status status_;
   bool placed_ = false;
   bool ghost_only_ = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "roam/error.h"
 #include "view/session.h"
@@ -86,7 +87,9 @@ void Session::enter() {
   if (path_.empty()) step_taken(roamer_->report(), 0.0);
   cameras_->setNode(stage_->frame().root());
   stage_->viewer().setCameraManipulator(cameras_, false);
-  if (!options_.record_path.empty()) recorder_.emplace(options_.record_path);
+  if (!options_.record_path.empty()) {
+    recorder_.emplace(options_.record_path, roamer_->settings(), roamer_->mode());
+  }
 }
 
 void Session::begin_replay() {
@@ -110,8 +113,47 @@ void Session::step_taken(const StepReport& report, double seconds) {
   if (report.elapsed > 0.0) {
     const double share = std::min(1.0, report.elapsed / speed_time);
     speed_ += share * (glm::distance(report.from, report.to) / report.elapsed - speed_);
+  } else {
+    speed_ = 0.0;
   }
-  if (roamer_->walker() != nullptr) hold_.take(*roamer_->walker(), wish(), report.elapsed);
+  if (roamer_->walker() == nullptr) return;
+  hold_.take(*roamer_->walker(), wish(), report.elapsed);
+  watch_footing(report, seconds);
+}
+
+/// A person who falls out of the scene is put back; one who has nowhere to stand there would fall again, for ever.
+void Session::watch_footing(const StepReport& report, double seconds) {
+  const Walker& walker = *roamer_->walker();
+  if (walker.mode() != Mode::walk || walker.held() || roamer_->piloted()) return;
+  if (seconds <= 0.0) {
+    has_stood_ = false;
+    put_backs_ = 0;
+    without_ground_ = !report.grounded && !ground_below();
+  } else if (report.held) {
+    ++put_backs_;
+    without_ground_ = !has_stood_ || put_backs_ > 1;
+  }
+  if (!report.grounded) return;
+  has_stood_ = true;
+  put_backs_ = 0;
+  without_ground_ = false;
+}
+
+/// Whether a body that falls from here comes down on something.
+bool Session::ground_below() const {
+  const Walker& walker = *roamer_->walker();
+  const Box box = walker.space().bounds();
+  if (box.empty()) return false;
+  const double drop = walker.position().z - box.lower.z + walker.settings().height;
+  return drop > 0.0 && walker.space().sweep(walker.body(), walker.position(), {0.0, 0.0, -drop}).hit;
+}
+
+void Session::fly_without_ground() {
+  if (!std::exchange(without_ground_, false)) return;
+  roamer_->setMode(Mode::fly);
+  const auto* walks = roamer_->controls().find("gravity");
+  const std::string key = walks == nullptr ? std::string() : osgRoam::Controls::keyText(*walks);
+  note("There is nothing below to stand on: flying." + (key.empty() ? key : " " + key + " walks again."));
 }
 
 /// Where the person, or the path, would have the body go, m/s; the length is only roughly right.

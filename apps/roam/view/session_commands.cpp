@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "roam/error.h"
 #include "view/session.h"
@@ -10,8 +11,9 @@
 namespace roam::app {
 namespace {
 
-constexpr double news_seconds = 6.0;
-constexpr std::size_t most_news = 4;  // lines at a time
+constexpr double news_seconds = 6.0;     // at least
+constexpr double letter_seconds = 0.07;  // to read a long sentence
+constexpr std::size_t most_news = 4;     // lines at a time
 
 }  // namespace
 
@@ -20,14 +22,39 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
     session_.run(Command::quit);
     return false;
   }
-  if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getHandled() || session_.roamer_leads()) {
-    return false;
-  }
+  const bool down = event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN;
+  const bool up = event.getEventType() == osgGA::GUIEventAdapter::KEYUP;
   const int key = event.getUnmodifiedKey() != 0 ? event.getUnmodifiedKey() : event.getKey();
+  if ((down || up) && !event.getHandled() && key == osgGA::GUIEventAdapter::KEY_Escape) return handle_escape(down);
+  if (!down || event.getHandled() || session_.roamer_leads()) return false;
   const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;
   const auto* command = session_.roamer().controls().lookup(key, ctrl);
   if (command == nullptr || parse_command(command->name) == Command::none) return false;
   session_.run(parse_command(command->name));
+  return true;
+}
+
+bool SessionHandler::handle_escape(bool down) {
+  // The settings may want it for something else.
+  const auto* command = session_.roamer().controls().lookup(osgGA::GUIEventAdapter::KEY_Escape, false);
+  if (command != nullptr && command->name != "release") return false;
+  if (down) {
+    // A key that stays down is pressed again and again.
+    escape_spent_ |= session_.escape();
+  } else if (!std::exchange(escape_spent_, false)) {
+    session_.run(Command::quit);
+  }
+  return true;
+}
+
+bool Session::escape() {
+  if (stage_->hud().help_shown()) {
+    stage_->hud().show_help(false);
+  } else if (roamer_->mouseGrab()) {
+    roamer_->setMouseGrab(false);
+  } else {
+    return false;
+  }
   return true;
 }
 
@@ -73,7 +100,16 @@ void Session::run(Command command) {
 }
 
 void Session::tell(std::string news, bool warning) {
-  news_.push_back({{std::move(news), warning}, now_ + news_seconds});
+  // Who looks at the scene knows where it is.
+  for (const auto& scene : options_.scene.scenes) {
+    const std::string folder = scene.parent_path().string() + "/";
+    if (folder == "/") continue;
+    for (std::size_t at = news.find(folder); at != std::string::npos; at = news.find(folder, at)) {
+      news.erase(at, folder.size());
+    }
+  }
+  const double seconds = std::max(news_seconds, letter_seconds * static_cast<double>(news.size()));
+  news_.push_back({{std::move(news), warning}, now_ + seconds});
   if (news_.size() > most_news) news_.erase(news_.begin());
 }
 
@@ -94,14 +130,14 @@ void Session::toggle_recording() {
     written(recorder_->file());
     recorder_.reset();
   } else if (placed_) {
-    recorder_.emplace(unused_name(".", "path"));
+    recorder_.emplace(unused_name(".", "path"), roamer_->settings(), roamer_->mode());
   }
 }
 
 void Session::record_way() {
   if (!recorder_) return;
   const osg::Quat q = roamer_->getMatrix().getRotate();
-  recorder_->add(now_, roamer_->walker()->position(), {q.x(), q.y(), q.z(), q.w()});
+  recorder_->add(now_, roamer_->walker()->position(), {q.x(), q.y(), q.z(), q.w()}, roamer_->mode());
 }
 
 void Session::add_bookmark() {

@@ -61,6 +61,7 @@ ViewReport Session::report() {
   }
   if (replay_) {
     report.result = replay_->result();
+    report.path_ended = replay_->ended();
     report.waypoints = replay_->waypoints();
     if (report.result->blocked_at) report.object = world_->object_name(report.result->blocked_at->triangle);
   }

@@ -112,8 +112,8 @@ void Stage::draw(double seconds) {
   viewer_->updateTraversal();
   viewer_->renderingTraversals();
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
+  if (times_.count() > 0) last_ms_ = ns * 1e-6;
   times_.add(ns);
-  last_ms_ = ns * 1e-6;
 }
 
 void Stage::draw_picture(const std::filesystem::path& path, double seconds) {

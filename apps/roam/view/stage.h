@@ -62,6 +62,7 @@ class Stage {
   void finish();
 
   [[nodiscard]] const Histogram& frame_times() const { return times_; }  ///< ns
+  /// 0 until there were two: the first one sets everything up.
   [[nodiscard]] double last_frame_ms() const { return last_ms_; }
 
  private:

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "progress.h"
 
@@ -76,32 +78,44 @@ std::vector<StatusText> status_lines(const Status& status) {
     lines.push_back({"body", body_text(status), false});
     lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false});
     lines.push_back({"place", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z), false});
-    lines.push_back({"look", fmt::format("{:.0f}\u00b0, {:+.0f}\u00b0", status.yaw, status.pitch), false});
+    // Adding 0 makes of -0 a 0.
+    const double yaw = std::round(status.yaw) + 0.0, pitch = std::round(status.pitch) + 0.0;
+    lines.push_back({"look", fmt::format("{:.0f}\u00b0, {:+.0f}\u00b0", yaw, pitch), false});
   }
   if (status.triangles > 0) lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false});
   std::string memory = byte_text(status.resident);
   if (status.world_bytes > 0) memory += fmt::format(", collision {}", byte_text(status.world_bytes));
   lines.push_back({"memory", memory, false});
-  std::string frame = fmt::format("{:.1f} ms", status.frame_ms);
-  if (status.mode) frame += fmt::format(", collision {:.0f} \u00b5s", status.collision_us);
-  lines.push_back({"frame", frame, false});
+  std::string frame;
+  if (status.frame_ms > 0.0) frame = fmt::format("{:.1f} ms", status.frame_ms);
+  if (status.mode) {
+    frame += fmt::format("{}collision {:.0f} \u00b5s", frame.empty() ? "" : ", ", status.collision_us);
+  }
+  if (!frame.empty()) lines.push_back({"frame", frame, false});
   if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
-  const std::string display = load_text("scene", status.display);
-  if (!display.empty()) lines.push_back({"", display, status.display.phase == Phase::failed});
-  const std::string collision = load_text("collision", status.collision);
-  if (!collision.empty()) lines.push_back({"", collision, status.collision.phase == Phase::failed});
-  for (const Told& news : status.news) lines.push_back({"", news.text, news.warning});
+  for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
+    const bool failed = state->phase == Phase::failed;
+    // Why it failed is too long for a line, and is told below.
+    const std::string text = failed ? std::string(what) + " failed" : load_text(what, *state);
+    if (!text.empty()) lines.push_back({"", text, failed});
+  }
   return lines;
 }
 
 Told status_message(const Status& status) {
+  Told message;
   if (status.collision.phase == Phase::failed) {
-    return {"The collision could not be loaded: this is a ghost that passes through walls.", true};
+    message = {"The collision could not be loaded: this is a ghost that passes through walls.", true};
+  } else if (!status.mode) {
+    message = {fmt::format("held until the walls are known\n{}", load_text("collision", status.collision)), false};
+  } else if (status.camera.empty()) {
+    message = status.hold;
   }
-  if (!status.mode) {
-    return {fmt::format("held until the walls are known\n{}", load_text("collision", status.collision)), false};
+  for (const Told& news : status.news) {
+    message.text += (message.text.empty() ? "" : "\n") + news.text;
+    message.warning |= news.warning;
   }
-  return status.camera.empty() ? status.hold : Told{};
+  return message;
 }
 
 std::string byte_text(std::uint64_t bytes) {

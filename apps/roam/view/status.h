@@ -37,10 +37,10 @@ struct Status {
   std::uint64_t triangles = 0;    ///< of the collision; 0: not known yet
   std::uint64_t resident = 0;     ///< bytes of the process
   std::uint64_t world_bytes = 0;  ///< of the collision
-  double frame_ms = 0.0;
-  double collision_us = 0.0;  ///< a frame
-  std::string recording;      ///< what is being written
-  std::vector<Told> news;     ///< for this moment
+  double frame_ms = 0.0;          ///< 0: not known yet
+  double collision_us = 0.0;      ///< a frame
+  std::string recording;          ///< what is being written
+  std::vector<Told> news;         ///< for this moment
   Told hold;
 };
 
@@ -54,7 +54,7 @@ struct StatusText {
 /// The lines from top to bottom. The first alone is the minimal display.
 [[nodiscard]] std::vector<StatusText> status_lines(const Status& status);
 
-/// What is told below the middle: what holds the body, what is being loaded.
+/// What is told below the middle: what holds the body, what is being loaded, and the news.
 [[nodiscard]] Told status_message(const Status& status);
 
 /// "collision 43 %: 1.2 M triangles, 8 s left"; empty when it is done.

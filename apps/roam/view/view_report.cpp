@@ -2,15 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "progress.h"
+#include "walk_report.h"
 
 namespace roam::app {
 namespace {
 
 Json to_json(const Times& times) { return {{"median", times.median}, {"p99", times.p99}, {"max", times.max}}; }
 
+/// Degrees in (-180, 180].
+double normalized(double yaw) {
+  const double angle = std::remainder(yaw, 360.0) + 0.0;  // of -0 it makes 0
+  return angle <= -180.0 ? 180.0 : angle;
+}
+
 Json to_json(const Pose& pose) {
-  return {{"position", app::to_json(pose.position)}, {"yaw", pose.yaw}, {"pitch", pose.pitch}};
+  return {{"position", app::to_json(pose.position)}, {"yaw", normalized(pose.yaw)}, {"pitch", pose.pitch}};
 }
 
 Json blockage(const ViewReport& report) {
@@ -59,7 +68,7 @@ Json json_report(const ViewReport& report) {
   if (report.start) json["start"] = to_json(*report.start);
   if (report.least_clearance) json["least_clearance_m"] = *report.least_clearance;
   if (report.result) {
-    json["outcome"] = name(report.result->outcome);
+    if (report.path_ended) json["outcome"] = name(report.result->outcome);
     json["waypoints_reached"] = report.result->waypoints;
   }
   if (report.verified) {
@@ -76,8 +85,19 @@ Json json_report(const ViewReport& report) {
 std::string text_report(const ViewReport& report) {
   std::string text;
   if (report.result) {
-    text += fmt::format("{}: {} of {} waypoints, {:.2f} m in {:.1f} s\n", name(report.result->outcome),
-                        report.result->waypoints, report.waypoints, report.length, report.simulated);
+    if (report.path_ended) {
+      WalkReport walk;
+      walk.mode = report.mode;
+      walk.settings = report.settings;
+      walk.result = *report.result;
+      walk.waypoints = report.waypoints;
+      walk.object = report.object;
+      text += fmt::format("{}: {}\n", name(report.result->outcome), explain(walk));
+    } else {
+      text += "ended before the path did\n";
+    }
+    text += fmt::format("{} of {} waypoints, {:.2f} m in {:.1f} s\n", report.result->waypoints, report.waypoints,
+                        report.length, report.simulated);
   }
   if (report.verified) {
     text += fmt::format("verified: {} violations in {} straight pieces against all triangles\n",

@@ -26,6 +26,7 @@ struct ViewReport {
   WalkerSettings settings;
   Mode mode = Mode::walk;             ///< at the end
   std::optional<RouteResult> result;  ///< of a path
+  bool path_ended = false;            ///< the result has an outcome: nobody ended the session before
   std::string object;                 ///< what blocked on the path, by name
   std::size_t waypoints = 0;          ///< of the path
   bool roamed = false;                ///< the body came into the scene

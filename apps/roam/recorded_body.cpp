@@ -1,0 +1,84 @@
+#include "recorded_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+constexpr const char* mark = "# roam: mode ";
+
+std::optional<Mode> parse_mode(const std::string& text) {
+  for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
+    if (text == name(mode)) return mode;
+  }
+  return std::nullopt;
+}
+
+std::string describe(double radius, double height) {
+  return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
+                               : fmt::format("a sphere of radius {:g} m", radius);
+}
+
+}  // namespace
+
+std::string body_line(const WalkerSettings& s, Mode mode) {
+  return fmt::format("{}{} radius {} height {} eye {} step {} slope {}", mark, name(mode), s.radius, s.height, s.eye,
+                     s.step, s.slope_degrees);
+}
+
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode)); }
+
+std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw Error(fmt::format("cannot open the path file {}; check its name and permissions", file.string()));
+  std::optional<RecordedBody> body;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.starts_with(mark)) continue;
+    std::istringstream words(line.substr(std::string(mark).size()));
+    std::string word;
+    words >> word;
+    const std::optional<Mode> mode = parse_mode(word);
+    RecordedBody read;
+    bool good = mode.has_value();
+    while (good && words >> word) {
+      double* const value = word == "radius"   ? &read.radius
+                            : word == "height" ? &read.height
+                            : word == "eye"    ? &read.eye
+                            : word == "step"   ? &read.step
+                            : word == "slope"  ? &read.slope_degrees
+                                               : nullptr;
+      good = value != nullptr && words >> *value;
+    }
+    if (!good) {
+      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", file.string(),
+                              number, line, body_line({}, Mode::walk)));
+    }
+    if (!body) {
+      body = read;
+      body->mode = *mode;
+    }
+    // The places of a way that was partly flown are reached in the air alone.
+    if (*mode != Mode::walk) body->mode = Mode::fly;
+    body->ghost |= *mode == Mode::ghost;
+  }
+  return body;
+}
+
+std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode) {
+  if (recorded.ghost) return "the path was recorded, in part, by a ghost: walls may stand in its way";
+  if (recorded.radius != settings.radius || recorded.height != settings.height) {
+    return fmt::format("the path was recorded by another body: {}; this is {}",
+                       describe(recorded.radius, recorded.height), describe(settings.radius, settings.height));
+  }
+  if (recorded.mode == mode) return {};
+  return fmt::format("the path was recorded in mode {}; this is mode {}", name(recorded.mode), name(mode));
+}
+
+}  // namespace roam::app

@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// The body that recorded a path: a comment of the path file, so that the way can be gone again by the same body.
+///
+///     # roam: mode walk radius 0.3 height 1.8 eye 1.5 step 0.3 slope 45
+///     # roam: mode fly
+///
+/// The first such line says the body, each further one that the mode changed there.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "roam/walker.h"
+
+namespace roam::app {
+
+struct RecordedBody {
+  Mode mode = Mode::walk;  ///< walk when all of the way was walked, else fly
+  bool ghost = false;      ///< part of the way was gone by a ghost: walls may stand in it
+  double radius = 0.3, height = 1.8, eye = 1.6, step = 0.3;  ///< metres
+  double slope_degrees = 45.0;
+};
+
+/// The first line, without its end.
+[[nodiscard]] std::string body_line(const WalkerSettings& settings, Mode mode);
+/// A further one.
+[[nodiscard]] std::string mode_line(Mode mode);
+
+/// None when the file does not say it. Throws roam::Error naming file and line for a line that begins like those above
+/// and goes on otherwise, and for a file that cannot be opened.
+[[nodiscard]] std::optional<RecordedBody> recorded_body(const std::filesystem::path& file);
+
+/// A sentence when another body, or in another mode, is sent along the way; empty when it is the same.
+[[nodiscard]] std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode);
+
+}  // namespace roam::app
