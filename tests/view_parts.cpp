@@ -1,18 +1,15 @@
-// The parts of roam view that need no window: options, settings, bookmarks, recordings, what the display says.
+// The parts of roam view that need no window: options, settings, bookmarks, what the display says.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "exit_status.h"
 #include "program.h"
-#include "recorded_body.h"
 #include "roam/error.h"
-#include "roam/path_file.h"
 #include "view/bookmarks.h"
 #include "view/commands.h"
 #include "view/histogram.h"
 #include "view/options.h"
-#include "view/path_recorder.h"
 #include "view/settings.h"
 #include "view/status.h"
 
@@ -260,100 +257,7 @@ TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
   EXPECT_EQ(folder.read("b.json"), "{\"mine\": 1}");
 }
 
-// ------------------------------------------------------------------------------------------- recording and times
-
-TEST(PathRecorder, WritesAPathThatCanBeWalked) {
-  const TestFolder folder;
-  PathRecorder recorder(folder.file("way.path"), {}, Mode::walk);
-  const std::array<double, 4> ahead{0.5, 0.5, -0.5, -0.5};
-  for (int i = 0; i <= 60; ++i) recorder.add(5.0 + i / 60.0, {i / 60.0, 2.0, 3.0}, ahead, Mode::walk);
-  for (int i = 0; i < 120; ++i) recorder.add(6.0 + i / 60.0, {1.0, 2.0, 3.0}, ahead, Mode::walk);
-  recorder.add(8.5, {1.0, 4.0, 3.0}, ahead, Mode::walk);
-  recorder.close();
-  const std::vector<Waypoint> path = load_path(folder.file("way.path"));
-  // Ten a second while it moves; of the rest its begin and its end.
-  ASSERT_GE(path.size(), 10u);
-  EXPECT_LE(path.size(), 16u);
-  EXPECT_EQ(path.front().position, Vec3(0, 2, 3));
-  EXPECT_EQ(path.front().pose->time, 0.0);
-  EXPECT_EQ(path.front().pose->rotation, (std::array<double, 4>{0.5, 0.5, -0.5, -0.5}));
-  EXPECT_EQ(path.back().position, Vec3(1, 4, 3));
-  EXPECT_NEAR(path.back().pose->time, 3.5, 1e-3);
-  EXPECT_EQ(path[path.size() - 2].position, Vec3(1, 2, 3));
-  EXPECT_NEAR(path[path.size() - 2].pose->time, 3.0, 0.05);
-}
-
-TEST(PathRecorder, SaysWhereItCannotWrite) {
-  EXPECT_TRUE(contains(error_of([] { PathRecorder("/nowhere/way.path", {}, Mode::walk); }), "/nowhere/way.path"));
-}
-
-TEST(PathRecorder, SaysTheBodyAndItsModes) {
-  const TestFolder folder;
-  const std::string file = folder.file("way.path");
-  const auto record = [&](const std::vector<Mode>& modes) {
-    PathRecorder recorder(file, {.radius = 0.25, .height = 1.7, .eye = 1.4, .step = 0.2, .slope_degrees = 40},
-                          modes[0]);
-    for (std::size_t i = 0; i < modes.size(); ++i) recorder.add(static_cast<double>(i), {1.0 * i, 0, 0}, {}, modes[i]);
-    recorder.close();
-    EXPECT_EQ(load_path(file).size(), modes.size());
-    return recorded_body(file).value();
-  };
-  const RecordedBody walked = record({Mode::walk, Mode::walk});
-  EXPECT_EQ(walked.mode, Mode::walk);
-  EXPECT_EQ(walked.radius, 0.25);
-  EXPECT_EQ(walked.height, 1.7);
-  EXPECT_EQ(walked.eye, 1.4);
-  EXPECT_EQ(walked.step, 0.2);
-  EXPECT_EQ(walked.slope_degrees, 40.0);
-  EXPECT_FALSE(walked.ghost);
-  const RecordedBody mixed = record({Mode::walk, Mode::ghost, Mode::walk});
-  EXPECT_EQ(mixed.mode, Mode::fly);
-  EXPECT_EQ(mixed.radius, 0.25);
-  EXPECT_TRUE(mixed.ghost);
-}
-
-TEST(RecordedBody, IsSaidByNoOtherComment) {
-  const TestFolder folder;
-  EXPECT_FALSE(recorded_body(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")));
-  const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius wide\n4 5 6\n");
-  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(recorded_body(bad)); }), "bad.path:2"));
-}
-
-TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
-  RecordedBody body;
-  body.mode = Mode::fly;
-  body.radius = 0.25;
-  body.height = 1.7;
-  body.slope_degrees = 30.0;
-  ViewOptions options;
-  options.path = "tour.path";
-  ViewSettings settings;
-  settings.radius = 0.2;
-  const ViewPlan same = make_plan(options, settings, body);
-  EXPECT_EQ(same.walker.radius, 0.25);
-  EXPECT_EQ(same.walker.height, 1.7);
-  EXPECT_EQ(same.walker.slope_degrees, 30.0);
-  EXPECT_EQ(same.mode, Mode::fly);
-  EXPECT_EQ(same.note, "");
-  options.radius = 0.4;
-  options.mode = "walk";
-  const ViewPlan other = make_plan(options, settings, body);
-  EXPECT_EQ(other.walker.height, 0.8);
-  EXPECT_EQ(other.walker.slope_degrees, 45.0);
-  EXPECT_EQ(other.mode, Mode::walk);
-  EXPECT_EQ(other.note,
-            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is a sphere of radius 0.4 m");
-  options.radius.reset();
-  options.height = 1.0;
-  EXPECT_EQ(make_plan(options, settings, body).walker.eye, 1.0);
-}
-
-TEST(UnusedName, NeverNamesWhatIsThere) {
-  const TestFolder folder;
-  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-1.png"));
-  folder.write("roam-1.png", "");
-  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-2.png"));
-}
+// -------------------------------------------------------------------------------------------------- times, display
 
 TEST(Histogram, TellsQuantilesToAPercent) {
   Histogram times;
@@ -363,8 +267,6 @@ TEST(Histogram, TellsQuantilesToAPercent) {
   EXPECT_NEAR(times.quantile(0.99), 9.9e5, 1.2e4);
   EXPECT_EQ(times.largest(), 1e6);
 }
-
-// ------------------------------------------------------------------------------------------------------- display
 
 TEST(Status, TellsHowLoadingGoesOn) {
   LoadState state;
