@@ -140,6 +140,9 @@ TEST(ViewPath, ThatIsBlockedAnswersNoAndSaysByWhat) {
   EXPECT_EQ(view.json()["outcome"], "blocked");
   EXPECT_EQ(view.json()["blocked_at"]["object"], "front");
   EXPECT_TRUE(contains(all(view.json()["hud"]), "blocked: wall, front")) << view.json()["hud"];
+  view.run({"--headless", "--path", path});
+  EXPECT_TRUE(contains(view.result.out, "blocked: at (19.")) << view.result.out;
+  EXPECT_TRUE(contains(view.result.out, "by \"front\" (triangle ")) << view.result.out;
 }
 
 TEST(ViewPath, IsRecordedAndCanBeGoneAgain) {
@@ -184,6 +187,11 @@ TEST(ViewUsage, SaysWhatIsWrong) {
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"view"}).status, 2);
   EXPECT_EQ(view.run({"--headless"}).result.status, 2);
   EXPECT_EQ(view.run({"--at", "1,2"}).result.status, 2);
+  EXPECT_TRUE(contains(view.result.err, "X,Y,Z[,YAW[,PITCH]]")) << view.result.err;
+  EXPECT_EQ(view.run({"--time", "0"}).result.status, 2);
+  EXPECT_EQ(run_program(ROAM_PROGRAM, {"view", ""}).status, 2);
+  EXPECT_EQ(view.run({"--trace", view.scene + ".new", "--record-path", view.scene + ".new"}).result.status, 2);
+  EXPECT_FALSE(std::filesystem::exists(view.scene + ".new"));
   EXPECT_EQ(view.shot({"--bookmark", "shaft"}).result.status, 2);
   EXPECT_TRUE(contains(view.result.err, "no bookmarks")) << view.result.err;
   const std::string settings = view.folder.write("s.json", R"({"keys": {"forward": ["NoSuchKey"]}})");
@@ -328,6 +336,19 @@ TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
   int count = 0;
   for (pid_t pid = 0; in >> pid; ++count) EXPECT_NE(::kill(pid, 0), 0) << "a reader still runs";
   EXPECT_EQ(count, 2);
+}
+
+TEST(ViewInterrupt, WhileRoamingStillTellsAndVerifies) {
+  View view;
+  view.run({"--headless", "--time", "1e8", "--json", "--verify", "--at", "5,0,0.95,370"}, {.interrupt_after = 4.0});
+  EXPECT_EQ(view.result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
+  const nlohmann::json report = view.json();
+  ASSERT_TRUE(report.is_object()) << view.result.out;
+  EXPECT_EQ(report["roamed"], true);
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_NEAR(report["start"]["yaw"], 10.0, 1e-9);
+  EXPECT_NEAR(report["end"]["yaw"], 10.0, 1e-9);
 }
 
 }  // namespace
