@@ -221,6 +221,28 @@ TEST(ViewWindow, DragsLookAround) {
   EXPECT_NE(report["end"]["pitch"], 0.0);
 }
 
+TEST(ViewWindow, GoesToWhatIsDoubleClicked) {
+  Window w({"--at", "2,0,0.95,0", "--verify"});
+  w.point(160, 100);
+  wait(0.5);
+  xdo("click --repeat 2 --delay 80 1");
+  wait(4.0);
+  const nlohmann::json report = w.end();
+  EXPECT_GT(report["end"]["position"][0], 5.0);
+  EXPECT_EQ(report["violations"], 0);
+}
+
+TEST(ViewWindow, EscapeClosesTheHelpFirst) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("key h");
+  wait(0.7);
+  xdo("key Escape");
+  wait(1.5);
+  EXPECT_FALSE(w.ended());
+  xdo("key Escape");
+  EXPECT_TRUE(eventually([&] { return w.ended(); }));
+}
+
 TEST(ViewWindow, ReplaysAPathInItsOwnTime) {
   const TestFolder folder;
   const std::string path = folder.write("p.path", "2 0 0.3\n6.2 0 0.3\n");
