@@ -201,6 +201,25 @@ TEST(PictureSheet, ShowsBodiesAndWallsToScale) {
   EXPECT_TRUE(drawn.says("1.20 m clear") || drawn.says("1.19 m clear"));
 }
 
+TEST(PictureSheet, ShowsTheWallsBesideAShortWayAndTheWholeNarrowestPlace) {
+  std::vector<Mesh> meshes{part("corridor"), part("far away")};
+  scenes::add_box(meshes[0], {0, 0, 0}, {40, 6.4, 3});
+  scenes::add_box(meshes[1], {400, 300, 0}, {410, 310, 3});  // so that the plan does not show the whole scene
+  const Drawn drawn(meshes, {{14, 3.6, 0.9}, {26, 3.6, 0.9}}, Mode::walk);
+  ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::reached);
+  picture::Rect frame, walls, narrowest;
+  for (const Point& p : drawn.only<Lines>("plan frame").lines.at(0)) frame.include(p);
+  for (const auto& line : drawn.only<Lines>("plan walls").lines) {
+    for (const Point& p : line) walls.include(p);
+  }
+  EXPECT_NEAR(walls.height(), 6.4 * drawn.scale("plan scale"), 0.3);
+  for (const auto& line : drawn.only<Lines>("plan narrowest").lines) {
+    for (const Point& p : line) narrowest.include(p);
+  }
+  EXPECT_NEAR(narrowest.height(), walls.height(), 20.0);
+  EXPECT_TRUE(frame.contains(narrowest));
+}
+
 TEST(PictureSheet, UnrollsTheSectionToItsScale) {
   const Drawn drawn(corridor(1.2), along_corridor, Mode::walk);
   const double scale = drawn.scale("section scale");

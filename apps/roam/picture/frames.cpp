@@ -30,22 +30,50 @@ constexpr double section_part = 0.45;
 
 Turn turn_by(double angle, const Vec3& origin) { return {origin, std::cos(angle), std::sin(angle)}; }
 
-/// What must be seen of the way, with some room around it.
-Rect surroundings(const Way& way, const Turn& turn, double radius) {
+/// Places that a plan must show.
+struct Sights {
+  std::vector<Vec3> way;
+  /// Where the room beside the way ends, as far as the survey looked, and so the ends of the narrowest place too.
+  std::vector<Vec3> beside;
+};
+
+Sights find_sights(const Way& way, const Survey& survey, double radius) {
+  Sights sights;
+  for (const WayPoint& p : way.points) sights.way.push_back(p.position);
+  for (const Station& s : survey.stations) {
+    if (s.left < survey.reach) sights.beside.push_back(s.centre + (s.left + radius) * s.across);
+    if (s.right < survey.reach) sights.beside.push_back(s.centre - (s.right + radius) * s.across);
+  }
+  if (survey.narrowest) {
+    sights.beside.push_back(survey.narrowest->left);
+    sights.beside.push_back(survey.narrowest->right);
+  }
+  return sights;
+}
+
+/// What must be seen, with some room around it.
+Rect surroundings(const Sights& sights, const Turn& turn, double radius) {
   Rect r;
-  for (const WayPoint& p : way.points) r.include(turn.plan(p.position));
+  for (const Vec3& p : sights.way) r.include(turn.plan(p));
   r = r.grown(std::max(8.0 * radius, 0.04 * std::max(r.width(), r.height())));
+  Rect walls;
+  for (const Vec3& p : sights.beside) walls.include(turn.plan(p));
+  if (!walls.empty()) {
+    walls = walls.grown(2.0 * radius);
+    r.include(walls.lower);
+    r.include(walls.upper);
+  }
   return Rect::around(r.center(), std::max(r.width(), 40.0 * radius), std::max(r.height(), 16.0 * radius));
 }
 
 double fitting_scale(const Rect& r) { return std::min(content_width / r.width(), plan_most_height / r.height()); }
 
-Turn choose_turn(const Way& way, double radius) {
+Turn choose_turn(const Way& way, const Sights& sights, double radius) {
   const Vec3 origin = way.points.front().position;
   const Vec3 end = way.points.back().position - origin;
   // A low plan is worth some scale: else each straight way would lie along the sheet's diagonal.
   const auto scale = [&](double angle) {
-    const Rect r = surroundings(way, turn_by(angle, origin), radius);
+    const Rect r = surroundings(sights, turn_by(angle, origin), radius);
     const double fit = fitting_scale(r);
     return fit * (1.0 - lowness * r.height() * fit / plan_most_height);
   };
@@ -61,8 +89,8 @@ Turn choose_turn(const Way& way, double radius) {
   return turn_by(best + (leads_left ? std::numbers::pi : 0.0), origin);
 }
 
-Frame plan_frame(const Way& way, const Turn& turn, const Box& scene, double radius) {
-  Rect shown = surroundings(way, turn, radius);
+Frame plan_frame(const Sights& sights, const Turn& turn, const Box& scene, double radius) {
+  Rect shown = surroundings(sights, turn, radius);
   Rect all = shown;
   for (const double x : {scene.lower.x, scene.upper.x}) {
     for (const double y : {scene.lower.y, scene.upper.y}) all.include(turn.plan({x, y, 0.0}));
@@ -182,8 +210,9 @@ double round_length(double limit) {
 Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mark>& marks, const Box& scene,
                      const WalkerSettings& settings) {
   Frames frames;
-  frames.turn = choose_turn(way, settings.radius);
-  frames.plan = plan_frame(way, frames.turn, scene, settings.radius);
+  const Sights sights = find_sights(way, survey, settings.radius);
+  frames.turn = choose_turn(way, sights, settings.radius);
+  frames.plan = plan_frame(sights, frames.turn, scene, settings.radius);
   frame_section(frames, way, survey, settings.height, settings.radius);
   frame_details(frames, survey, marks, settings);
   return frames;

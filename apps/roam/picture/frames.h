@@ -44,8 +44,9 @@ struct Frames {
 };
 
 /// Turns the plan so that the way leads from left to right, unless it fits about as well with x to the right and y up;
-/// shows the whole scene where it is not much larger than the way; takes the scale of the plan for the section where
-/// that fits; and adds details where the body would be smaller than a dot.
+/// shows the walls beside the way as far as the survey looked, and the whole scene where it is not much larger than the
+/// way; takes the scale of the plan for the section where that fits; and adds details where the body would be smaller
+/// than a dot.
 [[nodiscard]] Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mark>& marks,
                                    const Box& scene, const WalkerSettings& settings);
 
