@@ -78,14 +78,14 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
   }
   // In steps, and slow to shrink: a panel that follows each digit is restless.
   const float step = 3.0f * static_cast<float>(page.letter);
-  const float wished = up_to(widest - page.margin, step);
+  const float wished = std::min(up_to(widest - page.margin, step), page.width - 2.8f * page.margin);
   const bool resized = wished > width_ || wished + 2 * step < width_;
   if (moved || resized) place_plate(resized ? wished : width_);
 }
 
 float StatusPanel::width_for(std::size_t row) const {
   // Less than half of the picture, but in small windows more: there it would be a word a line.
-  const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 24.0f * page_.margin));
+  const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 30.0f * page_.margin));
   return right - (labels_[row].empty() ? 1.8f * page_.margin : value_left_);
 }
 
