@@ -208,7 +208,8 @@ TEST(PictureSheet, ShowsTheWallsBesideAShortWayAndTheWholeNarrowestPlace) {
   const Drawn drawn(meshes, {{14, 3.6, 0.9}, {26, 3.6, 0.9}}, Mode::walk);
   ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::reached);
   picture::Rect frame, walls, narrowest;
-  for (const Point& p : drawn.only<Lines>("plan frame").lines.at(0)) frame.include(p);
+  const Lines border = drawn.only<Lines>("plan frame");
+  for (const Point& p : border.lines.at(0)) frame.include(p);
   for (const auto& line : drawn.only<Lines>("plan walls").lines) {
     for (const Point& p : line) walls.include(p);
   }
