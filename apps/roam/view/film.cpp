@@ -24,7 +24,7 @@ Film::Film(graphics::Frame& frame, const std::filesystem::path& path)
 void Film::before_frame(double seconds) {
   if (begin_ < 0.0) begin_ = seconds;
   next_ = seconds + 1.0 / frames_per_second;
-  frame_.request_picture(true, [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
+  const auto add = [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
     const std::lock_guard lock(state->mutex);
     if (!state->video || !state->problem.empty()) return;
     if (image->s() != state->width || image->t() != state->height) {
@@ -36,7 +36,12 @@ void Film::before_frame(double seconds) {
     } catch (const Error& error) {
       state->problem = error.what();
     }
-  });
+  };
+  const auto fail = [state = state_](const std::string& reason) {
+    const std::lock_guard lock(state->mutex);
+    state->problem = reason;
+  };
+  frame_.request_picture(true, add, fail);
 }
 
 std::string Film::problem() const {
