@@ -36,7 +36,6 @@ std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode));
 
 std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) throw Error(fmt::format("cannot open the path file {}; check its name and permissions", file.string()));
   std::optional<RecordedBody> body;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

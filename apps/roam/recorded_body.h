@@ -27,8 +27,8 @@ struct RecordedBody {
 /// A further one.
 [[nodiscard]] std::string mode_line(Mode mode);
 
-/// None when the file does not say it. Throws roam::Error naming file and line for a line that begins like those above
-/// and goes on otherwise, and for a file that cannot be opened.
+/// None when the file does not say it, or cannot be opened: load_path says that, after wrong options were refused.
+/// Throws roam::Error naming file and line for a line that begins like those above and goes on otherwise.
 [[nodiscard]] std::optional<RecordedBody> recorded_body(const std::filesystem::path& file);
 
 /// A sentence when another body, or in another mode, is sent along the way; empty when it is the same.
