@@ -12,6 +12,11 @@
 #include "view/session.h"
 #include "view_scenes.h"
 
+#ifdef __SANITIZE_ADDRESS__
+// The address sanitizer keeps freed memory back, 256 MB of it: that is no growth of ours.
+extern "C" const char* __asan_default_options() { return "quarantine_size_mb=1:thread_local_quarantine_size_kb=64"; }
+#endif
+
 namespace {
 
 using namespace roam;
@@ -120,8 +125,10 @@ void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool d
   EXPECT_GT(session.log().length(), 0.5 * static_cast<double>(frames) / 60.0);
   ASSERT_TRUE(session.log().least_clearance());
   EXPECT_GE(*session.log().least_clearance(), plan.walker.radius - 1e-6);
-  // Bookmarks are kept, 100 bytes each; the allocator keeps some slack. A leak of 100 bytes a step would be more.
-  EXPECT_LT(grown, 8e6 + 20.0 * static_cast<double>(frames));
+  // Bookmarks are kept, 100 bytes each; the allocator keeps some slack. A leak of 100 bytes a step would be more. In
+  // less than a minute, not all of the scene has been seen and sent to the driver.
+  const double unseen = drawn && settled < 3600 ? 16e6 : 0.0;
+  EXPECT_LT(grown, 8e6 + unseen + 20.0 * static_cast<double>(frames));
 }
 
 std::filesystem::path gallery(const TestFolder& folder) {
