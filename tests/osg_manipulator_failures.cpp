@@ -120,4 +120,62 @@ TEST(ManipulatorFailures, APilotThatEndsMayBeFollowedByAnother) {
   EXPECT_GT(steps, 20);
 }
 
+TEST(ManipulatorFailures, ASpaceThatFailedWhenItCameIsTriedAgainByAPlacement) {
+  bool broken = true;
+  const auto fail = [&](const roam::Body&, const Vec3&) {
+    if (broken) throw roam::Error("the disk is gone");
+  };
+  Rig r;
+  r->setSpace(std::make_shared<const roam::World>());
+  r->setSpaceUpdate(fail);
+  r->setSettings({.radius = 0.2});
+  EXPECT_EQ(r->problem(), "the disk is gone");
+  EXPECT_TRUE(r->held());
+  r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
+  EXPECT_EQ(r->problem(), "the disk is gone");
+  broken = false;
+  r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
+  EXPECT_EQ(r->problem(), "");
+  EXPECT_FALSE(r->held());
+  EXPECT_EQ(r->eye(), Vec3(1.0, 2.0, 3.0));
+}
+
+TEST(ManipulatorFailures, AnUpdateMayTakeTheSpaceAway) {
+  const auto places = {+[](Rig& r) {
+                         r->setPose({0.0, 0.0, 3.0}, 0.0, 0.0);
+                       },
+                       +[](Rig& r) { r.frames(0.1); }, +[](Rig& r) { r->setSettings({.radius = 0.2}); }};
+  for (const auto& place : places) {
+    Rig r(floor_mesh(), {}, roam::Mode::walk);
+    osgRoam::Manipulator* m = r.manipulator.get();
+    Vec3 seen(0.0);
+    r->setSpaceUpdate([m, &seen](const roam::Body&, const Vec3& where) {
+      m->setSpace(nullptr);
+      seen = where;
+    });
+    place(r);
+    EXPECT_TRUE(r->held());
+    EXPECT_EQ(r->problem(), "");
+    EXPECT_EQ(r->walker(), nullptr);
+  }
+}
+
+TEST(ManipulatorFailures, OfAPilotThatChangesTheBodyOnlyThePlacementIsTold) {
+  Rig r(floor_mesh(), {}, roam::Mode::fly);
+  osgRoam::Manipulator* m = r.manipulator.get();
+  r->setPilot([&](roam::Walker& walker, double seconds) {
+    const roam::StepReport* report = &walker.step({}, seconds);
+    m->setSettings(m->settings());
+    return report;
+  });
+  int steps = 0, placements = 0;
+  r->setStepCallback([&](const roam::StepReport& report, double seconds) {
+    ++(seconds > 0.0 ? steps : placements);
+    EXPECT_EQ(report.has(roam::EventKind::placed), seconds == 0.0);
+  });
+  r.frames(0.5);
+  EXPECT_GT(placements, 0);
+  EXPECT_EQ(steps, 0);
+}
+
 }  // namespace

@@ -253,4 +253,19 @@ TEST(ManipulatorSpace, AnotherSpaceEndsTheBuilding) {
   EXPECT_EQ(r->space(), own);
 }
 
+TEST(ManipulatorSpace, ACallbackMayExchangeASpaceThatWasJustBuilt) {
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  const auto own = std::make_shared<const roam::World>();
+  Rig r;
+  osgRoam::Manipulator* m = r.manipulator.get();
+  r->buildSpace(*scene);
+  r->setStepCallback([&](const roam::StepReport&, double) {
+    m->setStepCallback(nullptr);
+    m->setSpace(own);
+  });
+  finish_building(r);
+  EXPECT_EQ(r->space(), own);
+  EXPECT_NO_THROW(r->setOrigin({1.0, 0.0, 0.0}));
+}
+
 }  // namespace

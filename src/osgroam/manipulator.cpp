@@ -111,7 +111,7 @@ void Manipulator::setSettings(const roam::WalkerSettings& settings) {
   const roam::Vec3 feet = s.walker ? s.walker->feet() : roam::Vec3(0.0);
   s.settings = settings;
   s.change_speed(settings.speed);
-  if (s.walker) s.make_walker(feet + roam::Vec3(0.0, 0.0, 0.5 * settings.height));
+  if (s.walker) s.make_walker(s.centre_above(feet));
 }
 
 const roam::WalkerSettings& Manipulator::settings() const { return _state->settings; }

@@ -32,6 +32,7 @@ struct Manipulator::State {
   bool space_is_built = false;  ///< from the graph, with the origin as it is
   Update update;
   std::unique_ptr<roam::Walker> walker;
+  unsigned walkers = 0;  ///< that there were so far
   std::unique_ptr<BackgroundBuild> build;
   std::string problem;
   bool stuck = false;  ///< by the problem
@@ -72,6 +73,8 @@ struct Manipulator::State {
   [[nodiscard]] roam::Vec3 eye() const;
   /// The body's centre, for a standing body with its eye there.
   [[nodiscard]] roam::Vec3 centre_under(const roam::Vec3& eye) const;
+  /// The same for a body that stands there.
+  [[nodiscard]] roam::Vec3 centre_above(const roam::Vec3& feet) const;
   /// Runs what may throw; what it throws becomes the problem.
   template <class Work>
   void guarded(const Work& work) {
@@ -90,7 +93,7 @@ struct Manipulator::State {
     if (function) function(arguments...);
   }
 
-  void change_space(std::shared_ptr<const roam::Space> to, Update update_of_it);
+  void change_space(std::shared_ptr<const roam::Space> to, Update update_of_it, bool is_built = false);
   /// A new walker in the space, put to `centre`; none without a space.
   void make_walker(const roam::Vec3& centre);
   void put(const roam::Vec3& centre);

@@ -60,6 +60,10 @@ roam::Vec3 Manipulator::State::centre_under(const roam::Vec3& eye) const {
   return eye - roam::Vec3(0.0, 0.0, eye_height(settings, settings.height));
 }
 
+roam::Vec3 Manipulator::State::centre_above(const roam::Vec3& feet) const {
+  return feet + roam::Vec3(0.0, 0.0, 0.5 * settings.height);
+}
+
 void Manipulator::State::fail(const std::string& what) {
   problem = what;
   stuck = true;
@@ -77,11 +81,11 @@ void Manipulator::State::tell_placed() {
   if (walker) guarded([&] { call(on_step, walker->report(), 0.0); });
 }
 
-void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it) {
+void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it, bool is_built) {
   const roam::Vec3 centre = walker ? walker->position() : centre_under(pose.eye);
   // A walker knows its space by address: the old one stays until the old walker is gone.
   const std::shared_ptr<const roam::Space> before = std::exchange(space, std::move(to));
-  space_is_built = false;
+  space_is_built = is_built;
   update = std::move(update_of_it);
   make_walker(centre);
 }
@@ -89,6 +93,7 @@ void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Upd
 void Manipulator::State::make_walker(const roam::Vec3& centre) {
   if (walker) pose.eye = soft.eye(*walker);
   walker.reset();
+  ++walkers;
   soft.reset();
   journey.end();
   problem.clear();
@@ -96,16 +101,21 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
   if (!space) return;
   guarded([&] {
     call(update, roam::Body::capsule(settings.radius, settings.height), centre);
+    if (!space || walker) return;  // it has exchanged the space, and the body with it
     walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
     if (walker->held()) place_safely(*walker, centre);
+    tell_placed();
   });
-  if (walker && !stuck) tell_placed();
 }
 
 void Manipulator::State::put(const roam::Vec3& centre) {
-  if (!walker) return;
+  if (!walker) {
+    if (space) make_walker(centre);  // what failed when it came may go well now
+    return;
+  }
   guarded([&] {
     call(update, roam::Body::capsule(settings.radius, settings.height), centre);
+    if (!walker) return;  // it has taken the space away
     place_safely(*walker, centre);
     tell_placed();
   });
@@ -135,8 +145,7 @@ bool Manipulator::State::take_build() {
   const std::unique_ptr<BackgroundBuild> done = std::move(build);
   bool taken = false;
   guarded([&] {
-    change_space(done->take(), nullptr);
-    space_is_built = true;
+    change_space(done->take(), nullptr, true);
     taken = true;
   });
   return taken;
@@ -155,7 +164,10 @@ void Manipulator::State::frame(double time) {
   const double begin = std::max(*last_time, time - longest_frame);
   last_time = time;
   guarded([&] {
-    if (walker && !stuck) call(update, walker->body(), walker->position());
+    if (walker && !stuck) {
+      const roam::Vec3 place = walker->position();  // a walker that is exchanged takes its own with it
+      call(update, walker->body(), place);
+    }
     double at = begin;
     for (const Keyboard::Change& change : changes) {
       const double until = std::clamp(change.time, at, std::max(at, time));
@@ -217,8 +229,7 @@ void Manipulator::State::fly_pilot(double seconds) {
     const double asked = std::min(owed, longest_step);
     const SoftEye::Before before = SoftEye::before(*walker);
     const Pilot now = pilot;  // it may end itself while it runs, or be followed by another, or change the body
-    const unsigned number = pilots;
-    const roam::Walker* flown = walker.get();
+    const unsigned number = pilots, flown = walkers;
     const auto begin = std::chrono::steady_clock::now();
     const roam::StepReport* report = now(*walker, asked);
     nanoseconds += nanoseconds_since(begin);
@@ -226,7 +237,7 @@ void Manipulator::State::fly_pilot(double seconds) {
       if (number == pilots) pilot = nullptr;
       break;
     }
-    if (walker.get() != flown) {  // the report went with it
+    if (walkers != flown) {  // the report went with it
       owed -= asked;
       continue;
     }
