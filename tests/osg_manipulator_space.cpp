@@ -268,4 +268,22 @@ TEST(ManipulatorSpace, ACallbackMayExchangeASpaceThatWasJustBuilt) {
   EXPECT_NO_THROW(r->setOrigin({1.0, 0.0, 0.0}));
 }
 
+TEST(ManipulatorSpace, ACrouchedBodyKeepsItsFeetInAnotherSpace) {
+  Mesh low;
+  add_box(low, {-5.0, -5.0, 0.0}, {5.0, 5.0, 1.3});
+  const auto world = std::make_shared<const roam::World>(build(low));
+  Rig r(low, {}, roam::Mode::walk);
+  r->setFeet({1.0, 2.0, 0.01}, 0.0, 0.0);
+  r.frames(0.5);
+  ASSERT_TRUE(r->walker()->crouched());
+  const Vec3 feet = r->walker()->feet();
+  r->setSpace(world);
+  EXPECT_FALSE(r->held());
+  EXPECT_LT(glm::length(r->walker()->feet() - feet), 0.01) << r->walker()->feet().z;
+  osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
+  const auto& other = dynamic_cast<osgRoam::Manipulator&>(*clone);
+  EXPECT_FALSE(other.held());
+  EXPECT_LT(glm::length(other.walker()->feet() - feet), 0.01);
+}
+
 }  // namespace

@@ -52,7 +52,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   s.keys = from.keys;
   s.look_speed = from.look_speed;
   s.look_inverted = from.look_inverted;
-  s.make_walker(from.walker ? from.walker->position() : s.centre_under(s.pose.eye));
+  s.make_walker(from.walker ? s.centre_above(from.walker->feet()) : s.centre_under(s.pose.eye));
 }
 
 Manipulator::~Manipulator() = default;

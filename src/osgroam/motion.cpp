@@ -82,7 +82,7 @@ void Manipulator::State::tell_placed() {
 }
 
 void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it, bool is_built) {
-  const roam::Vec3 centre = walker ? walker->position() : centre_under(pose.eye);
+  const roam::Vec3 centre = walker ? centre_above(walker->feet()) : centre_under(pose.eye);
   // A walker knows its space by address: the old one stays until the old walker is gone.
   const std::shared_ptr<const roam::Space> before = std::exchange(space, std::move(to));
   space_is_built = is_built;
