@@ -11,12 +11,12 @@
 /// memory therefore costs a roam::Error, not the program. docs/importing.md lists the formats and what is kept.
 ///
 /// The reader is looked for at: ImportOptions::reader; the environment variable ROAM_READER; `roam-reader` beside the
-/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to (as configured, and as the package is now); `../libexec/roam`
-/// from the folders of PATH.
+/// running program; `../libexec/roam/roam-reader` from there; the place it was installed to (as configured, and as the
+/// package is now); `../libexec/roam` from the folders of PATH.
 ///
 /// Coordinates are those of the file. Nothing is shifted, rotated or scaled unless ImportOptions say so, with two
-/// exceptions: glTF, whose y axis is up by definition, is turned so that +z is up; and a second folder of photogrammetry
-/// tiles is placed relative to the first by the difference of their SRSOrigins, which a note tells.
+/// exceptions: glTF, whose y axis is up by definition, is turned so that +z is up; and a second folder of
+/// photogrammetry tiles is placed relative to the first by the difference of their SRSOrigins, which a note tells.
 
 #include <cstdint>
 #include <filesystem>
@@ -124,6 +124,38 @@ struct Scene {
 
 /// The same for one path.
 [[nodiscard]] Scene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// Takes a scene piece by piece, in the order of import_scene: at most piece_triangles triangles and the vertices that
+/// they use. `continues`: the piece goes on with the object of the piece before. The mesh is only valid during the
+/// call. Exceptions pass through, and end the reader.
+using PieceSink = std::function<void(const Mesh& piece, bool continues)>;
+inline constexpr std::uint64_t piece_triangles = 65'536;
+
+/// The same triangles as import_scene, in the same order, in bounded memory: this process and its reader together take
+/// no more than options.memory_limit (>= 64 MiB), however large an OBJ, PLY or STL file, or a folder of tiles, is.
+/// What does not fit the reader's memory it keeps in unnamed files in the folder for temporary files (TMPDIR, else
+/// /tmp). Formats that only foreign readers read (glTF, Collada, FBX, IFC, single files of OpenSceneGraph) must fit,
+/// and throw roam::Error as import_scene does where they do not.
+ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
+                          const PieceSink& sink);
+
+/// A part of a scene that can be read on its own: a file, or one tile (Data/Tile_x/Tile_x.osgb and its pages) of a
+/// folder of photogrammetry. The parts of a scene, one after the other, are the scene.
+struct ScenePart {
+  std::string name;                            ///< unique among the parts, the same wherever the scene's folders lie
+  std::filesystem::path path;                  ///< as it was passed to scene_parts
+  std::string tile;                            ///< name of the tile in the folder; empty for a file
+  std::optional<Georeference> frame{};         ///< of the first folder, into which this part is placed
+  std::vector<std::filesystem::path> files{};  ///< what the part is read from, as far as one can tell without reading
+  std::uint64_t bytes = 0;                     ///< of these files
+};
+
+/// The parts of a scene, in order. Throws as import_scene does for paths that are missing or of no known format.
+[[nodiscard]] std::vector<ScenePart> scene_parts(std::span<const std::filesystem::path> paths,
+                                                 const ImportOptions& options = {});
+
+/// Reads one part.
+ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink);
 
 /// Tells the library where the package that the program was built with keeps its reader. Called by this header itself
 /// in programs that find_package(roam) built; nothing to call by hand.

@@ -23,6 +23,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -101,6 +102,9 @@ class Space {
   /// Grows whenever something came or went: a body that is held then looks for a way out again. Always 0 in a space
   /// that never changes, and in one that does not know.
   [[nodiscard]] virtual std::uint64_t revision() const { return 0; }
+  /// Metres per second that a body should not exceed now, so that what it comes to is known by then; Walker slows down
+  /// to it. Going faster is safe too: the body stops before what is unknown. No limit where everything is known.
+  [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }
 
  protected:
   Space() = default;
@@ -108,6 +112,18 @@ class Space {
   Space(Space&&) noexcept = default;
   Space& operator=(const Space&) = default;
   Space& operator=(Space&&) noexcept = default;
+};
+
+/// A space that changes between two steps of the body that moves in it. What has come or is to go is taken into use by
+/// update() and at no other time; update() belongs to the thread that moves the body, and no query may run during it.
+class LiveSpace : public Space {
+ public:
+  /// `body` at `place` (m) with `velocity` (m/s) is what the space is wanted for. Returns whether anything changed.
+  /// Throws roam::Error for a body, place or velocity that no query takes, and then takes nothing.
+  virtual bool update(const Body& body, const Vec3& place, const Vec3& velocity) = 0;
+
+ protected:
+  LiveSpace() = default;
 };
 
 }  // namespace roam

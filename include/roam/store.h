@@ -1,0 +1,126 @@
+#pragma once
+/// \file
+/// A collision store: a scene of any size on disk, made once by store_build.h, walked in fixed memory by pager.h.
+///
+///     const auto store = roam::Store::open("dam.roam");
+///     std::cout << store->info().triangles << " triangles in " << store->info().bounds.size().x << " m\n";
+///     roam::Pager pager(store, {.memory = 64 << 20});
+///
+/// Library target roam::store. docs/format.md describes the files byte by byte.
+///
+/// A store is a folder. What is in it never changes once it is written: packs and part files are named by the SHA-256
+/// of what they hold, and the file CURRENT, which is replaced by rename, names the manifest that is in force. So
+/// whoever has opened a store reads that store to its end, whatever is built beside it. Every tile and every page of
+/// the index carries its XXH3, which is checked before a byte of it is decoded.
+///
+/// A store is not changed by reading it and may be read by any number of threads and processes.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roam/error.h"
+#include "roam/math.h"
+#include "roam/mesh.h"
+#include "roam/space.h"
+
+namespace roam {
+
+/// What a store holds and what it costs.
+struct StoreInfo {
+  std::uint32_t format = 0;  ///< version of the format that it is written in
+  std::uint64_t triangles = 0;
+  std::uint64_t objects = 0;
+  std::uint64_t tiles = 0;
+  std::uint64_t pages = 0;  ///< of the index
+  std::uint64_t packs = 0;
+  std::uint64_t bytes = 0;           ///< of all files that the manifest names, and of itself
+  std::uint64_t geometry_bytes = 0;  ///< of the tiles alone: vertices, triangles and the tree in each
+  std::uint64_t number_bytes = 0;    ///< of what says which triangle of the source each stored one is
+  std::uint64_t resident_bytes = 0;  ///< of all tiles in memory, if all were
+  Box bounds;                        ///< of the source triangles
+  double largest_error_m = 0.0;      ///< the farthest that any stored vertex lies from where the source put it
+  bool lossless = false;
+  std::string hash;           ///< SHA-256 of the manifest, 64 hexadecimal digits: names everything in the store
+  std::string geometry_hash;  ///< 16 hexadecimal digits; of the quantized triangles, whatever their order
+};
+
+/// Where a stored triangle comes from.
+struct SourceTriangle {
+  std::string part;          ///< name of the part of the scene: a file, or a tile of a folder of photogrammetry
+  std::uint64_t number = 0;  ///< in that part, in the order of the file
+  TriangleId scene = 0;      ///< in the whole scene, as World::build numbers what import_scene reads
+  std::string object;        ///< its name; may be empty
+};
+
+/// What reads the bytes of a store: files by default. A program may give its own, to read from elsewhere or to see what
+/// happens when reading fails. All functions may be called from any thread at any time.
+class StoreBytes {
+ public:
+  virtual ~StoreBytes() = default;
+  /// The whole of a small file, e.g. "CURRENT". Throws roam::Error when it cannot be read or is larger than `limit`.
+  [[nodiscard]] virtual std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) = 0;
+  /// Fills `out` with the bytes from `offset` on of a file, e.g. "packs/<64 digits>.pack". Answers null, or why that
+  /// cannot be had, as text that lives for ever. Never throws and never allocates once a file has been read from
+  /// before.
+  [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) = 0;
+};
+
+/// A store that is open for reading. Holds the manifest; tiles and pages are read when somebody asks.
+class Store {
+ public:
+  /// Throws roam::Error when there is no store, it is of a newer format (the message says so), or its manifest is
+  /// damaged.
+  [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder);
+  [[nodiscard]] static std::shared_ptr<const Store> open(std::shared_ptr<StoreBytes> bytes, const std::string& name);
+  /// Whether the folder is a store, or means to be one: it holds CURRENT.
+  [[nodiscard]] static bool is_store(const std::filesystem::path& folder);
+  ~Store();
+
+  [[nodiscard]] const StoreInfo& info() const;
+  /// The folder as it was passed, for people.
+  [[nodiscard]] const std::string& name() const;
+
+  // What follows reads from disk and allocates: for reports, not for a thread that moves a body.
+
+  /// Calls f with the triangles as stored (up to a tile at a time) whose tile's box meets `box`, and their numbers.
+  /// Throws roam::Error for what cannot be read or is damaged, naming tile and place.
+  void for_each_triangle(const Box& box,
+                         const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const;
+  /// Throws roam::Error as above, or when `triangle` is not of this store.
+  [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
+
+  struct State;
+  [[nodiscard]] const State& state() const { return *state_; }
+
+ private:
+  explicit Store(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// A part of a store that is not as it was written.
+struct StoreDamage {
+  std::string what;  ///< "tile 17 of page 3", "page 3", "pack 0123abcd...", "part files/..."
+  std::string why;
+  Box where;  ///< that is solid because of it; empty where unknown
+};
+
+struct StoreVerification {
+  std::uint64_t bytes = 0;  ///< that were read and hashed
+  std::uint64_t tiles = 0;  ///< that were decoded and checked against their entries
+  std::vector<StoreDamage> damage;
+};
+
+/// Reads every byte of a store: SHA-256 of every file, XXH3 of every tile and page, decodes every tile, and compares
+/// counts, boxes and the geometry hash with what the manifest says. `progress` is called with bytes done and bytes in
+/// all; false cancels (roam::Cancelled). Throws roam::Error where there is no manifest to verify against.
+[[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,
+                                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {});
+
+}  // namespace roam

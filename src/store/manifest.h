@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// What a store consists of: the root of everything else in it.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "roam/math.h"
+#include "roam/store.h"
+
+namespace roam::store {
+
+/// Of what is written now. Readers refuse newer ones.
+inline constexpr std::uint32_t format_version = 1;
+
+/// A page of a shard's pack.
+struct PageRef {
+  Box box;  ///< of its tiles' boxes
+  std::uint64_t offset = 0;
+  std::uint32_t bytes = 0;
+  std::uint64_t hash = 0;  ///< XXH3
+  std::uint32_t tiles = 0;
+};
+
+/// A shard: one pack. The file shards/<key>.json of a build in progress holds exactly this; the manifest lists them.
+struct ShardInfo {
+  std::string key;   ///< 64 digits; says of what it was made: see build/plan.h
+  std::string pack;  ///< SHA-256 of the pack, 64 digits: packs/<pack>.pack
+  std::uint64_t bytes = 0;
+  std::uint64_t triangles = 0, tiles = 0;
+  std::uint64_t geometry_bytes = 0, number_bytes = 0, resident_bytes = 0;
+  Box bounds;  ///< of the source triangles
+  double largest_error = 0.0;
+  std::uint64_t geometry_hash = 0;
+  std::vector<PageRef> pages;
+};
+
+/// A part of the scene. See part.h for its file.
+struct PartInfo {
+  std::string name;         ///< e.g. "Data/Tile_+000_+001", unique in a store
+  std::string fingerprint;  ///< changes when its files or the import's options do
+  std::string file;         ///< SHA-256 of the part file, 64 digits
+  std::uint64_t bytes = 0;  ///< of the part file
+  std::uint64_t triangles = 0, objects = 0;
+};
+
+struct Manifest {
+  std::uint32_t format = format_version;
+  bool lossless = false;
+  std::string options;  ///< how the scene was read, for people and to compare: see build/plan.h
+  Box bounds;
+  std::uint64_t geometry_hash = 0;
+  std::vector<PartInfo> parts;    ///< in the order of the scene: a triangle's number in the scene follows from it
+  std::vector<ShardInfo> shards;  ///< in the order of the curve; pages are numbered through in this order
+  std::vector<std::string> notes;
+};
+
+// JSON text; the same manifest is the same text.
+[[nodiscard]] std::string to_text(const Manifest& manifest);
+[[nodiscard]] std::string to_text(const ShardInfo& shard);
+/// Both check everything: roam::Error says what is wrong, with `name` for the file.
+[[nodiscard]] Manifest parse_manifest(const std::string& text, const std::string& name);
+[[nodiscard]] ShardInfo parse_shard(const std::string& text, const std::string& name);
+
+/// CURRENT, its manifest, checked against its name. Throws roam::Error as Store::open does.
+[[nodiscard]] Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash = nullptr,
+                                     std::uint64_t* text_bytes = nullptr);
+/// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename, the folder synced. Returns the hash.
+std::string publish(const std::filesystem::path& store, const Manifest& manifest);
+
+/// TriangleId of a store: page (numbered through), tile in the page, triangle in the tile.
+inline constexpr int triangle_bits = 14, tile_bits = 10;
+[[nodiscard]] constexpr TriangleId stored_id(std::uint64_t page, std::uint32_t tile, std::uint32_t triangle) {
+  return page << (triangle_bits + tile_bits) | TriangleId{tile} << triangle_bits | triangle;
+}
+
+}  // namespace roam::store
