@@ -42,7 +42,7 @@ struct TileEntry {
   /// touch the cell.
   std::uint64_t mask[mask_cells * mask_cells * mask_cells / 64];
 };
-static_assert(sizeof(TileEntry) == 208);
+static_assert(sizeof(TileEntry) == 200);
 
 [[nodiscard]] inline TileShape shape_of(const TileEntry& t) { return {t.triangles, t.nodes, t.leaves, t.fine != 0}; }
 
