@@ -25,12 +25,12 @@
 #include "import/stream.h"
 #include "roam/error.h"
 
-// Address sanitizer reserves terabytes of address space; a limit on it would end the reader before it begins.
-#if defined(__SANITIZE_ADDRESS__)
-#define ROAM_ADDRESS_SANITIZER 1
+// Sanitizers reserve terabytes of address space; a limit on it would end the reader before it begins.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ROAM_SHADOW_MEMORY 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ROAM_ADDRESS_SANITIZER 1
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ROAM_SHADOW_MEMORY 1
 #endif
 #endif
 
@@ -47,7 +47,7 @@ void limit(int resource, rlim_t value) {
 
 /// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
 void confine([[maybe_unused]] std::uint64_t memory_limit) {
-#ifndef ROAM_ADDRESS_SANITIZER
+#ifndef ROAM_SHADOW_MEMORY
   limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
 #endif
   limit(RLIMIT_CORE, 0);
