@@ -309,6 +309,27 @@ TEST(Patchwork, WhatIsRefinedTwiceShowsTheFinestThatTheBodyIsFreeIn) {
   EXPECT_EQ(r.space.stats().patches, 3u);
 }
 
+TEST(Patchwork, NobodyWaitsForALevelThatIsSkipped) {
+  for (const int late : {0, 1, 2}) {
+    Refined r;
+    const PatchId finest = r.space.expect(unit, r.left);
+    r.space.deliver(r.coarse, board(0.5));
+    r.space.deliver(r.right, half_board(0.25, true));
+    r.space.update();
+    EXPECT_EQ(r.space.stats().coming, 2u);
+    r.space.deliver(finest, half_board(0.1, false));
+    EXPECT_TRUE(r.space.update());
+    EXPECT_NEAR(stopped_at(r.space, 0.2), 0.1, stored);
+    EXPECT_EQ(r.space.stats().coming, 0u) << "the left half is not needed any more";
+    // It may still come, or fail, or both; that changes nothing.
+    if (late > 0) r.space.fail(r.left, "missing");
+    if (late != 1) r.space.deliver(r.left, half_board(0.25, false));
+    EXPECT_FALSE(r.space.update());
+    EXPECT_EQ(r.space.stats().coming, 0u);
+    EXPECT_EQ(r.space.stats().failed, late == 1 ? 1u : 0u);
+  }
+}
+
 TEST(Patchwork, WhereTheFinestCatchesTheBodyWhatLiesBetweenIsShown) {
   Refined r;
   const PatchId finest = r.space.expect(unit, r.left);

@@ -35,7 +35,7 @@ void Patches::deliver(PatchId id, World world) {
     --stats_.failed;
     patch.failed = false;
     patch.reason.clear();
-  } else {
+  } else if (patch.role != Patch::Role::replaced) {
     --stats_.coming;
   }
   stats_.bytes += world.stats().bytes;
@@ -59,7 +59,7 @@ void Patches::fail(PatchId id, std::string reason) {
   Patch& patch = patches_[index_of(id)];
   if (!patch.failed) {
     ++stats_.failed;
-    --stats_.coming;
+    if (patch.role != Patch::Role::replaced) --stats_.coming;
   }
   patch.failed = true;
   patch.reason = std::move(reason);
@@ -134,6 +134,8 @@ void Patches::retire(std::uint32_t index) {
     count_shown(patch, minus_one);
     changed_.push_back(index);
   }
+  // Nobody waits any more for what finer ones have made needless.
+  if (patch.role != Patch::Role::replaced && !patch.world && !patch.failed) --stats_.coming;
   patch.role = Patch::Role::replaced;
   if (!patch.world) return;
   stats_.bytes -= patch.world->stats().bytes;
