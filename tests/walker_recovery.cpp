@@ -65,6 +65,18 @@ TEST(Recovery, AStartUnderALowCeilingCrouches) {
   EXPECT_FALSE(w.walker.crouched());
 }
 
+TEST(Recovery, AStartAtTheCentreOfACrouchedBodyCrouchesWhereNothingElseFits) {
+  Mesh m = floor_mesh();
+  add_box(m, {-5.0, -5.0, 0.0}, {5.0, 5.0, 1.3});
+  const World world = build(m);
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.56});
+  EXPECT_FALSE(w.held());
+  EXPECT_TRUE(w.crouched());
+  EXPECT_TRUE(w.report().has(EventKind::crouched));
+  EXPECT_NEAR(w.feet().z, 0.0, near_ground);
+  EXPECT_TRUE(Walker(world, {}, Mode::fly, {0.0, 0.0, 0.56}).held());
+}
+
 TEST(Recovery, ABodyThatTouchesAWallWalksAwayFromIt) {
   for (const double gap : {0.0, 1e-9, 1e-6, 1e-4, -1e-5}) {
     Mesh m = floor_mesh();

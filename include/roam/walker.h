@@ -226,10 +226,10 @@ class Walker {
   const StepReport& step(const WalkerInput& input, double dt);
 
   /// Puts the standing body's centre at `centre`, at rest; in walk mode, where only the crouched body fits, that, with
-  /// the same feet. Where it does not fit there, it is moved to the nearest
-  /// place found where it does, at most its own height away, along a straight way on which a sphere about its centre,
-  /// as large as the start allows, is certified to meet nothing: so its centre is never moved to the far side of a
-  /// wall. Where there is no such place it is held: it stays, every step reports `held`, and only place() and ghost
+  /// the same feet. Where it does not fit there, it is moved to the nearest place found where it does, at most its own
+  /// height away, along a straight way on which a sphere about its centre, as large as the start allows, is certified
+  /// to meet nothing: so its centre is never moved to the far side of a wall. Where there is none, in walk mode, it
+  /// crouches with its centre there. Else it is held: it stays, every step reports `held`, and only place() and ghost
   /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
   /// body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as it
   /// is known there the next step goes on likewise, in spaces without revisions too.

@@ -23,6 +23,11 @@ constexpr double least_skin = 1e-4;
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+/// Where a body that does not fit at `place` is freed to.
+std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& place, double skin) {
+  return walking::nearest_free(space, body, place, body.height(), skin, walking::Way::checked);
+}
+
 }  // namespace
 
 Walker::Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start)
@@ -123,22 +128,26 @@ void Walker::fit_in() {
   if (walking::fits(*space_, body(), position_)) return;
   const double low = walking::crouched_height(settings_);
   const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
-  if (mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), lowered)) {
+  const auto fits_low = [&](const Vec3& place) {
+    return mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), place);
+  };
+  const auto crouch_at = [&](const Vec3& place) {
     height_ = low;
-    put(lowered, report_.elapsed);
+    put(place, report_.elapsed);
     report_.events.push({EventKind::crouched, position_});
-  } else {
-    free_body();
-  }
+  };
+  if (fits_low(lowered)) return crouch_at(lowered);
+  // The centre may be that of a body that crouched.
+  if (fits_low(position_) && !way_out(*space_, body(), position_, skin_)) return crouch_at(position_);
+  free_body();
 }
 
 void Walker::free_body() {
-  const std::optional<Vec3> way_out =
-      walking::nearest_free(*space_, body(), position_, height_, skin_, walking::Way::checked);
-  if (!way_out) return hold();
+  const std::optional<Vec3> free = way_out(*space_, body(), position_, skin_);
+  if (!free) return hold();
   // Put exactly in touch, a body is a hair too near: that is set right without a word.
-  const bool worth_saying = glm::length(*way_out - position_) > 2.0 * skin_ + walking::hit_tolerance;
-  put(*way_out, report_.elapsed);
+  const bool worth_saying = glm::length(*free - position_) > 2.0 * skin_ + walking::hit_tolerance;
+  put(*free, report_.elapsed);
   if (worth_saying) report_.events.push({EventKind::freed, position_});
 }
 
