@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/largest.h"
+#include "roam/space.h"
 
 namespace roam::index {
 
@@ -17,6 +18,23 @@ Grid Grid::fitting(const Box& box) {
     for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
     return grid;
   }
+}
+
+Grid Grid::over(const Box& box) {
+  const double extent = largest(box.size() + Vec3(8.0 * Space::reach_limit));
+  Grid grid;
+  grid.step = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
+  for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
+  return grid;
+}
+
+StepBox Grid::steps(const Box& box) const {
+  StepBox out;
+  for (int k = 0; k < 3; ++k) {
+    out.lower[k] = static_cast<std::int32_t>(std::floor((box.lower[k] - origin[k]) / step));
+    out.upper[k] = static_cast<std::int32_t>(std::ceil((box.upper[k] - origin[k]) / step));
+  }
+  return out;
 }
 
 std::array<std::int64_t, 3> Grid::fine(const Vec3& p) const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "index/block.h"
 #include "roam/math.h"
 
 namespace roam::index {
@@ -29,6 +30,12 @@ struct Grid {
 
   /// The finest grid on which the box is at most kGridSteps wide.
   static Grid fitting(const Box& box);
+
+  /// The grid of a tree over many tiles: 2^29 steps across, so that differences of coordinates fit 31 bits even for
+  /// queries that start outside, in reach.
+  static Grid over(const Box& box);
+  /// The smallest box of whole steps around a box.
+  [[nodiscard]] StepBox steps(const Box& box) const;
 
   /// The nearest fine coordinate, in units of step / kFineSteps.
   [[nodiscard]] std::array<std::int64_t, 3> fine(const Vec3& p) const;

@@ -1,30 +1,34 @@
 #pragma once
 /// \file
-/// Files that are whole or not there: written under a temporary name, synced, renamed, the folder synced.
+/// Files that are whole or not there: written under a temporary name, synced, renamed, the folder synced. And what
+/// names and checks them.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "roam/store.h"
+#include "store/sha256.h"
 
 namespace roam::store {
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
+/// Of a file's content; `tick` is called with the bytes of each piece that was read, and may throw.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file,
-                                         const std::function<void(std::uint64_t)>& bytes_done = {});
+                                         const std::function<void(std::uint64_t)>& tick = {});
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
 /// A file in the making. Unless commit() was called it is removed again. All throw roam::Error naming the file, the
-/// cause (no space, read-only, I/O) and what to do. EINTR and short writes are dealt with.
+/// cause (no space, read-only, I/O) and what to do. Interrupted and short writes are gone on with.
 class NewFile {
  public:
-  /// Beside its final place, under a name that no reader takes for a finished one.
+  /// Beside its final place, under a name that ends with temporary_suffix.
   explicit NewFile(std::filesystem::path final_path);
   ~NewFile();
   NewFile(const NewFile&) = delete;
@@ -38,19 +42,32 @@ class NewFile {
   std::string commit_by_hash();
 
  private:
-  struct Hasher;
+  void rename_to(const std::filesystem::path& path);
+
   std::filesystem::path path_, temporary_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
-  std::unique_ptr<Hasher> hasher_;
+  Sha256 hash_;
 };
 
-void write_file(const std::filesystem::path& file, std::string_view text);
+/// What a build that was ended leaves behind ends with this.
+inline constexpr std::string_view temporary_suffix = ".unfinished";
 
-/// A pack in the making: a header of 64 bytes, then blobs, each at a multiple of 128.
+void write_file(const std::filesystem::path& file, std::string_view text);
+/// The whole of a file. Throws roam::Error when it cannot be read or is larger than `limit`.
+[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t limit);
+/// Makes a folder, and those above it, and syncs the one above. Throws roam::Error.
+void make_folder(const std::filesystem::path& folder);
+
+// Where things are in a store.
+inline constexpr const char* current_file = "CURRENT";
+[[nodiscard]] std::string pack_file(const std::string& hash);      ///< packs/<hash>.pack
+[[nodiscard]] std::string part_file(const std::string& hash);      ///< parts/<hash>.part
+[[nodiscard]] std::string manifest_file(const std::string& hash);  ///< manifests/<hash>.json
+
+/// A pack in the making: a header, then blobs, each at a multiple of pack_alignment.
 class PackWriter {
  public:
-  /// Into `folder`/packs.
   explicit PackWriter(const std::filesystem::path& store);
   /// Returns its offset.
   std::uint64_t add(std::span<const std::byte> blob);
@@ -61,15 +78,21 @@ class PackWriter {
  private:
   NewFile file_;
 };
+inline constexpr std::uint64_t pack_alignment = 8;
+inline constexpr std::uint64_t pack_header_bytes = 64;
 
-/// The files of a folder. Keeps the descriptors of packs that were read from, as many as the process may have.
+/// The files of a folder. Keeps the descriptors of the packs that were read from, up to half of what the process may
+/// have open.
 [[nodiscard]] std::shared_ptr<StoreBytes> files_of(const std::filesystem::path& folder);
 
-/// One process at a time works on a store: flock on <store>/LOCK. Throws roam::Error naming the other process.
+/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process. Throws roam::Error naming
+/// the other process.
 class BuildLock {
  public:
   explicit BuildLock(const std::filesystem::path& store);
   ~BuildLock();
+  BuildLock(const BuildLock&) = delete;
+  BuildLock& operator=(const BuildLock&) = delete;
 
  private:
   int descriptor_ = -1;

@@ -12,7 +12,7 @@ namespace roam::store {
 
 /// A place on the Morton curve: the size class of a triangle in the top 4 bits, 41 interleaved bits an axis below, of
 /// the centre of its box in steps of 2^-10 m from (-2^30, -2^30, -2^30) m. It does not depend on the scene.
-using CurveKey = unsigned __int128;
+__extension__ typedef unsigned __int128 CurveKey;
 
 /// How many triangles of a part have keys that begin like `key`: in all but the lowest `PartFile::cell_bits` bits.
 struct Cell {

@@ -1,0 +1,183 @@
+#include "store/page.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "index/binary_tree.h"
+#include "index/collapse.h"
+#include "index/partition.h"
+#include "roam/space.h"
+
+namespace roam::store {
+namespace {
+
+using index::Node;
+using index::StepBox;
+
+struct Header {
+  char magic[8];
+  std::uint32_t tiles;
+  std::uint32_t nodes;
+  double origin[3];
+  double step;
+  std::uint64_t zero[10];
+};
+static_assert(sizeof(Header) == 128);
+constexpr char kMagic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
+
+/// Metres. Boxes hold what is stored too, which may lie a little beyond the limit of what is read.
+constexpr double kFarthest = Space::coordinate_limit * 1.001;
+
+Box box_of(const TileEntry& t) { return {{t.lower[0], t.lower[1], t.lower[2]}, {t.upper[0], t.upper[1], t.upper[2]}}; }
+
+bool finite(const double (&v)[3]) {
+  return std::abs(v[0]) <= kFarthest && std::abs(v[1]) <= kFarthest && std::abs(v[2]) <= kFarthest;
+}
+
+const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
+  if (!finite(t.origin) || !finite(t.lower) || !finite(t.upper) || box_of(t).empty()) return "a tile's box is none";
+  int exponent = 0;
+  if (!(t.step >= 0x1p-19F && t.step <= 0x1p20F) || std::frexp(t.step, &exponent) != 0.5F) {
+    return "a tile's step is no power of two in range";
+  }
+  if (!(t.error >= 0.0F && t.error <= t.step + 1e-5F) || !(t.fine_error >= 0.0F && t.fine_error <= t.error)) {
+    return "a tile's error is out of range";
+  }
+  if (t.triangles < 1 || t.triangles > index::kTileTriangles || t.nodes < 1 || t.leaves < 1 || t.nodes > t.leaves ||
+      t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > kTileBytes) {
+    return "a tile's counts are out of range";
+  }
+  if (t.bytes < 1 || t.offset > pack_bytes || std::uint64_t{t.bytes} + t.number_bytes > pack_bytes - t.offset) {
+    return "a tile lies outside its pack";
+  }
+  return nullptr;
+}
+
+StepBox child_box(const Node& node, int i) {
+  StepBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = node.origin[k] + (std::int32_t{node.lower[k][i]} << node.shift[k]);
+    box.upper[k] = node.origin[k] + (std::int32_t{node.upper[k][i]} << node.shift[k]);
+  }
+  return box;
+}
+
+bool holds(const StepBox& outer, const StepBox& inner) {
+  for (int k = 0; k < 3; ++k) {
+    if (inner.lower[k] < outer.lower[k] || inner.upper[k] > outer.upper[k]) return false;
+  }
+  return true;
+}
+
+/// The nodes as collapse() numbers them: children after their parents, each once, in order; every box in its parent's.
+const char* check_tree(const PageView& view) {
+  const std::size_t count = view.nodes.size();
+  std::uint32_t nodes = 1, leaves = 0;
+  std::array<std::uint8_t, page_tiles> depth{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Node& node = view.nodes[i];
+    if (node.child_count < 1 || node.child_count > index::kWidth || node.inner_count > node.child_count) {
+      return "a node's counts are out of range";
+    }
+    if (node.first_node != nodes || node.first_leaf != leaves) return "the nodes are out of order";
+    nodes += node.inner_count;
+    leaves += static_cast<std::uint32_t>(node.child_count - node.inner_count);
+    if (nodes > count || leaves > view.tiles.size()) return "the nodes are too many";
+    if (nodes <= i + 1 && i + 1 < count) return "the nodes are out of order";
+    for (std::uint32_t child = 0; child < node.inner_count; ++child) {
+      if (depth[i] >= index::kMaxDepth - 1) return "the tree is too deep";
+      depth[node.first_node + child] = static_cast<std::uint8_t>(depth[i] + 1);
+    }
+    for (int k = 0; k < 3; ++k) {
+      // Of 2^29 steps, and 255 of them shifted still fit.
+      if (node.shift[k] > 22 || node.origin[k] < 0 || node.origin[k] > (1 << 29)) return "a node's box is out of range";
+    }
+  }
+  if (nodes != count || leaves != view.tiles.size()) return "the nodes are too few";
+  for (std::size_t i = 0; i < count; ++i) {
+    const Node& node = view.nodes[i];
+    for (int c = 0; c < node.child_count; ++c) {
+      const StepBox box = child_box(node, c);
+      if (c >= node.inner_count) {
+        const TileEntry& tile = view.tiles[node.first_leaf + static_cast<std::uint32_t>(c - node.inner_count)];
+        if (!holds(box, view.grid.steps(box_of(tile)))) return "a tile lies outside its node";
+        continue;
+      }
+      const Node& child = view.nodes[node.first_node + static_cast<std::uint32_t>(c)];
+      for (int g = 0; g < child.child_count; ++g) {
+        if (!holds(box, child_box(child, g))) return "a node lies outside its parent";
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+EncodedPage encode_page(std::span<const TileEntry> tiles) {
+  Box all;
+  for (const TileEntry& t : tiles) all.include(box_of(t));
+  const index::Grid grid = index::Grid::over(all);
+  std::vector<StepBox> boxes;
+  boxes.reserve(tiles.size());
+  for (const TileEntry& t : tiles) boxes.push_back(grid.steps(box_of(t)));
+  index::BinaryTreeOptions options;
+  options.items_per_test = 1;
+  options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
+  const index::BinaryTree tree = index::build_binary_tree(boxes, options);
+  const index::WideTree wide = index::collapse(tree, options.margin);
+
+  EncodedPage page;
+  Header header{};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  header.tiles = static_cast<std::uint32_t>(tiles.size());
+  header.nodes = static_cast<std::uint32_t>(wide.nodes.size());
+  for (int k = 0; k < 3; ++k) header.origin[k] = grid.origin[k];
+  header.step = grid.step;
+  page.bytes.resize(sizeof header + wide.nodes.size() * sizeof(Node) + tiles.size() * sizeof(TileEntry));
+  std::byte* at = page.bytes.data();
+  const auto put = [&](const void* data, std::size_t bytes) {
+    std::memcpy(at, data, bytes);
+    at += bytes;
+  };
+  put(&header, sizeof header);
+  put(wide.nodes.data(), wide.nodes.size() * sizeof(Node));
+  for (const std::uint32_t leaf : wide.leaves) {
+    page.order.push_back(tree.order[tree.nodes[leaf].begin]);
+    put(&tiles[page.order.back()], sizeof(TileEntry));
+  }
+  return page;
+}
+
+const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes, PageView& view) {
+  Header header{};
+  if (bytes.size() < sizeof header) return "too short for a page";
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return "not a page of an index";
+  if (header.tiles < 1 || header.tiles > page_tiles || header.nodes < 1 || header.nodes > header.tiles) {
+    return "its counts are out of range";
+  }
+  if (bytes.size() != sizeof header + header.nodes * sizeof(Node) + header.tiles * sizeof(TileEntry)) {
+    return "its size is not that of its counts";
+  }
+  if (!finite(header.origin) || !(header.step >= 0x1p-29 && header.step <= 0x1p10)) return "its grid is out of range";
+  const auto* nodes = bytes.data() + sizeof header;
+  const auto* tiles = nodes + header.nodes * sizeof(Node);
+  view.grid.origin = {header.origin[0], header.origin[1], header.origin[2]};
+  view.grid.step = header.step;
+  view.nodes = {reinterpret_cast<const Node*>(nodes), header.nodes};
+  view.tiles = {reinterpret_cast<const TileEntry*>(tiles), header.tiles};
+  Box all;
+  for (const TileEntry& t : view.tiles) {
+    if (const char* problem = check_entry(t, pack_bytes)) return problem;
+    all.include(box_of(t));
+  }
+  // Only the grid of these very boxes: then all steps fit their integers.
+  const index::Grid grid = index::Grid::over(all);
+  if (grid.origin != view.grid.origin || grid.step != view.grid.step) return "its grid is not that of its tiles";
+  return check_tree(view);
+}
+
+}  // namespace roam::store

@@ -1,0 +1,167 @@
+#include "roam/store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "store/files.h"
+#include "store/tile_reader.h"
+
+namespace roam {
+
+/// Pages and source numbers that were asked for last.
+struct Store::State::Recent {
+  explicit Recent(const State& state) : reader(state) {}
+
+  /// Enough for a body's neighbourhood.
+  static constexpr std::size_t kept = 64;
+
+  store::TileReader reader;
+  std::map<std::uint64_t, store::LoadedPage> pages;
+  std::map<TriangleId, std::vector<store::SourceNumber>> numbers;  ///< of a tile, by the id of its first triangle
+  std::map<std::uint32_t, store::PartFile> parts;
+};
+
+Store::State::State() = default;
+Store::State::~State() = default;
+Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Store::~Store() = default;
+
+std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder) {
+  if (!is_store(folder)) {
+    throw Error(fmt::format("{} is no store: it holds no file CURRENT; make one with roam build", folder.string()));
+  }
+  return open(store::files_of(folder), folder.string());
+}
+
+std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name) {
+  auto state = std::make_unique<State>();
+  State& s = *state;
+  s.name = name;
+  s.bytes = std::move(bytes);
+  std::uint64_t manifest_bytes = 0;
+  s.manifest = store::read_manifest(*s.bytes, name, &s.info.hash, &manifest_bytes);
+  const store::Manifest& m = s.manifest;
+  s.info.format = m.format;
+  s.info.lossless = m.lossless;
+  s.info.bounds = m.bounds;
+  s.info.geometry_hash = fmt::format("{:016x}", m.geometry_hash);
+  s.info.bytes = manifest_bytes;
+  s.info.packs = m.shards.size();
+  std::uint64_t first = 0;
+  for (std::uint32_t i = 0; i < m.parts.size(); ++i) {
+    const std::string& part = m.parts[i].name;
+    s.part_of.emplace(store::xxh3(std::as_bytes(std::span(part))), i);
+    s.first.push_back(first);
+    first += m.parts[i].triangles;
+    s.info.objects += m.parts[i].objects;
+    s.info.bytes += m.parts[i].bytes;
+  }
+  for (std::uint32_t i = 0; i < m.shards.size(); ++i) {
+    const store::ShardInfo& shard = m.shards[i];
+    s.packs.push_back(store::pack_file(shard.pack));
+    for (const store::PageRef& page : shard.pages) s.pages.push_back({i, page});
+    s.info.triangles += shard.triangles;
+    s.info.tiles += shard.tiles;
+    s.info.bytes += shard.bytes;
+    s.info.geometry_bytes += shard.geometry_bytes;
+    s.info.number_bytes += shard.number_bytes;
+    s.info.resident_bytes += shard.resident_bytes;
+    s.info.largest_error_m = std::max(s.info.largest_error_m, shard.largest_error);
+  }
+  s.info.pages = s.pages.size();
+  s.recent = std::make_unique<State::Recent>(s);
+  return std::shared_ptr<const Store>(new Store(std::move(state)));
+}
+
+bool Store::is_store(const std::filesystem::path& folder) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(folder / store::current_file, none);
+}
+
+const StoreInfo& Store::info() const { return state_->info; }
+const std::string& Store::name() const { return state_->name; }
+
+void Store::for_each_triangle(
+    const Box& box, const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const {
+  const auto apart = [&](const Box& other) {
+    for (int k = 0; k < 3; ++k) {
+      if (other.upper[k] < box.lower[k] || other.lower[k] > box.upper[k]) return true;
+    }
+    return false;
+  };
+  store::TileReader reader(*state_);
+  std::vector<Triangle> triangles;
+  std::vector<TriangleId> ids;
+  for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
+    if (apart(state_->pages[p].ref.box)) continue;
+    const store::LoadedPage page = reader.page(p);
+    for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
+      const store::TileEntry& entry = page.view.tiles[t];
+      if (apart(store::box_of(entry))) continue;
+      const store::LoadedTile tile = reader.tile(p, entry, t);
+      triangles.clear();
+      ids.clear();
+      for (std::size_t l = 0; l < tile.leaves.size(); ++l) {
+        const index::Leaf& leaf = tile.leaves[l];
+        const index::FineLeaf* fine = tile.fine.empty() ? nullptr : &tile.fine[l];
+        for (int i = 0; i < leaf.triangle_count; ++i) {
+          triangles.push_back(store::stored_triangle(tile.tile, leaf, fine, i));
+          ids.push_back(store::stored_id(p, t, leaf.ids + static_cast<std::uint32_t>(i)));
+        }
+      }
+      f(triangles, ids);
+    }
+  }
+}
+
+SourceTriangle Store::source(TriangleId triangle) const {
+  const State& s = *state_;
+  const std::uint64_t page_number = triangle >> (store::triangle_bits + store::tile_bits);
+  const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));
+  const auto number = static_cast<std::uint32_t>(triangle & ((1U << store::triangle_bits) - 1));
+  const auto no_such = [&] {
+    return Error(fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
+  };
+  if (page_number >= s.pages.size()) throw no_such();
+
+  const std::lock_guard lock(s.mutex);
+  State::Recent& recent = *s.recent;
+  const TriangleId tile_id = store::stored_id(page_number, tile, 0);
+  auto known = recent.numbers.find(tile_id);
+  if (known == recent.numbers.end()) {
+    auto page = recent.pages.find(page_number);
+    if (page == recent.pages.end()) {
+      if (recent.pages.size() >= State::Recent::kept) recent.pages.clear();
+      page = recent.pages.emplace(page_number, recent.reader.page(page_number)).first;
+    }
+    if (tile >= page->second.view.tiles.size()) throw no_such();
+    auto numbers = recent.reader.numbers(page_number, page->second.view.tiles[tile], tile);
+    if (recent.numbers.size() >= State::Recent::kept) recent.numbers.clear();
+    known = recent.numbers.emplace(tile_id, std::move(numbers)).first;
+  }
+  if (number >= known->second.size()) throw no_such();
+  const store::SourceNumber& from = known->second[number];
+
+  const auto part = s.part_of.find(from.part);
+  if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
+    throw Error(
+        fmt::format("{}: triangle {} comes from a part of the scene that the manifest does not name: the store "
+                    "is damaged; verify it, and repair it from its scene",
+                    s.name, triangle));
+  }
+  const store::PartInfo& info = s.manifest.parts[part->second];
+  auto file = recent.parts.find(part->second);
+  if (file == recent.parts.end()) {
+    const std::string name = store::part_file(info.file);
+    const std::vector<std::byte> bytes = s.bytes->whole(name, info.bytes);
+    if (store::sha256(bytes) != info.file) {
+      throw Error(fmt::format("{}/{} is damaged: it is not what it was when it was written", s.name, name));
+    }
+    if (recent.parts.size() >= State::Recent::kept) recent.parts.clear();
+    file = recent.parts.emplace(part->second, store::decode_part(bytes, s.name + "/" + name)).first;
+  }
+  return {info.name, from.number, s.first[part->second] + from.number, file->second.object(from.number)};
+}
+
+}  // namespace roam

@@ -1,0 +1,95 @@
+// The bytes of a store that is a folder.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+#include <unordered_map>
+
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text that lives for ever. strerror's may be overwritten by the next call.
+const char* reason(int error) {
+  switch (error) {
+    case ENOENT:
+      return "the file is not there";
+    case EACCES:
+    case EPERM:
+      return "the file may not be read";
+    case EIO:
+      return "the disk reports an input/output error";
+    case EMFILE:
+    case ENFILE:
+      return "too many files are open (raise the limit: ulimit -n)";
+    case ESTALE:
+      return "the network file system has lost the file";
+    default:
+      return "the operating system cannot read it";
+  }
+}
+
+class Files : public StoreBytes {
+ public:
+  explicit Files(fs::path folder) : folder_(std::move(folder)) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) most_open_ = limit.rlim_cur / 2;
+  }
+  ~Files() override {
+    for (const auto& [file, descriptor] : open_) ::close(descriptor);
+  }
+
+  std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
+    return read_file(folder_ / file, limit);
+  }
+
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+    if (const int kept = kept_descriptor(file); kept >= 0) return fill(kept, offset, out);
+    const int descriptor = ::open((folder_ / file).c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return reason(errno);
+    const char* problem = fill(descriptor, offset, out);
+    if (!keep(file, descriptor)) ::close(descriptor);
+    return problem;
+  }
+
+ private:
+  /// Stays open until this goes.
+  [[nodiscard]] int kept_descriptor(const std::string& file) {
+    const std::lock_guard lock(mutex_);
+    const auto it = open_.find(file);
+    return it == open_.end() ? -1 : it->second;
+  }
+  bool keep(const std::string& file, int descriptor) {
+    const std::lock_guard lock(mutex_);
+    return open_.size() < most_open_ && open_.emplace(file, descriptor).second;
+  }
+
+  static const char* fill(int descriptor, std::uint64_t offset, std::span<std::byte> out) {
+    while (!out.empty()) {
+      const ssize_t got = ::pread(descriptor, out.data(), out.size(), static_cast<off_t>(offset));
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) return reason(errno);
+      if (got == 0) return "the file is shorter than the manifest says";
+      offset += static_cast<std::uint64_t>(got);
+      out = out.subspan(static_cast<std::size_t>(got));
+    }
+    return nullptr;
+  }
+
+  fs::path folder_;
+  std::size_t most_open_ = 512;
+  std::mutex mutex_;
+  std::unordered_map<std::string, int> open_;
+};
+
+}  // namespace
+
+std::shared_ptr<StoreBytes> files_of(const fs::path& folder) { return std::make_shared<Files>(folder); }
+
+}  // namespace roam::store

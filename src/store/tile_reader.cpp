@@ -1,0 +1,102 @@
+#include "store/tile_reader.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "index/grid.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+std::unique_ptr<index::Block[]> blocks_for(std::size_t bytes) {
+  return std::make_unique_for_overwrite<index::Block[]>((bytes + sizeof(index::Block) - 1) / sizeof(index::Block));
+}
+
+[[noreturn]] void refuse(const Store::State& store, const std::string& what, const char* why) {
+  throw Error(fmt::format("{}: {} cannot be used: {}", store.name, what, why));
+}
+
+std::string place(const Box& box) {
+  return fmt::format("({:.1f} {:.1f} {:.1f} to {:.1f} {:.1f} {:.1f})", box.lower.x, box.lower.y, box.lower.z,
+                     box.upper.x, box.upper.y, box.upper.z);
+}
+
+}  // namespace
+
+Box box_of(const TileEntry& t) { return {{t.lower[0], t.lower[1], t.lower[2]}, {t.upper[0], t.upper[1], t.upper[2]}}; }
+
+std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
+  return fmt::format("tile {} of page {} {}", tile, page, place(box));
+}
+
+std::string name_of(std::uint64_t page, const Box& box) { return fmt::format("page {} {}", page, place(box)); }
+
+std::vector<std::byte> TileReader::read(std::uint64_t page, std::uint64_t offset, std::uint64_t bytes,
+                                        std::uint64_t hash, const std::string& what) {
+  std::vector<std::byte> content(static_cast<std::size_t>(bytes));
+  const std::string& file = store_.packs[store_.pages[page].shard];
+  if (const char* problem = store_.bytes->read(file, offset, content)) refuse(store_, what + " in " + file, problem);
+  if (xxh3(content) != hash) refuse(store_, what + " in " + file, "its checksum is wrong");
+  return content;
+}
+
+LoadedPage TileReader::page(std::uint64_t number) {
+  const Store::State::Page& page = store_.pages[number];
+  const std::string what = name_of(number, page.ref.box);
+  const std::vector<std::byte> content = read(number, page.ref.offset, page.ref.bytes, page.ref.hash, what);
+  LoadedPage loaded;
+  loaded.memory = blocks_for(content.size());
+  std::memcpy(loaded.memory.get(), content.data(), content.size());
+  const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(loaded.memory.get()), content.size());
+  const char* problem = view_page(bytes, store_.manifest.shards[page.shard].bytes, loaded.view);
+  if (problem == nullptr && loaded.view.tiles.size() != page.ref.tiles)
+    problem = "it has more or fewer tiles than said";
+  if (problem != nullptr) refuse(store_, what, problem);
+  return loaded;
+}
+
+LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
+  const std::string what = name_of(page, number, box_of(entry));
+  const std::vector<std::byte> content = read(page, entry.offset, entry.bytes, entry.hash, what);
+  const TileShape shape = shape_of(entry);
+  LoadedTile loaded;
+  loaded.memory = blocks_for(shape.bytes());
+  const std::span<std::byte> out(reinterpret_cast<std::byte*>(loaded.memory.get()), shape.bytes());
+  if (const char* problem = decoder_.decode(content, shape, out)) refuse(store_, what, problem);
+  loaded.tile.origin = {entry.origin[0], entry.origin[1], entry.origin[2]};
+  loaded.tile.step = entry.step;
+  loaded.tile.error = entry.error;
+  loaded.tile.fine_error = entry.fine_error;
+  loaded.tile.fine = shape.fine;
+  loaded.tile.leaves = shape.nodes;
+  const std::byte* leaves = out.data() + shape.nodes * sizeof(index::Block);
+  loaded.leaves = {reinterpret_cast<const index::Leaf*>(leaves), shape.leaves};
+  if (shape.fine) {
+    const std::byte* fine = leaves + shape.leaves * sizeof(index::Block);
+    loaded.fine = {reinterpret_cast<const index::FineLeaf*>(fine), shape.leaves};
+  }
+  return loaded;
+}
+
+std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
+  const std::string what = "the source numbers of " + name_of(page, number, box_of(entry));
+  return decode_numbers(read(page, entry.offset + entry.bytes, entry.number_bytes, entry.number_hash, what),
+                        entry.triangles);
+}
+
+Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine, int triangle) {
+  Triangle out;
+  const double step = tile.step;
+  for (int c = 0; c < 3; ++c) {
+    const int v = leaf.vertex_of(c, triangle);
+    for (int k = 0; k < 3; ++k) {
+      const double low = fine != nullptr ? step / double(index::kFineSteps) * fine->vertex[k][v] : 0.0;
+      out[static_cast<std::size_t>(c)][k] = tile.origin[k] + (step * leaf.vertex[k][v] + low);
+    }
+  }
+  return out;
+}
+
+}  // namespace roam::store

@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// Reading pages and tiles at leisure, for reports and verification: it allocates, waits and throws.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "index/traverse.h"
+#include "store/codec/tile_codec.h"
+#include "store/opened.h"
+#include "store/page.h"
+
+namespace roam::store {
+
+/// A page that was read and checked.
+struct LoadedPage {
+  std::unique_ptr<index::Block[]> memory;
+  PageView view;
+};
+
+/// A tile that was read, checked and decoded.
+struct LoadedTile {
+  std::unique_ptr<index::Block[]> memory;
+  index::Tile tile;
+  std::span<const index::Leaf> leaves;
+  std::span<const index::FineLeaf> fine;
+};
+
+/// One thread at a time.
+class TileReader {
+ public:
+  explicit TileReader(const Store::State& store) : store_(store) {}
+
+  // All throw roam::Error naming page or tile, place and cause.
+  [[nodiscard]] LoadedPage page(std::uint64_t number);
+  [[nodiscard]] LoadedTile tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
+  [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
+
+ private:
+  [[nodiscard]] std::vector<std::byte> read(std::uint64_t page, std::uint64_t offset, std::uint64_t bytes,
+                                            std::uint64_t hash, const std::string& what);
+
+  const Store::State& store_;
+  TileDecoder decoder_;
+};
+
+[[nodiscard]] Box box_of(const TileEntry& entry);
+/// "tile 3 of page 17 (10.5 2.0 0.3 to 20.1 9.9 4.0)"
+[[nodiscard]] std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box);
+[[nodiscard]] std::string name_of(std::uint64_t page, const Box& box);
+
+/// The corners of triangle `triangle` of a leaf, in the scene's frame, each coordinate correctly rounded from the
+/// stored one. `fine` is the leaf's low bits or null.
+[[nodiscard]] Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine,
+                                       int triangle);
+
+}  // namespace roam::store

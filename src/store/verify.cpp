@@ -1,0 +1,187 @@
+#include "store/verify.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "store/files.h"
+#include "store/tile_reader.h"
+
+namespace roam {
+namespace store {
+namespace {
+
+class Verifier {
+ public:
+  Verifier(const std::filesystem::path& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
+      : folder_(folder), store_(Store::open(folder)), state_(store_->state()), progress_(progress) {}
+
+  Findings run() {
+    check_files();
+    const Manifest& manifest = state_.manifest;
+    std::vector<std::uint64_t> first_page(manifest.shards.size());
+    for (std::uint64_t p = state_.pages.size(); p-- > 0;) first_page[state_.pages[p].shard] = p;
+    tbb::parallel_for(std::size_t{0}, manifest.parts.size(), [&](std::size_t i) { check_part(manifest.parts[i]); });
+    tbb::parallel_for(std::size_t{0}, manifest.shards.size(),
+                      [&](std::size_t i) { check_shard(manifest.shards[i], first_page[i]); });
+    if (geometry_hash_ != manifest.geometry_hash && findings_.report.damage.empty()) {
+      damage({"the manifest", "the triangles of all tiles are not those that it counts", manifest.bounds});
+    }
+    findings_.report.bytes = done_;
+    findings_.report.tiles = tiles_;
+    // Threads come in any order; reports do not.
+    std::sort(findings_.report.damage.begin(), findings_.report.damage.end(),
+              [](const StoreDamage& a, const StoreDamage& b) { return a.what < b.what; });
+    return std::move(findings_);
+  }
+
+ private:
+  /// Every byte of every file that the manifest names is hashed.
+  void check_files() {
+    for (const PartInfo& part : state_.manifest.parts) total_ += part.bytes;
+    for (const ShardInfo& shard : state_.manifest.shards) total_ += shard.bytes;
+  }
+
+  void tick(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    done_ += bytes;
+    if (cancelled_ || (progress_ && !progress_(done_, total_))) {
+      cancelled_ = true;
+      throw Cancelled();
+    }
+  }
+
+  void damage(StoreDamage what) {
+    const std::lock_guard lock(mutex_);
+    findings_.report.damage.push_back(std::move(what));
+  }
+  void damage(const ShardInfo& shard, StoreDamage what) {
+    const std::lock_guard lock(mutex_);
+    findings_.shards.insert(shard.key);
+    findings_.report.damage.push_back(std::move(what));
+  }
+
+  void check_part(const PartInfo& part) {
+    const std::string file = part_file(part.file);
+    try {
+      if (sha256_of_file(folder_ / file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
+        throw Error("its SHA-256 is not its name");
+      }
+      const PartFile content = decode_part(read_file(folder_ / file, part.bytes), file);
+      if (content.triangles != part.triangles || content.objects.size() != part.objects) {
+        throw Error("its counts are not those of the manifest");
+      }
+    } catch (const Error& error) {
+      damage({file + " (" + part.name + ")", error.what(), Box{}});
+      const std::lock_guard lock(mutex_);
+      findings_.parts.insert(part.name);
+    }
+  }
+
+  void check_shard(const ShardInfo& shard, std::uint64_t first_page) {
+    const std::string file = pack_file(shard.pack);
+    bool whole = false;
+    try {
+      whole = sha256_of_file(folder_ / file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
+      if (!whole) damage(shard, {file, "its SHA-256 is not its name", shard.bounds});
+    } catch (const Error& error) {
+      damage(shard, {file, error.what(), shard.bounds});
+      return;  // not there at all
+    }
+    // Also where the pack is not whole: so one knows which of its tiles are.
+    TileReader reader(state_);
+    ShardInfo counted;
+    bool counts = true;
+    for (std::uint64_t p = first_page; p < first_page + shard.pages.size(); ++p) {
+      counts = check_page(shard, p, reader, counted) && counts;
+    }
+    if (counts && (counted.triangles != shard.triangles || counted.tiles != shard.tiles ||
+                   counted.geometry_hash != shard.geometry_hash || counted.largest_error != shard.largest_error)) {
+      damage(shard, {file, "its triangles are not those that the manifest counts", shard.bounds});
+    }
+    const std::lock_guard lock(mutex_);
+    geometry_hash_ += counted.geometry_hash;
+  }
+
+  bool check_page(const ShardInfo& shard, std::uint64_t number, TileReader& reader, ShardInfo& counted) {
+    const Box& box = state_.pages[number].ref.box;
+    LoadedPage page;
+    try {
+      page = reader.page(number);
+    } catch (const Error& error) {
+      damage(shard, {name_of(number, box), error.what(), box});
+      return false;
+    }
+    bool good = true;
+    for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
+      const TileEntry& entry = page.view.tiles[t];
+      try {
+        check_tile(number, entry, t, reader);
+        ++tiles_;
+        ++counted.tiles;
+        counted.triangles += entry.triangles;
+        counted.geometry_hash += entry.geometry_hash;
+        counted.largest_error = std::max(counted.largest_error, double(entry.fine_error));
+      } catch (const Error& error) {
+        damage(shard, {name_of(number, t, box_of(entry)), error.what(), box_of(entry)});
+        good = false;
+      }
+    }
+    return good;
+  }
+
+  static void check_tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number, TileReader& reader) {
+    const LoadedTile tile = reader.tile(page, entry, number);
+    if (geometry_hash(tile.tile, tile.leaves, tile.fine) != entry.geometry_hash) {
+      throw Error("its triangles are not those that its entry counts");
+    }
+    const Box box = box_of(entry);
+    const Vec3 cell = box.size() / double(mask_cells);
+    for (std::size_t l = 0; l < tile.leaves.size(); ++l) {
+      for (int i = 0; i < tile.leaves[l].triangle_count; ++i) {
+        const Triangle triangle =
+            stored_triangle(tile.tile, tile.leaves[l], tile.fine.empty() ? nullptr : &tile.fine[l], i);
+        for (const Vec3& corner : triangle) {
+          int at[3];
+          for (int k = 0; k < 3; ++k) {
+            if (corner[k] < box.lower[k] || corner[k] > box.upper[k]) throw Error("a triangle lies outside its box");
+            at[k] =
+                cell[k] > 0.0 ? std::min(mask_cells - 1, static_cast<int>((corner[k] - box.lower[k]) / cell[k])) : 0;
+          }
+          const int bit = at[0] + mask_cells * (at[1] + mask_cells * at[2]);
+          if ((entry.mask[bit / 64] >> (bit % 64) & 1U) == 0) throw Error("a triangle lies outside its mask");
+        }
+      }
+    }
+    static_cast<void>(reader.numbers(page, entry, number));
+  }
+
+  std::filesystem::path folder_;
+  std::shared_ptr<const Store> store_;
+  const Store::State& state_;
+  const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;
+  std::mutex mutex_;
+  Findings findings_;
+  bool cancelled_ = false;
+  std::uint64_t done_ = 0, total_ = 0;
+  std::atomic<std::uint64_t> tiles_{0};
+  std::uint64_t geometry_hash_ = 0;
+};
+
+}  // namespace
+
+Findings find_damage(const std::filesystem::path& folder,
+                     const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  return Verifier(folder, progress).run();
+}
+
+}  // namespace store
+
+StoreVerification verify_store(const std::filesystem::path& folder,
+                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  return store::find_damage(folder, progress).report;
+}
+
+}  // namespace roam
