@@ -62,6 +62,27 @@ TEST(WalkerUnknown, WaitsBeforeItAsBeforeAWallAndGoesOnWhenItIsThere) {
   }
 }
 
+TEST(WalkerUnknown, AStrideThatIsTakenBackHasMetNothing) {
+  Patchwork space;
+  Mesh m;
+  add_floor(m, -5.0, -5.0, 0.0, 5.0, 0.0);
+  add_floor(m, -5.0, -5.0, 8.0, 5.0, -2.5);
+  space.deliver(space.expect({{-5.0, -5.0, -3.0}, {8.0, 5.0, 0.0}}), build(m));
+  // Beyond the edge, so low that a long stride reaches it and a body that rolls off the edge falls below it.
+  (void)space.expect({{0.65, -5.0, 1.32}, {1.15, 5.0, 3.0}});
+  space.update();
+  for (int i = 0; i < 10; ++i) {
+    Walker w(space, {}, Mode::walk, {-0.7 + 0.02 * i, 0.0, 0.95});
+    for (int step = 0; step < 20; ++step) {
+      const auto& report = w.step({{3.0, 0.0, 0.0}}, 0.1);
+      const bool touched =
+          std::any_of(report.contacts.begin(), report.contacts.end(), [](const auto& c) { return c.unknown; });
+      EXPECT_EQ(report.met_unknown, touched) << i << ", step " << step;
+    }
+    EXPECT_NEAR(w.feet().z, -2.5, reach_of_skin) << "it fell past it";
+  }
+}
+
 TEST(WalkerUnknown, SlidesAlongItAndSaysSo) {
   TwoRooms rooms;
   Walker w(rooms.space, {}, Mode::walk, {9.0, 0.0, 1.0});
