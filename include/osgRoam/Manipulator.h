@@ -77,8 +77,8 @@ class Manipulator : public osgGA::CameraManipulator {
   /// explains, and for an origin that is not finite.
   explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly,
                        const osg::Vec3d& origin = osg::Vec3d());
-  /// Settings, controls, space, pose and home; not the callbacks, the pilot, keys that are down, a world that is being
-  /// built.
+  /// Settings, controls, the space and its update, pose and home; not the other callbacks, the pilot, keys that are
+  /// down, a world that is being built.
   Manipulator(const Manipulator& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
   META_Object(osgRoam, Manipulator);
 
@@ -224,6 +224,8 @@ class Manipulator : public osgGA::CameraManipulator {
   void setStepCallback(std::function<void(const roam::StepReport& report, double seconds)> callback);
   /// Time that the steps of the last frame took, nanoseconds; callbacks not counted, pilots counted.
   [[nodiscard]] std::int64_t collisionNanoseconds() const;
+  /// Of that time, what the thread itself used: without the slices that the system gave to others meanwhile.
+  [[nodiscard]] std::int64_t collisionOwnNanoseconds() const;
   /// Steps of the last frame.
   [[nodiscard]] int steps() const;
 
