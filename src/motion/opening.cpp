@@ -48,8 +48,8 @@ bool face_each_other(const Contact& a, const Contact& b, const Vec3& place, cons
 
 }  // namespace
 
-std::optional<double> measure_opening(const Space& space, const Body& body, const Vec3& place, const Vec3& ahead,
-                                      double reach) {
+std::optional<Opening> measure_opening(const Space& space, const Body& body, const Vec3& place, const Vec3& ahead,
+                                       double reach) {
   std::array<Contact, contacts_looked_at> contacts;
   const std::size_t found = space.contacts(body, place, Vec3(0.0), reach, contacts);
   const Vec3 flat(ahead.x, ahead.y, 0.0);
@@ -57,10 +57,10 @@ std::optional<double> measure_opening(const Space& space, const Body& body, cons
   if (!(length > 0.0)) return std::nullopt;
   const Vec3 sideways = Vec3(-flat.y, flat.x, 0.0) / length;
   const Frame frame{ahead, sideways, glm::cross(ahead, sideways)};
-  std::optional<double> least;
-  const auto consider = [&](const Contact& a, const Contact& b, double width) {
-    if (least && width >= *least) return;
-    if (open_between(space, a.point, b.point, place, depth_part * body.radius, frame)) least = width;
+  std::optional<Opening> least;
+  const auto consider = [&](const Contact& a, const Contact& b, const Opening& opening) {
+    if (least && opening.size >= least->size) return;
+    if (open_between(space, a.point, b.point, place, depth_part * body.radius, frame)) least = opening;
   };
   for (std::size_t i = 0; i < found; ++i) {
     for (std::size_t j = i + 1; j < found; ++j) {
@@ -71,13 +71,13 @@ std::optional<double> measure_opening(const Space& space, const Body& body, cons
       const double lean =
           std::max(std::abs(glm::dot(a.normal, frame.upward)), std::abs(glm::dot(b.normal, frame.upward)));
       if (lean < post && face_each_other(a, b, place, frame.sideways)) {
-        consider(a, b, glm::length(apart - frame.upward * glm::dot(apart, frame.upward)));
+        consider(a, b, {glm::length(apart - frame.upward * glm::dot(apart, frame.upward)), false});
       }
       // The floor is touched below the body, and what hangs too low ahead of it: one above the other, not two posts
       // whose contacts lean a little up and down.
       const double height = std::abs(glm::dot(apart, frame.upward));
       if (height > std::abs(glm::dot(apart, frame.sideways)) && face_each_other(a, b, place, frame.upward)) {
-        consider(a, b, height);
+        consider(a, b, {height, true});
       }
     }
   }

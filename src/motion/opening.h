@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How wide the opening is that a body does not fit through.
+/// How wide, or high, the opening is that a body does not fit through.
 
 #include <optional>
 
@@ -8,10 +8,15 @@
 
 namespace roam::walking {
 
-/// The width, metres, of the opening ahead of a blocked body, see Blockage::opening: the least distance of two points
-/// that the body touches on either side of its way (or above and below), if a ray between them finds it open.
-/// `ahead`: unit vector of the way that is blocked. `reach`: how near a triangle must be to count as touched, metres.
-[[nodiscard]] std::optional<double> measure_opening(const Space& space, const Body& body, const Vec3& place,
-                                                    const Vec3& ahead, double reach);
+struct Opening {
+  double size = 0.0;       ///< metres
+  bool is_height = false;  ///< between what is below and what is above, not from side to side
+};
+
+/// The opening ahead of a blocked body, see Blockage::opening: the least distance of two points that the body touches
+/// on either side of its way (or above and below), if a ray between them finds it open. `ahead`: unit vector of the way
+/// that is blocked. `reach`: how near a triangle must be to count as touched, metres.
+[[nodiscard]] std::optional<Opening> measure_opening(const Space& space, const Body& body, const Vec3& place,
+                                                     const Vec3& ahead, double reach);
 
 }  // namespace roam::walking

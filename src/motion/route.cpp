@@ -204,8 +204,9 @@ void Route::describe_blockage(const StepReport& report) {
   const double length = glm::length(way);
   if (length > at_waypoint) {
     const double reach = opening_skins * walker_->skin();
-    blockage.opening =
+    const auto opening =
         walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
+    if (opening) blockage.opening = opening->size;
   }
   result_.blocked_at = blockage;
 }

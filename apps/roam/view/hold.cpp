@@ -33,10 +33,9 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
   const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
                                                 opening_skins * walker.skin());
   if (!opening) return text;
-  const double width = 2.0 * walker.settings().radius;
-  // What is wide enough is too low.
-  const double needed = *opening > width ? walker.body().height() : width;
-  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", *opening, *opening > width ? "high " : "", needed);
+  const double needed = opening->is_height ? walker.body().height() : 2.0 * walker.settings().radius;
+  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->size, opening->is_height ? "high " : "",
+                      needed);
   return text;
 }
 
