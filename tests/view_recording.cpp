@@ -82,6 +82,26 @@ TEST(RecordedBody, IsSaidByNoOtherComment) {
   EXPECT_TRUE(contains(error_of([&] { static_cast<void>(recorded_body(bad)); }), "bad.path:2"));
 }
 
+TEST(RecordedBody, ThatCannotBeIsNamedWithItsLine) {
+  const TestFolder folder;
+  const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius -1\n4 5 6\n");
+  const std::string what = error_of([&] { static_cast<void>(recorded_body(bad)); });
+  EXPECT_TRUE(contains(what, "bad.path:2: the walker's radius is -1 m")) << what;
+}
+
+TEST(RecordedBody, ThatClimbsOtherwiseIsAnotherOnFoot) {
+  RecordedBody body;
+  WalkerSettings settings;
+  EXPECT_EQ(compare(body, settings, Mode::walk), "");
+  settings.step = 0.1;
+  EXPECT_TRUE(contains(compare(body, settings, Mode::walk), "steps 0.3 m and climbs 45 degrees; this one 0.1 m"));
+  settings.step = body.step;
+  settings.slope_degrees = 10.0;
+  EXPECT_TRUE(contains(compare(body, settings, Mode::walk), "0.3 m and 10 degrees"));
+  body.mode = Mode::fly;
+  EXPECT_EQ(compare(body, settings, Mode::fly), "");
+}
+
 TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   RecordedBody body;
   body.mode = Mode::fly;

@@ -20,6 +20,16 @@ std::optional<Mode> parse_mode(const std::string& text) {
   return std::nullopt;
 }
 
+WalkerSettings settings_of(const RecordedBody& body) {
+  WalkerSettings settings;
+  settings.radius = body.radius;
+  settings.height = body.height;
+  settings.eye = body.eye;
+  settings.step = body.step;
+  settings.slope_degrees = body.slope_degrees;
+  return settings;
+}
+
 std::string describe(double radius, double height) {
   return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
                                : fmt::format("a sphere of radius {:g} m", radius);
@@ -60,6 +70,11 @@ std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
                               number, line, body_line({}, Mode::walk)));
     }
     if (!body) {
+      try {
+        check(settings_of(read));
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}:{}: {}; correct or remove the line", file.string(), number, error.what()));
+      }
       body = read;
       body->mode = *mode;
     }
@@ -75,6 +90,12 @@ std::string compare(const RecordedBody& recorded, const WalkerSettings& settings
   if (recorded.radius != settings.radius || recorded.height != settings.height) {
     return fmt::format("the path was recorded by another body: {}; this is {}",
                        describe(recorded.radius, recorded.height), describe(settings.radius, settings.height));
+  }
+  if (mode == Mode::walk && (recorded.step != settings.step || recorded.slope_degrees != settings.slope_degrees)) {
+    return fmt::format(
+        "the path was recorded by a body that steps {:g} m and climbs {:g} degrees; this one {:g} m and "
+        "{:g} degrees",
+        recorded.step, recorded.slope_degrees, settings.step, settings.slope_degrees);
   }
   if (recorded.mode == mode) return {};
   return fmt::format("the path was recorded in mode {}; this is mode {}", name(recorded.mode), name(mode));
