@@ -49,12 +49,14 @@ TEST(Hold, ComparesWhatIsTooLowWithTheHeight) {
   std::vector<Mesh> meshes{rectangle("floor", {0, -5, 0}, {20, 0, 0}, {0, 10, 0}),
                            rectangle("beam", {10, -5, 0.9}, {0, 10, 0}, {0, 0, 3})};
   const World world = World::build(meshes);
-  Walker walker(world, {}, Mode::walk, {8, 0, 0.95});
-  Hold hold;
-  const Vec3 wish(1.4, 0, 0);
-  for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
-  // It has crouched to 1.1 m.
-  EXPECT_EQ(hold.told().text, "blocked: wall, beam, opening 0.90 m high for a body of 1.10 m");
+  for (const double radius : {0.3, 0.5}) {  // narrower than the opening is high, and wider
+    Walker walker(world, {.radius = radius}, Mode::walk, {8, 0, 0.95});
+    Hold hold;
+    const Vec3 wish(1.4, 0, 0);
+    for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
+    // It has crouched to 1.1 m.
+    EXPECT_EQ(hold.told().text, "blocked: wall, beam, opening 0.90 m high for a body of 1.10 m");
+  }
 }
 
 TEST(Hold, TellsOfNothingBelow) {
