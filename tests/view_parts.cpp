@@ -1,6 +1,7 @@
 // The parts of roam view that need no window: options, settings, bookmarks, what the display says.
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "exit_status.h"
@@ -202,6 +203,10 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
     return error_of([&] { static_cast<void>(make_plan(options, settings)); });
   };
   EXPECT_TRUE(contains(error(), "would overwrite what --record-path writes")) << error();
+  options.trace = "./roam-no-such-file";
+  options.record_path = "roam-no-such-file";
+  EXPECT_TRUE(contains(error(), "would overwrite what --record-path writes")) << error();
+  options.trace = folder.file("one");
   options.record_path.clear();
   EXPECT_EQ(error(), "");
   ViewSettings settings;
@@ -209,6 +214,15 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   EXPECT_TRUE(contains(error(settings), "would overwrite the settings"));
   options.record = folder.file("gone/film.mp4");
   EXPECT_TRUE(contains(error(), "there is no folder " + folder.file("gone"))) << error();
+}
+
+TEST(ViewPlan, RefusesPlacesThatAreNotWritten) {
+  for (const char* place : {"1,2", "1,2,3,4,5,6", "1,2,3,", "1,,3", "1,2,x"}) {
+    CLI::App program;
+    ViewOptions options;
+    options.add_to(program);
+    EXPECT_THROW(program.parse(std::string("scene.obj --at ") + place), CLI::ValidationError) << place;
+  }
 }
 
 TEST(ViewPlan, RefusesPlacesThatNoSceneReaches) {

@@ -55,7 +55,8 @@ std::vector<double> parse_place(const std::string& text) {
     if (!CLI::detail::lexical_cast(part, value)) throw CLI::ValidationError("--at", not_a_place(text));
     numbers.push_back(value);
   }
-  if (numbers.size() < 3 || numbers.size() > 5) throw CLI::ValidationError("--at", not_a_place(text));
+  if (numbers.size() < 3 || numbers.size() > 5 || text.ends_with(','))
+    throw CLI::ValidationError("--at", not_a_place(text));
   return numbers;
 }
 
@@ -111,7 +112,8 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
     std::error_code none;
     if (a.empty() || b.empty()) return false;
     return std::filesystem::equivalent(a, b, none) ||
-           std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none);
+           std::filesystem::weakly_canonical(std::filesystem::absolute(a), none) ==
+               std::filesystem::weakly_canonical(std::filesystem::absolute(b), none);
   };
   const Written outputs[] = {{"--screenshot", options.screenshot},
                              {"--record", options.record},
