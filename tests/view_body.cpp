@@ -111,6 +111,18 @@ TEST(Start, FliesWhereThereIsNoFloor) {
   EXPECT_GT(world.clearance(Body::capsule(0.3, 1.8), start.pose.position, 1.0).distance, 0.0);
 }
 
+TEST(Start, SeesWhatThereIsWhereThereIsNoFloor) {
+  // Looked at from above and level, this wall is a line, or not in the picture at all.
+  const World world = World::build(std::vector<Mesh>{Mesh{"wall", {{0, 0, 0}, {0, 5, 0}, {0, 0, 5}}, {{0, 1, 2}}}});
+  const StartPlace start = find_start(world, {}, Mode::walk, {}, [] { return true; });
+  EXPECT_EQ(start.mode, Mode::fly);
+  const double yaw = start.pose.yaw * 3.14159265358979 / 180.0, pitch = start.pose.pitch * 3.14159265358979 / 180.0;
+  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+  const double most = glm::dot(ahead, glm::normalize(Vec3(0, 1.67, 1.67) - start.pose.position));
+  EXPECT_GT(most, std::cos(0.4));
+  EXPECT_GT(std::abs(start.pose.position.x), 0.5);
+}
+
 TEST(Start, CanBeEnded) {
   const World world = hall(2.0);
   EXPECT_THROW(static_cast<void>(find_start(world, {}, Mode::walk, {}, [] { return false; })), Cancelled);

@@ -23,6 +23,18 @@ Vec3 direction(double yaw, double pitch) {
           std::sin(pitch * degree)};
 }
 
+/// Whether there is anything in the middle of what an eye there sees.
+bool sees_something(const Space& space, const Vec3& eye, double yaw) {
+  const Box box = space.bounds();
+  const double reach = box.empty() ? 0.0 : 2.0 * glm::length(box.size());
+  for (const double aside : {-20.0, 0.0, 20.0}) {
+    for (const double up : {-20.0, 0.0, 20.0}) {
+      if (space.ray(eye, reach * direction(yaw + aside, up)).hit) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 double open_yaw(const Space& space, const Vec3& eye) {
@@ -55,9 +67,14 @@ StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode m
                       const std::function<bool()>& goes_on) {
   StartPlace start;
   start.mode = mode;
+  constexpr double fov = 60.0;
   const auto look_around = [&](const Vec3& centre) {
     const Vec3 eye = centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height);
     start.pose = {centre, open_yaw(space, eye), 0.0};
+    // Who flies may as well begin where there is something to see.
+    if (start.mode == Mode::fly && !sees_something(space, eye, start.pose.yaw)) {
+      start.pose = overview(space.bounds(), fov);
+    }
     return start;
   };
   std::string why;
@@ -74,7 +91,6 @@ StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode m
       why = error.what();
     }
   }
-  constexpr double fov = 60.0;
   start.pose = overview(space.bounds(), fov);
   if (mode != Mode::ghost) start.mode = Mode::fly;
   start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
