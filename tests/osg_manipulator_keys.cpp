@@ -1,6 +1,8 @@
 // Keys, time and frames: how long a key was down counts, and nothing else.
 #include <array>
+#include <chrono>
 #include <glm/geometric.hpp>
+#include <thread>
 
 #include "osg_rig.h"
 
@@ -215,6 +217,21 @@ TEST(ManipulatorKeys, EveryFrameIsCutIntoShortSteps) {
     EXPECT_EQ(r->steps(), count);
     EXPECT_GT(r->collisionNanoseconds(), 0);
   }
+}
+
+TEST(ManipulatorKeys, TellsItsOwnTimeApartFromWhatOthersTake) {
+  Standing r;
+  constexpr std::int64_t rest = 50'000'000;  // ns
+  r->setPilot([&](roam::Walker& walker, double seconds) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(rest));
+    return &walker.step({}, seconds);
+  });
+  r.frame(0.01);
+  EXPECT_GT(r->collisionOwnNanoseconds(), 0);
+  EXPECT_LE(r->collisionOwnNanoseconds() + rest, r->collisionNanoseconds());
+  r->setPilot(nullptr);
+  r.frame(0.0);
+  EXPECT_EQ(r->collisionOwnNanoseconds(), 0);
 }
 
 TEST(ManipulatorKeys, TimeThatStandsStillOrRunsBackwardsMovesNothing) {

@@ -243,6 +243,8 @@ void Manipulator::setStepCallback(std::function<void(const roam::StepReport& rep
 
 std::int64_t Manipulator::collisionNanoseconds() const { return _state->nanoseconds; }
 
+std::int64_t Manipulator::collisionOwnNanoseconds() const { return _state->own_ns; }
+
 int Manipulator::steps() const { return _state->steps; }
 
 }  // namespace osgRoam

@@ -65,6 +65,7 @@ struct Manipulator::State {
   StepCallback on_step;
   std::function<void(const std::string&)> on_command;
   std::int64_t nanoseconds = 0;
+  std::int64_t own_ns = 0;  ///< of these, the thread's own
   int steps = 0;
   bool moved = false;  ///< in the last frame
 

@@ -1,4 +1,6 @@
 // How the body moves from frame to frame.
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,9 +27,32 @@ constexpr int pilot_limit = 256;
 /// A window at 60 Hz turns by a quarter for a hand's movement over its height.
 constexpr double default_look_speed = 0.5 * std::numbers::pi;
 
-std::int64_t nanoseconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
+/// What this thread itself has used since it began, nanoseconds.
+std::int64_t own_nanoseconds() {
+  timespec used{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return std::int64_t{used.tv_sec} * 1'000'000'000 + used.tv_nsec;
 }
+
+/// Adds the time of one step to those of a frame.
+class StepTimer {
+ public:
+  StepTimer(std::int64_t& passed, std::int64_t& own)
+      : passed_(passed), own_(own), begin_(Clock::now()), own_begin_(own_nanoseconds()) {}
+  ~StepTimer() {
+    own_ += own_nanoseconds() - own_begin_;
+    passed_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin_).count();
+  }
+  StepTimer(const StepTimer&) = delete;
+  StepTimer& operator=(const StepTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::int64_t& passed_;
+  std::int64_t& own_;
+  Clock::time_point begin_;
+  std::int64_t own_begin_;
+};
 
 }  // namespace
 
@@ -152,7 +177,7 @@ bool Manipulator::State::take_build() {
 }
 
 void Manipulator::State::frame(double time) {
-  nanoseconds = 0;
+  nanoseconds = own_ns = 0;
   steps = 0;
   moved = false;
   const std::vector<Keyboard::Change> changes = keyboard.take_changes();
@@ -208,9 +233,10 @@ void Manipulator::State::step(double seconds, const HeldCommands& held) {
       journey.under_way() ? journey.velocity(*walker, settings.speed * settings.fast_factor, seconds) : wish(held);
 
   const SoftEye::Before before = SoftEye::before(*walker);
-  const auto begin = std::chrono::steady_clock::now();
-  const roam::StepReport& report = walker->step(input, seconds);
-  nanoseconds += nanoseconds_since(begin);
+  const roam::StepReport& report = [&]() -> const roam::StepReport& {
+    const StepTimer timer(nanoseconds, own_ns);
+    return walker->step(input, seconds);
+  }();
   ++steps;
   if (report.has(roam::EventKind::jumped)) jump_left = 0.0;
   moved |= !report.corners.empty();
@@ -230,9 +256,10 @@ void Manipulator::State::fly_pilot(double seconds) {
     const SoftEye::Before before = SoftEye::before(*walker);
     const Pilot now = pilot;  // it may end itself while it runs, or be followed by another, or change the body
     const unsigned number = pilots, flown = walkers;
-    const auto begin = std::chrono::steady_clock::now();
-    const roam::StepReport* report = now(*walker, asked);
-    nanoseconds += nanoseconds_since(begin);
+    const roam::StepReport* report = [&] {
+      const StepTimer timer(nanoseconds, own_ns);
+      return now(*walker, asked);
+    }();
     if (!report) {
       if (number == pilots) pilot = nullptr;
       break;
