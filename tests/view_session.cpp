@@ -98,6 +98,24 @@ TEST(Session, GoesToWhatIsDoubleClicked) {
   EXPECT_EQ(d.verified().violations, 0u);
 }
 
+TEST(Session, ComesBackToWhereItCrouched) {
+  // Under a table.
+  Driven d(
+      "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n"
+      "v -1 -1 1.3\nv 1 -1 1.3\nv 1 1 1.3\nv -1 1 1.3\nf 5 6 7 8\n",
+      {-0.9, 0, 0.95, 0});
+  ASSERT_TRUE(d.session->roamer().walker()->crouched());
+  d.run(0.5);
+  const Vec3 kept = d.place();
+  d.tap('b');
+  d.press('w');
+  d.run(3.0);
+  d.release('w');
+  ASSERT_FALSE(d.session->roamer().walker()->crouched());
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  EXPECT_LT(glm::distance(d.place(), kept), 0.05) << d.place().x << " " << d.place().z;
+}
+
 TEST(Session, FliesWhereThereIsNothingToStandOn) {
   // Beside the house: at the start, and by the key.
   Driven d(room_obj(), {40, 0, 0.95, 0});
