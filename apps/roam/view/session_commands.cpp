@@ -143,7 +143,10 @@ void Session::record_way() {
 void Session::add_bookmark() {
   if (!placed_) return;
   if (!bookmarks_) throw Error(bookmark_problem_);
-  tell(fmt::format("bookmark {}", bookmarks_->add(pose()).name));
+  Pose here = pose();
+  // Of the standing body, as all places that one asks for: who crouches has the feet there.
+  here.position = roamer_->walker()->feet() + Vec3(0.0, 0.0, 0.5 * roamer_->settings().height);
+  tell(fmt::format("bookmark {}", bookmarks_->add(here).name));
 }
 
 void Session::next_bookmark(bool backwards) {
