@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "index/refit.h"
+
 namespace roam::index {
 namespace {
 
@@ -66,25 +68,6 @@ void gather(const BinaryTree& tree, const std::vector<Plan>& plans, std::int32_t
   gather(tree, plans, n.left + 1, slots - left, children);
 }
 
-void set_boxes(Node& node, const BinaryTree& tree, const std::vector<std::int32_t>& children) {
-  StepBox all;
-  for (const auto c : children) all.include(tree.nodes[c].box);
-  for (int k = 0; k < 3; ++k) {
-    node.origin[k] = all.lower[k];
-    const std::int64_t extent = std::int64_t{all.upper[k]} - all.lower[k];
-    int shift = 0;
-    while ((extent + (std::int64_t{1} << shift) - 1) >> shift > 255) ++shift;
-    node.shift[k] = static_cast<std::uint8_t>(shift);
-    for (std::size_t i = 0; i < children.size(); ++i) {
-      const StepBox& box = tree.nodes[children[i]].box;
-      const std::int64_t lower = std::int64_t{box.lower[k]} - all.lower[k];
-      const std::int64_t upper = std::int64_t{box.upper[k]} - all.lower[k];
-      node.lower[k][i] = static_cast<std::uint8_t>(lower >> shift);
-      node.upper[k][i] = static_cast<std::uint8_t>((upper + (std::int64_t{1} << shift) - 1) >> shift);
-    }
-  }
-}
-
 }  // namespace
 
 WideTree collapse(const BinaryTree& tree, double margin) {
@@ -93,6 +76,7 @@ WideTree collapse(const BinaryTree& tree, double margin) {
   wide.nodes.resize(1);
   std::vector<std::pair<std::int32_t, std::uint32_t>> open{{0, 0}};  // binary node, wide node
   std::vector<std::int32_t> children;
+  std::vector<StepBox> boxes;
   while (!open.empty()) {
     const auto [index, slot] = open.back();
     open.pop_back();
@@ -112,7 +96,9 @@ WideTree collapse(const BinaryTree& tree, double margin) {
     node.inner_count = static_cast<std::uint8_t>(first_leaf - children.begin());
     node.first_node = static_cast<std::uint32_t>(wide.nodes.size());
     node.first_leaf = static_cast<std::uint32_t>(wide.leaves.size());
-    set_boxes(node, tree, children);
+    boxes.clear();
+    for (const auto c : children) boxes.push_back(tree.nodes[c].box);
+    set_boxes(node, boxes);
     wide.nodes[slot] = node;
     wide.nodes.resize(wide.nodes.size() + node.inner_count);
     for (std::size_t i = node.inner_count; i < children.size(); ++i) {

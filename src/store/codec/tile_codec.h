@@ -36,9 +36,12 @@ inline constexpr std::size_t kTileBytes = 256 << 10;
 
 [[nodiscard]] TileShape shape_of(const index::BuiltTile& tile);
 
-/// The tile's bytes, the same on every machine. In leaves of stores `ids` is the number, in the tile, of the leaf's
-/// first triangle, and id_bytes is 0; the id stream of the tile is not encoded.
-[[nodiscard]] std::vector<std::byte> encode_tile(const index::BuiltTile& tile);
+/// The tile's bytes, the same on every machine. Puts the vertices and the triangles of each leaf, and the ids with
+/// them, into the order in which decoding brings them back, and starts each triangle with the corner that decoding
+/// gives first: what `tile` then holds is decoded bit for bit, but for the ids. In leaves of stores `ids` is the
+/// number, in the tile, of the leaf's first triangle, and id_bytes is 0; the id stream of the tile is not encoded. The
+/// tile takes no more than kTileBytes.
+[[nodiscard]] std::vector<std::byte> encode_tile(index::BuiltTile& tile);
 
 /// Decodes tiles. Holds all the memory that it needs from the start; one thread at a time.
 class TileDecoder {
@@ -68,9 +71,9 @@ struct SourceNumber {
 [[nodiscard]] std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers);
 [[nodiscard]] std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::uint32_t triangles);
 
-/// The sum, modulo 2^64, of a hash of each triangle of the tile as it is stored: its corners as multiples of 2^-32 m
-/// from the scene's zero, the least corner first, orientation kept. Sums of tiles add up to that of the scene, in any
-/// order.
+/// The sum, modulo 2^64, of a hash of each triangle of the tile as it is stored: its corners as multiples of 2^-35 m
+/// from the scene's zero, modulo 2^64, orientation kept, whichever corner is first. Sums of tiles add up to that of the
+/// scene, in any order.
 [[nodiscard]] std::uint64_t geometry_hash(const index::Tile& tile, std::span<const index::Leaf> leaves,
                                           std::span<const index::FineLeaf> fine);
 
