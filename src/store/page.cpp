@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 
@@ -71,44 +72,47 @@ bool holds(const StepBox& outer, const StepBox& inner) {
   return true;
 }
 
-/// The nodes as collapse() numbers them: children after their parents, each once, in order; every box in its parent's.
+/// Children come after their parents, every node and every tile belongs to one, and every box is in its parent's.
 const char* check_tree(const PageView& view) {
   const std::size_t count = view.nodes.size();
-  std::uint32_t nodes = 1, leaves = 0;
   std::array<std::uint8_t, page_tiles> depth{};
+  std::bitset<page_tiles> nodes, tiles;
+  nodes.set(0);
   for (std::size_t i = 0; i < count; ++i) {
     const Node& node = view.nodes[i];
     if (node.child_count < 1 || node.child_count > index::kWidth || node.inner_count > node.child_count) {
       return "a node's counts are out of range";
     }
-    if (node.first_node != nodes || node.first_leaf != leaves) return "the nodes are out of order";
-    nodes += node.inner_count;
-    leaves += static_cast<std::uint32_t>(node.child_count - node.inner_count);
-    if (nodes > count || leaves > view.tiles.size()) return "the nodes are too many";
-    if (nodes <= i + 1 && i + 1 < count) return "the nodes are out of order";
-    for (std::uint32_t child = 0; child < node.inner_count; ++child) {
-      if (depth[i] >= index::kMaxDepth - 1) return "the tree is too deep";
-      depth[node.first_node + child] = static_cast<std::uint8_t>(depth[i] + 1);
+    const std::size_t inner = node.inner_count, leaves = node.child_count - inner;
+    if (leaves > view.tiles.size() || inner > count) return "a node has too many children";
+    if (inner > 0 && (node.first_node <= i || node.first_node > count - inner)) return "a node's children are no nodes";
+    if (leaves > 0 && node.first_leaf > view.tiles.size() - leaves) return "a node's children are no tiles";
+    if (inner > 0 && depth[i] >= index::kMaxDepth - 1) return "the tree is too deep";
+    for (std::size_t c = 0; c < inner; ++c) {
+      const std::size_t child = node.first_node + c;
+      if (nodes.test(child)) return "a node has two parents";
+      nodes.set(child);
+      depth[child] = static_cast<std::uint8_t>(depth[i] + 1);
+    }
+    for (std::size_t c = 0; c < leaves; ++c) {
+      if (tiles.test(node.first_leaf + c)) return "a tile has two parents";
+      tiles.set(node.first_leaf + c);
     }
     for (int k = 0; k < 3; ++k) {
       // Of 2^29 steps, and 255 of them shifted still fit.
       if (node.shift[k] > 22 || node.origin[k] < 0 || node.origin[k] > (1 << 29)) return "a node's box is out of range";
     }
   }
-  if (nodes != count || leaves != view.tiles.size()) return "the nodes are too few";
-  for (std::size_t i = 0; i < count; ++i) {
+  if (nodes.count() != count || tiles.count() != view.tiles.size()) return "a node or a tile has no parent";
+  std::array<StepBox, page_tiles> all;  // of the tiles below a node
+  for (std::size_t i = count; i-- > 0;) {
     const Node& node = view.nodes[i];
-    for (int c = 0; c < node.child_count; ++c) {
-      const StepBox box = child_box(node, c);
-      if (c >= node.inner_count) {
-        const TileEntry& tile = view.tiles[node.first_leaf + static_cast<std::uint32_t>(c - node.inner_count)];
-        if (!holds(box, view.grid.steps(box_of(tile)))) return "a tile lies outside its node";
-        continue;
-      }
-      const Node& child = view.nodes[node.first_node + static_cast<std::uint32_t>(c)];
-      for (int g = 0; g < child.child_count; ++g) {
-        if (!holds(box, child_box(child, g))) return "a node lies outside its parent";
-      }
+    for (std::uint32_t c = 0; c < node.child_count; ++c) {
+      const bool inner = c < node.inner_count;
+      const StepBox box = inner ? all[node.first_node + c]
+                                : view.grid.steps(box_of(view.tiles[node.first_leaf + (c - node.inner_count)]));
+      if (!holds(child_box(node, static_cast<int>(c)), box)) return "a tile lies outside a node that holds it";
+      all[i].include(box);
     }
   }
   return nullptr;
