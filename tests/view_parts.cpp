@@ -216,6 +216,18 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   EXPECT_TRUE(contains(error(), "there is no folder " + folder.file("gone"))) << error();
 }
 
+TEST(ViewPlan, RefusesNamesOfNoPictureAndOfNoFilm) {
+  ViewOptions options;
+  const auto error = [&] { return error_of([&] { static_cast<void>(make_plan(options, {})); }); };
+  options.screenshot = "shot.xyz";
+  EXPECT_TRUE(contains(error(), "--screenshot shot.xyz: a picture's name ends in .png, .jpg or .jpeg")) << error();
+  options.screenshot = "shot.PNG";
+  options.record = "film.avi";
+  EXPECT_TRUE(contains(error(), "--record film.avi: a film's name ends in .mp4")) << error();
+  options.record = "film.mp4";
+  EXPECT_EQ(error(), "");
+}
+
 TEST(ViewPlan, RefusesPlacesThatAreNotWritten) {
   for (const char* place : {"1,2", "1,2,3,4,5,6", "1,2,3,", "1,,3", "1,2,x"}) {
     CLI::App program;
@@ -235,6 +247,16 @@ TEST(ViewPlan, RefusesPlacesThatNoSceneReaches) {
 }
 
 // ----------------------------------------------------------------------------------------------------- bookmarks
+
+TEST(Settings, SayThatAFolderIsNoFile) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder.file("roam.json"));
+  const std::string settings = error_of([&] { static_cast<void>(read_settings(folder.file("roam.json"))); });
+  EXPECT_TRUE(contains(settings, folder.file("roam.json") + ": cannot be opened")) << settings;
+  const std::string bookmarks =
+      error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, "", "m")); });
+  EXPECT_TRUE(contains(bookmarks, folder.file("roam.json") + ": cannot be opened")) << bookmarks;
+}
 
 TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   const TestFolder folder;

@@ -23,7 +23,9 @@ Json read(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::exists(file, none)) return Json::array();
   std::ifstream in(file);
-  if (!in) throw Error(file.string() + ": cannot be opened; may you read it?");
+  if (!in || std::filesystem::is_directory(file, none)) {
+    throw Error(file.string() + ": cannot be opened; is it a file, and may you read it?");
+  }
   Json document;
   try {
     document = Json::parse(in);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <sstream>
 
 #include "exit_status.h"
@@ -105,6 +107,23 @@ struct Written {
   const char* option;
   const std::filesystem::path& file;
 };
+
+bool ends_in(const std::filesystem::path& file, std::initializer_list<const char*> extensions) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+/// Refuses names that say no kind of picture or film that can be made.
+void check_kinds(const ViewOptions& options) {
+  if (!options.screenshot.empty() && !ends_in(options.screenshot, {".png", ".jpg", ".jpeg"})) {
+    throw UsageError("--screenshot " + options.screenshot.string() + ": a picture's name ends in .png, .jpg or .jpeg");
+  }
+  if (!options.record.empty() && options.record.extension() != ".mp4") {
+    throw UsageError("--record " + options.record.string() + ": a film's name ends in .mp4");
+  }
+}
 
 /// Refuses to write over what is read or written besides, and into folders that do not exist.
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
@@ -214,6 +233,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   for (const auto& scene : options.scene.scenes) {
     if (scene.empty()) throw UsageError("view: a scene has no name: \"\"; give it a file or a folder");
   }
+  check_kinds(options);
   check_files(options, settings);
   ViewPlan plan;
   plan.walker = walker_settings(options, settings, recorded);

@@ -124,8 +124,11 @@ std::filesystem::path settings_folder() {
 }
 
 ViewSettings read_settings(const std::filesystem::path& file) {
+  std::error_code none;
   std::ifstream in(file);
-  if (!in) throw Error(file.string() + ": cannot be opened; is the path right, and may you read it?");
+  if (!in || std::filesystem::is_directory(file, none)) {
+    throw Error(file.string() + ": cannot be opened; is the path right, and may you read it?");
+  }
   json document;
   try {
     document = json::parse(in, nullptr, true, true);
