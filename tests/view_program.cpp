@@ -145,6 +145,16 @@ TEST(ViewPath, ThatIsBlockedAnswersNoAndSaysByWhat) {
   EXPECT_TRUE(contains(view.result.out, "by \"front\" (triangle ")) << view.result.out;
 }
 
+TEST(ViewPath, WithoutGroundEndsAsItDoesForWalk) {
+  View view;
+  const std::string path = view.folder.write("p.path", "40 0 0.3\n45 0 0.3\n");
+  const ProgramResult walk = run_program(ROAM_PROGRAM, {"walk", view.scene, "--path", path, "--json"});
+  view.run({"--headless", "--path", path, "--json"});
+  EXPECT_EQ(view.result.status, 3) << view.result.err;
+  EXPECT_EQ(view.json()["outcome"], nlohmann::json::parse(walk.out)["outcome"]);
+  EXPECT_EQ(view.json()["mode"], "walk");
+}
+
 TEST(ViewPath, IsRecordedAndCanBeGoneAgain) {
   View view;
   const std::string path = view.folder.write("p.path", "2 0 0.3\n18 1 0.3\n");

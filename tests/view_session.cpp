@@ -116,6 +116,14 @@ TEST(Session, ComesBackToWhereItCrouched) {
   EXPECT_LT(glm::distance(d.place(), kept), 0.05) << d.place().x << " " << d.place().z;
 }
 
+TEST(Session, TellsWhenItBeginsElsewhere) {
+  // In the wall at the front, and where there is room.
+  Driven inside(room_obj(), {20, 0, 0.95, 0});
+  EXPECT_TRUE(contains(inside.hud(), "The body does not fit at 20.00, 0.00, 0.95: it begins ")) << inside.hud();
+  Driven free(room_obj(), {10, 0, 0.95, 0});
+  EXPECT_FALSE(contains(free.hud(), "does not fit")) << free.hud();
+}
+
 TEST(Session, FliesWhereThereIsNothingToStandOn) {
   // Beside the house: at the start, and by the key.
   Driven d(room_obj(), {40, 0, 0.95, 0});

@@ -68,6 +68,7 @@ class Session {
   void place();
   void place_ghost(const std::string& why);
   void enter();
+  void tell_where_put();
   void begin_replay();
   void see_events();
   void step_taken(const StepReport& report, double seconds);

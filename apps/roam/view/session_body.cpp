@@ -77,6 +77,7 @@ void Session::place_ghost(const std::string& why) {
 
 void Session::enter() {
   go_to(*start_);
+  tell_where_put();
   const WalkerSettings& body = roamer_->settings();
   roamer_->setHomePose(start_->position + Vec3(0.0, 0.0, body.eye - 0.5 * body.height), start_->yaw * degree,
                        start_->pitch * degree);
@@ -92,14 +93,28 @@ void Session::enter() {
   }
 }
 
+/// Somebody who asked for a place is told when the body does not fit there and begins elsewhere.
+void Session::tell_where_put() {
+  if (!plan_.at || ghost_only_ || roamer_->walker() == nullptr || roamer_->held()) return;
+  const WalkerSettings& body = roamer_->settings();
+  // Whoever crouches has the feet where they would be otherwise.
+  const Vec3 asked = plan_.at->position - Vec3(0.0, 0.0, 0.5 * body.height);
+  const double apart = glm::distance(roamer_->walker()->feet(), asked);
+  if (apart < 0.5 * body.radius) return;
+  const Vec3& at = plan_.at->position;
+  note(fmt::format("The body does not fit at {:.2f}, {:.2f}, {:.2f}: it begins {:.2f} m away.", at.x, at.y, at.z,
+                   apart));
+}
+
 void Session::begin_replay() {
   RouteOptions route;
   route.speed = plan_.walker.speed;
   route.dt = options_.dt;
   replay_.emplace(*roamer_->walker(), path_, route);
+  // The pilot first: whether there is something to stand on is the path's to find out, as in `roam walk`.
+  roamer_->setPilot([this](Walker&, double) { return replay_->advance(); });
   roamer_->placed();
   look_along_path(0.0);
-  roamer_->setPilot([this](Walker&, double) { return replay_->advance(); });
 }
 
 void Session::look_along_path(double seconds) {
