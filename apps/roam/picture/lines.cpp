@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "corners.h"
+
 namespace roam::app::picture {
 namespace {
 
@@ -86,37 +88,16 @@ class Network {
   std::vector<End> ends_;
 };
 
-double distance_to(const Point& p, const Point& a, const Point& b) {
-  const Point d = b - a;
-  const double square = glm::dot(d, d);
-  const double t = square > 0.0 ? std::clamp(glm::dot(p - a, d) / square, 0.0, 1.0) : 0.0;
-  return glm::distance(p, a + t * d);
-}
-
 }  // namespace
 
 Polyline simplified(const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   std::vector<char> keep(line.size(), 0);
-  keep.front() = keep.back() = 1;
-  std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
-  while (!open.empty()) {
-    const auto [from, to] = open.back();
-    open.pop_back();
-    double worst = tolerance;
-    std::size_t at = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const double d = distance_to(line[i], line[from], line[to]);
-      if (d > worst) {
-        worst = d;
-        at = i;
-      }
-    }
-    if (at == from) continue;
-    keep[at] = 1;
-    open.emplace_back(from, at);
-    open.emplace_back(at, to);
-  }
+  const auto deviation = [&line](std::size_t i, std::size_t from, std::size_t to) {
+    const Point &a = line[from], &b = line[to];
+    return glm::distance(line[i], a + nearest_part(line[i], a, b) * (b - a));
+  };
+  keep_corners(0, line.size() - 1, tolerance, deviation, keep);
   Polyline result;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (keep[i]) result.push_back(line[i]);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "corners.h"
+
 namespace roam::app::picture {
 namespace {
 
@@ -10,35 +12,9 @@ double plan_distance(const Vec3& a, const Vec3& b) { return std::hypot(b.x - a.x
 
 /// How far a place lies from the straight piece a-b, its height counted as a fourth coordinate.
 double deviation(const Place& p, const Place& a, const Place& b) {
-  const Vec3 d = b.position - a.position;
-  const double square = glm::dot(d, d);
-  const double t = square > 0.0 ? std::clamp(glm::dot(p.position - a.position, d) / square, 0.0, 1.0) : 0.0;
+  const double t = nearest_part(p.position, a.position, b.position);
   const double height = std::abs(p.height - (a.height + t * (b.height - a.height)));
-  return std::max(glm::distance(p.position, a.position + t * d), height);
-}
-
-/// Marks the places of [first, last] that must stay (Douglas and Peucker, 1973).
-void keep_corners(const std::vector<Place>& places, std::size_t first, std::size_t last, double tolerance,
-                  std::vector<char>& keep) {
-  std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
-  keep[first] = keep[last] = 1;
-  while (!open.empty()) {
-    const auto [from, to] = open.back();
-    open.pop_back();
-    double worst = tolerance;
-    std::size_t at = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const double d = deviation(places[i], places[from], places[to]);
-      if (d > worst) {
-        worst = d;
-        at = i;
-      }
-    }
-    if (at == from) continue;
-    keep[at] = 1;
-    open.emplace_back(from, at);
-    open.emplace_back(at, to);
-  }
+  return std::max(glm::distance(p.position, a.position + t * (b.position - a.position)), height);
 }
 
 }  // namespace
@@ -63,10 +39,13 @@ void append(Record& record, const StepReport& report, bool is_start) {
 Way simplified(const Record& record, double tolerance) {
   const auto& places = record.places;
   std::vector<char> keep(places.size(), 0);
+  const auto deviation_of = [&places](std::size_t i, std::size_t from, std::size_t to) {
+    return deviation(places[i], places[from], places[to]);
+  };
   for (std::size_t first = 0; first < places.size();) {
     std::size_t last = first;
     while (last + 1 < places.size() && !places[last + 1].teleport) ++last;
-    keep_corners(places, first, last, tolerance, keep);
+    keep_corners(first, last, tolerance, deviation_of, keep);
     first = last + 1;
   }
 
