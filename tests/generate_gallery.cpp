@@ -38,7 +38,7 @@ double along(const Path& path, const Vec3& p) {
 
 TEST(GenerateGallery, MeetsTheAskedNumberWithinThreePerCent) {
   for (const std::uint64_t asked : {10'000u, 10'007u, 14'000u, 25'000u, 39'999u, 60'000u, 200'000u, 500'000u,
-                                    1'500'000u, 5'000'000u, 20'000'000u, 100'000'000u}) {
+                                    1'500'000u, 5'000'000u, 20'000'000u, 103'000'000u, 1'000'000'000u}) {
     const double made = static_cast<double>(gallery({.triangles = asked}).triangles());
     EXPECT_NEAR(made / static_cast<double>(asked), 1.0, 0.03) << asked;
   }
@@ -230,7 +230,7 @@ TEST(GenerateGallery, TheOriginMovesEverything) {
 
 TEST(GenerateGallery, RefusesWhatItCannotMake) {
   EXPECT_THROW((void)gallery({.triangles = 9'999}), Error);
-  EXPECT_THROW((void)gallery({.triangles = 100'000'001}), Error);
+  EXPECT_THROW((void)gallery({.triangles = most_triangles + 1}), Error);
   EXPECT_THROW((void)gallery({.origin = {std::nan(""), 0.0, 0.0}}), Error);
   EXPECT_THROW((void)gallery({.origin = {0.0, 2e7, 0.0}}), Error);
 }

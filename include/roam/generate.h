@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scenes made to measure: the paper's dam gallery, a terrain, a city; from 10 thousand to 100 million triangles.
+/// Scenes made to measure: the paper's dam gallery, a terrain, a city; from 10 thousand to a thousand million triangles.
 ///
 ///     const auto gallery = roam::generate::gallery({.triangles = 500'000, .seed = 1});
 ///     roam::generate::write_scene(gallery, "gallery.ply");           // streamed: memory stays bounded
@@ -35,7 +35,7 @@ namespace roam::generate {
 
 /// Fewest and most triangles that may be asked for. What is made differs from what is asked by 3 % at most.
 inline constexpr std::uint64_t least_triangles = 10'000;
-inline constexpr std::uint64_t most_triangles = 100'000'000;
+inline constexpr std::uint64_t most_triangles = 1'000'000'000;
 /// Largest number of triangles in one mesh that a scene hands out.
 inline constexpr std::uint64_t piece_triangles = 65'536;
 /// Largest absolute value of each coordinate of an origin, in metres.
