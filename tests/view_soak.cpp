@@ -92,8 +92,8 @@ class Person {
   std::mt19937 random_{7};
 };
 
-void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool drawn) {
-  const TestFolder folder;
+/// Small, without a screen, and in a hurry.
+ViewOptions options_for(const std::vector<std::filesystem::path>& scenes, const TestFolder& folder) {
   use_no_settings(folder);
   setenv("ROAM_READER", ROAM_READER_PROGRAM, 1);
   ViewOptions options;
@@ -102,6 +102,12 @@ void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool d
   options.size = "160x100";
   options.time_limit = 1e9;
   options.speed = 30.0;
+  return options;
+}
+
+void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool drawn) {
+  const TestFolder folder;
+  const ViewOptions options = options_for(scenes, folder);
   const ViewPlan plan = make_plan(options, {});
   Session session(options, plan, {});
   while (!session.roaming()) ASSERT_TRUE(session.frame());
@@ -155,6 +161,22 @@ TEST(Soak, DrawnOnTheGallery) {
 TEST(Soak, DrawnOnThePitWhilePagesComeAndGo) {
   ROAM_NEEDS_TEST_DATA();
   soak({(roam::test::test_data() / "pit_osgb").string()}, number_from("ROAM_SOAK_DRAWN", 0.05) / 60.0, true);
+}
+
+// Says most under a sanitizer: what reads pages must not be taken away from the pager while it reads.
+TEST(Soak, ClosedAgainAndAgainWhilePagesCome) {
+  ROAM_NEEDS_TEST_DATA();
+  const TestFolder folder;
+  const ViewOptions options = options_for({(roam::test::test_data() / "pit_osgb").string()}, folder);
+  for (int frames = 1; frames <= 8; ++frames) {
+    Session session(options, make_plan(options, {}), {});
+    while (!session.roaming()) ASSERT_TRUE(session.frame());
+    // Few enough that the pager still reads what they ask for.
+    for (int i = 0; i < frames; ++i) {
+      ASSERT_TRUE(session.frame());
+      session.stage().draw(static_cast<double>(i) / 60.0);
+    }
+  }
 }
 
 }  // namespace

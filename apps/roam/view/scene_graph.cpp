@@ -59,7 +59,11 @@ SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, const Scen
   }
 }
 
-SceneGraph::~SceneGraph() { osgDB::Registry::instance()->setReadFileCallback(nullptr); }
+SceneGraph::~SceneGraph() {
+  // Its threads may be reading by the callback that goes now.
+  if (osgDB::DatabasePager* pager = viewer_.getDatabasePager()) pager->cancel();
+  osgDB::Registry::instance()->setReadFileCallback(nullptr);
+}
 
 void SceneGraph::attach(DisplayNode&& piece) {
   if (pieces_++ == 0) origin_ = piece.origin;
