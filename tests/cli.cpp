@@ -31,6 +31,15 @@ TEST(CommandLine, ExplainsEveryVerbWithExamples) {
   }
 }
 
+TEST(CommandLine, SaysSoWhenWhatItExplainsCannotBeWritten) {
+  for (const char* asked : {"--help", "walk --help", "--version"}) {
+    const ProgramResult result =
+        run_program("/bin/sh", {"-c", std::string("exec \"$0\" ") + asked + " > /dev/full", ROAM_PROGRAM});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.err, "cannot write the result: No space left on device")) << result.err;
+  }
+}
+
 TEST(CommandLine, NamesTheUnknownOptionAndWhereToLook) {
   const ProgramResult result = roam({"walk", "scene.obj", "--path", "a.path", "--radis", "0.3"});
   EXPECT_EQ(result.status, 2);

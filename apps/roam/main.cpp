@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <iostream>
 #include <new>
+#include <sstream>
 
 #include "interrupt.h"
+#include "report.h"
 #include "roam/error.h"
 #include "verbs.h"
 
@@ -52,10 +53,15 @@ int run(int argc, char** argv) {
   add_sweep(program, chosen);
   add_info(program, chosen);
   add_make(program, chosen);
+  add_build(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? done : bad_usage;
+    // Help and version are results like others: written whole, or it is said that they are not.
+    std::ostringstream told;
+    const bool wanted = program.exit(error, told) == 0;
+    if (wanted) print(told.str());
+    return wanted ? done : bad_usage;
   }
   return chosen();
 }
@@ -65,9 +71,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   catch_signals();
   try {
-    const int status = run(argc, argv);
-    std::cout.flush();
-    return status;
+    return run(argc, argv);
   } catch (const UsageError& error) {
     fmt::print(stderr, "roam: {}\n", error.what());
     return bad_usage;
