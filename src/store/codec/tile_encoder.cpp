@@ -1,30 +1,329 @@
 #include <zstd.h>
 
+#include <algorithm>
+#include <cassert>
+#include <memory>
+
 #include "roam/error.h"
-#include "store/codec/tile_codec.h"
-#include "store/codec/tree_shape.h"
+#include "store/codec/front.h"
+#include "store/codec/magnitude.h"
+#include "store/codec/streams.h"
 
 namespace roam::store {
+namespace {
+
+using index::kWidth;
+using Place = std::array<std::uint32_t, 3>;
+
+/// The numbers of the vertices seen so far, by place.
+class VertexTable {
+ public:
+  explicit VertexTable(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices), kNoVertex) {}
+
+  /// Where the number of this place is, or is to be written.
+  std::uint16_t& find(const Place& at, const FrontVertex* vertices) {
+    std::uint64_t h = (at[0] * 0x9e3779b97f4a7c15U) ^ (at[1] * 0xc2b2ae3d27d4eb4fU) ^ (at[2] * 0x165667b19e3779f9U);
+    for (h ^= h >> 29U;; ++h) {
+      std::uint16_t& slot = slots_[h & (slots_.size() - 1)];
+      if (slot == kNoVertex || vertices[slot].at == at) return slot;
+    }
+  }
+
+ private:
+  std::vector<std::uint16_t> slots_;
+};
+
+/// A leaf of the builder, to be put in another order.
+struct Source {
+  int triangles = 0;
+  std::uint32_t undone = 0;                                 ///< a bit a triangle
+  std::array<std::array<std::uint8_t, 3>, kWidth> corners;  ///< slots
+  std::array<Place, kWidth> places;
+  std::array<std::uint16_t, kWidth> numbers;  ///< of the vertices, kNoVertex for those not seen before
+  std::array<std::array<std::uint8_t, kWidth>, kWidth> beyond;  ///< the triangle with an edge from .. to, kWidth: none
+};
+
+class TileEncoder {
+ public:
+  explicit TileEncoder(index::BuiltTile& tile)
+      : tile_(tile),
+        fine_(tile.tile.fine),
+        vertices_(std::make_unique_for_overwrite<FrontVertex[]>(tile.leaves.size() * kWidth)),
+        table_(tile.leaves.size() * kWidth),
+        growth_(vertices_.get()) {}
+
+  std::vector<std::byte> run() {
+    visit_depth_first(tile_.nodes, 0, [&](const index::Node& n) { put(kTree, node_letter(n)); });
+    for (std::uint32_t i = 0; i < tile_.leaves.size(); ++i) encode_leaf(i);
+    while (apexes_ % 3 != 0) put_apex(Apex::none);
+    return pack();
+  }
+
+ private:
+  void put(int stream, std::uint32_t letter) { streams_[stream].push_back(std::byte(letter)); }
+
+  void put_apex(Apex apex) {
+    static constexpr std::array<unsigned, 3> factors{1, kApexes, kApexes * kApexes};
+    auto& letters = streams_[kGates];
+    if (apexes_ % 3 == 0) letters.push_back(std::byte{0});
+    letters.back() = std::byte(std::to_integer<unsigned>(letters.back()) + unsigned(apex) * factors[apexes_ % 3]);
+    ++apexes_;
+  }
+
+  void put_magnitude(int stream, std::uint32_t first_letter, std::uint32_t number) {
+    const std::uint32_t c = class_of(number);
+    put(stream, first_letter + c);
+    bits_.put(number - base_of(c), bits_of(c));
+  }
+
+  void read(std::uint32_t i, Source& s) {
+    const index::Leaf& leaf = tile_.leaves[i];
+    s.triangles = leaf.triangle_count;
+    s.undone = (1U << s.triangles) - 1;
+    for (auto& row : s.beyond) row.fill(kWidth);
+    std::uint32_t used = 0;
+    for (int t = s.triangles; t-- > 0;) {
+      for (int c = 0; c < 3; ++c) s.corners[t][c] = static_cast<std::uint8_t>(leaf.vertex_of(c, t));
+      for (int c = 0; c < 3; ++c) {
+        s.beyond[s.corners[t][c]][s.corners[t][(c + 1) % 3]] = static_cast<std::uint8_t>(t);
+        used |= 1U << s.corners[t][c];
+      }
+    }
+    for (int v = 0; v < kWidth; ++v) {
+      if ((used >> v & 1U) == 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        s.places[v][k] = leaf.vertex[k][v];
+        if (fine_) {
+          s.places[v][k] = (s.places[v][k] << 16U) + static_cast<std::uint32_t>(tile_.fine_leaves[i].vertex[k][v]) +
+                           std::uint32_t{1U << 15U};
+        }
+      }
+      s.numbers[v] = table_.find(s.places[v], vertices_.get());
+    }
+  }
+
+  void encode_leaf(std::uint32_t i) {
+    Source s;
+    read(i, s);
+    index::Leaf& old = tile_.leaves[i];
+    index::Leaf leaf{};
+    leaf.id_bytes = old.id_bytes;
+    leaf.ids = old.ids;
+    growth_.begin(i, leaf, fine_ ? &tile_.fine_leaves[i] : nullptr);
+    put(kCounts, static_cast<std::uint32_t>(s.triangles) - 1);
+    std::array<std::uint8_t, kWidth> order{};
+    while (growth_.triangles() < s.triangles) {
+      Gate gate;
+      int t = 0;
+      if (growth_.pop(gate)) {
+        t = triangle_beyond(s, gate);
+        if (t == kWidth) {
+          put_apex(Apex::none);
+          continue;
+        }
+        put_apex(pass(s, t, gate));
+        finish_apex(s, t, gate);
+      } else {
+        t = seed(s);
+      }
+      order[growth_.triangles() - 1] = static_cast<std::uint8_t>(t);
+      s.undone &= ~(1U << t);
+    }
+    fine_ ? growth_.finish<true>() : growth_.finish<false>();
+    reorder_ids(old, {order.data(), static_cast<std::size_t>(s.triangles)});
+    old = leaf;
+  }
+
+  /// The slot of the source that holds a vertex, kWidth: none.
+  static int slot_of(const Source& s, std::uint16_t vertex) {
+    const auto* const found = std::find(s.numbers.begin(), s.numbers.end(), vertex);
+    return static_cast<int>(found - s.numbers.begin());
+  }
+
+  static int triangle_beyond(const Source& s, const Gate& gate) {
+    const int from = slot_of(s, gate.from), to = slot_of(s, gate.to);
+    if (from == kWidth || to == kWidth) return kWidth;
+    const int t = s.beyond[to][from];
+    return t < kWidth && (s.undone >> t & 1U) != 0 ? t : kWidth;
+  }
+
+  /// The slot of the corner of a triangle that is none of a gate's.
+  static int apex_slot(const Source& s, int t, const Gate& gate) {
+    for (int c = 0; c < 3; ++c) {
+      const int a = s.corners[t][c], b = s.corners[t][(c + 1) % 3];
+      if (s.numbers[a] == gate.to && s.numbers[b] == gate.from) return s.corners[t][(c + 2) % 3];
+    }
+    return kWidth;
+  }
+
+  /// How the third corner of the triangle beyond a gate is named.
+  Apex pass(const Source& s, int t, const Gate& gate) {
+    const std::uint16_t apex = s.numbers[apex_slot(s, t, gate)];
+    if (apex == kNoVertex) return Apex::fresh;
+    if (apex == vertices_[gate.to].next) return Apex::next;
+    if (apex == vertices_[gate.from].previous) return Apex::previous;
+    return Apex::other;
+  }
+
+  void finish_apex(Source& s, int t, const Gate& gate) {
+    const Apex how = pass(s, t, gate);
+    const int slot = apex_slot(s, t, gate);
+    if (how == Apex::fresh) {
+      const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
+      Place near;
+      for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
+      put_fresh(s, slot, kGateX, near);
+    } else if (how == Apex::other) {
+      put_name(s.numbers[slot]);
+    }
+    growth_.add(gate.to, gate.from, s.numbers[slot]);
+  }
+
+  /// A triangle that no gate of the leaf leads to. Returns which.
+  int seed(Source& s) {
+    int best = kWidth;
+    Gate gate{};
+    int age = INT32_MAX;
+    for (int t = 0; t < s.triangles; ++t) {
+      if ((s.undone >> t & 1U) == 0) continue;
+      for (int c = 0; c < 3; ++c) {
+        const std::uint16_t to = s.numbers[s.corners[t][c]], from = s.numbers[s.corners[t][(c + 1) % 3]];
+        if (to == kNoVertex || from == kNoVertex || vertices_[from].next != to || count_ - from >= age) continue;
+        age = count_ - from;
+        gate = {from, to};
+        best = t;
+      }
+    }
+    if (best < kWidth) {
+      put(kSeeds, static_cast<std::uint32_t>(pass(s, best, gate)) - 1);
+      put_name(gate.from);
+      finish_apex(s, best, gate);
+      return best;
+    }
+    // None touches the front: the one with most known corners, those first.
+    std::uint32_t least = UINT32_MAX;
+    int first = 0;
+    for (int t = 0; t < s.triangles; ++t) {
+      if ((s.undone >> t & 1U) == 0) continue;
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t fresh = fresh_corners(s, t, c);
+        if (fresh >= least) continue;
+        least = fresh;
+        best = t;
+        first = c;
+      }
+    }
+    put_free(s, best, first);
+    return best;
+  }
+
+  /// The number of corners not seen before, then which, as a number that is less the later they come.
+  static std::uint32_t fresh_corners(const Source& s, int t, int first) {
+    std::uint32_t count = 0, which = 0;
+    for (int c = 0; c < 3; ++c) {
+      const bool fresh = s.numbers[s.corners[t][(first + c) % 3]] == kNoVertex;
+      count += fresh ? 1 : 0;
+      which |= fresh ? 4U >> c : 0U;
+    }
+    return count << 3U | which;
+  }
+
+  void put_free(Source& s, int t, int first) {
+    const std::size_t letter = streams_[kSeeds].size();
+    put(kSeeds, 0);
+    std::uint32_t mask = 0;
+    std::array<std::uint16_t, 3> corners;
+    for (int c = 0; c < 3; ++c) {
+      const int slot = s.corners[t][(first + c) % 3];
+      if (s.numbers[slot] == kNoVertex) {
+        mask |= 1U << c;
+        put_fresh(s, slot, kFreeX, last_);
+      } else {
+        put_name(s.numbers[slot]);
+      }
+      corners[c] = s.numbers[slot];
+      last_ = vertices_[corners[c]].at;
+    }
+    streams_[kSeeds][letter] = std::byte(kFreeSeed + mask);
+    growth_.add(corners[0], corners[1], corners[2]);
+  }
+
+  void put_fresh(Source& s, int slot, int stream, const Place& near) {
+    const Place& at = s.places[slot];
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t difference = at[k] - near[k];
+      if (!fine_) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
+      put_magnitude(stream + k, 0, zigzag(difference));
+    }
+    // Before it counts as seen: the table finds the free slot of its place.
+    std::uint16_t& number = table_.find(at, vertices_.get());
+    number = static_cast<std::uint16_t>(count_);
+    s.numbers[slot] = number;
+    vertices_[count_++] = {at, kNoVertex, kNoVertex, kNoVertex, kNoVertex};
+  }
+
+  void put_name(std::uint16_t vertex) {
+    if (vertices_[vertex].place / kWidth == growth_.number()) {
+      put(kNames, vertices_[vertex].place % kWidth);
+    } else {
+      put_magnitude(kNames, kAgeName, static_cast<std::uint32_t>(count_ - 1 - vertex));
+    }
+  }
+
+  /// The ids of a leaf after its triangles have been put into this order.
+  void reorder_ids(const index::Leaf& leaf, std::span<const std::uint8_t> order) {
+    std::array<std::uint8_t, std::size_t{4} * kWidth> ids;
+    std::uint8_t* at = tile_.ids.data() + leaf.ids + 4;
+    std::copy_n(at, leaf.id_bytes * order.size(), ids.begin());
+    for (const std::uint8_t t : order) at = std::copy_n(ids.begin() + t * leaf.id_bytes, leaf.id_bytes, at);
+  }
+
+  std::vector<std::byte> pack() {
+    streams_[kBits] = bits_.finish();
+    std::vector<std::byte> coded;
+    std::size_t total = 0;
+    for (const auto& stream : streams_) total += stream.size();
+    for (const int s : {kGates, kSeeds, kNames, kGateX, kFreeX, kBits}) {
+      std::size_t size = streams_[s].size();
+      for (; size > 127; size >>= 7U) coded.push_back(std::byte((size & 127U) | 128U));
+      coded.push_back(std::byte(size));
+    }
+    const std::size_t begin = coded.size();
+    coded.resize(begin + ZSTD_compressBound(total) + 64 * kStreams);
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kLevel);
+    ZSTD_CCtx_setPledgedSrcSize(zstd.get(), total);
+    ZSTD_outBuffer out{coded.data() + begin, coded.size() - begin, 0};
+    for (int s = 0; s < kStreams; ++s) {
+      // A block of its own for each stream, so that each has its own code.
+      ZSTD_inBuffer in{streams_[s].data(), streams_[s].size(), 0};
+      const std::size_t left =
+          ZSTD_compressStream2(zstd.get(), &out, &in, s + 1 < kStreams ? ZSTD_e_flush : ZSTD_e_end);
+      if (left != 0) throw Error(std::string("cannot compress a tile: ") + ZSTD_getErrorName(left));
+    }
+    coded.resize(begin + out.pos);
+    return coded;
+  }
+
+  static constexpr int kLevel = 3;
+
+  index::BuiltTile& tile_;
+  bool fine_;
+  std::unique_ptr<FrontVertex[]> vertices_;
+  VertexTable table_;
+  Growth growth_;
+  int count_ = 0;  ///< of vertices
+  std::size_t apexes_ = 0;
+  Place last_{};
+  BitWriter bits_;
+  std::array<std::vector<std::byte>, kStreams> streams_;
+};
+
+}  // namespace
 
 std::vector<std::byte> encode_tile(index::BuiltTile& tile) {
-  std::vector<std::byte> raw;
-  const auto put = [&raw](const auto& value) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    raw.insert(raw.end(), bytes, bytes + sizeof(value));
-  };
-  visit_depth_first(tile.nodes, 0, [&](const index::Node& n) { put(node_counts(n)); });
-  for (std::size_t i = 0; i < tile.leaves.size(); ++i) {
-    const index::Leaf& leaf = tile.leaves[i];
-    put(leaf.vertex);
-    put(leaf.corner);
-    put(leaf.triangle_count);
-    if (tile.tile.fine) put(tile.fine_leaves[i]);
-  }
-  std::vector<std::byte> coded(ZSTD_compressBound(raw.size()));
-  const std::size_t size = ZSTD_compress(coded.data(), coded.size(), raw.data(), raw.size(), 3);
-  if (ZSTD_isError(size) != 0) throw Error("cannot compress a tile: " + std::string(ZSTD_getErrorName(size)));
-  coded.resize(size);
-  return coded;
+  assert(shape_of(tile).bytes() <= kTileBytes);
+  return TileEncoder(tile).run();
 }
 
 }  // namespace roam::store

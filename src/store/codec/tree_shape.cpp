@@ -11,16 +11,35 @@ using index::Leaf;
 using index::Node;
 using index::StepBox;
 
-const char* TreeBuilder::topology(std::span<const std::uint16_t> counts, std::span<Node> nodes, std::size_t leaves) {
+namespace {
+
+struct Counts {
+  std::uint8_t children, inner;
+};
+constexpr auto counts_of_letters() {
+  std::array<Counts, kWidth*(kWidth + 3) / 2> table{};
+  std::size_t letter = 0;
+  for (std::uint8_t children = 1; children <= kWidth; ++children) {
+    for (std::uint8_t inner = 0; inner <= children; ++inner) table[letter++] = {children, inner};
+  }
+  return table;
+}
+constexpr auto kCountsOfLetters = counts_of_letters();
+
+}  // namespace
+
+const char* TreeBuilder::topology(std::span<const std::byte> letters, std::span<Node> nodes, std::size_t leaves) {
   std::size_t next_node = 1, next_leaf = 0, open = 1;
   open_[0] = 0;
   depth_[0] = 0;
-  for (const std::uint16_t c : counts) {
+  for (const std::byte letter : letters) {
     if (open == 0) return "its tree ends early";
     const std::uint16_t at = open_[--open];
     const std::uint8_t depth = depth_[at];
-    const std::uint32_t children = (c & 15U) + 1, inner = c >> 4U;
-    if (inner > children || next_node + inner > nodes.size() || next_leaf + children - inner > leaves) {
+    const auto number = std::to_integer<std::size_t>(letter);
+    if (number >= kCountsOfLetters.size()) return "a node has a wrong number of children";
+    const std::uint32_t children = kCountsOfLetters[number].children, inner = kCountsOfLetters[number].inner;
+    if (next_node + inner > nodes.size() || next_leaf + children - inner > leaves) {
       return "its tree has more children than it has room for";
     }
     if (inner > 0 && depth >= index::kMaxDepth) return "its tree is too deep";

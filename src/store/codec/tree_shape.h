@@ -16,18 +16,19 @@ namespace roam::store {
 /// A tile has fewer blocks than this.
 inline constexpr std::size_t kTileBlocks = kTileBytes / sizeof(index::Block);
 
-/// The counts of a node as one number: children - 1 in the low four bits, inner children above.
-[[nodiscard]] inline std::uint16_t node_counts(const index::Node& node) {
-  return static_cast<std::uint16_t>((node.child_count - 1) | node.inner_count << 4);
+/// The counts of a node as one letter: pairs (children, inner children) numbered through.
+[[nodiscard]] inline std::uint8_t node_letter(const index::Node& node) {
+  const unsigned c = node.child_count;
+  return static_cast<std::uint8_t>(c * (c + 1) / 2 - 1 + node.inner_count);
 }
 
 /// What is needed to make nodes again; its memory is used over and over.
 class TreeBuilder {
  public:
   /// Makes the nodes, all but their boxes. They come as collapse() makes them: node after node, depth first, takes the
-  /// next numbers for its inner children and for its leaves. Returns null, or why these counts are no tree of exactly
-  /// so many nodes and leaves, no deeper than index::kMaxDepth.
-  [[nodiscard]] const char* topology(std::span<const std::uint16_t> counts, std::span<index::Node> nodes,
+  /// next numbers for its inner children and for its leaves. Returns null, or why these letters are no tree of exactly
+  /// as many nodes and leaves, no deeper than index::kMaxDepth.
+  [[nodiscard]] const char* topology(std::span<const std::byte> letters, std::span<index::Node> nodes,
                                      std::size_t leaves);
 
   /// Sets the boxes of the nodes; children come after their parents.

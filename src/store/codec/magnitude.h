@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// Whole numbers as a class, which an entropy coder can take for a letter, and bits that no coder would shorten.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace roam::store {
+
+/// Numbers below kOwnClass are classes of their own. Above, each power of two is divided into four classes, and the
+/// rest of the number follows as it is: within a class all numbers are about equally frequent.
+inline constexpr std::uint32_t kOwnClass = 8;
+inline constexpr std::uint32_t kClasses = kOwnClass + (32 - 3) * 4;
+
+[[nodiscard]] inline std::uint32_t class_of(std::uint32_t number) {
+  if (number < kOwnClass) return number;
+  const auto top = static_cast<std::uint32_t>(std::bit_width(number)) - 1;
+  return kOwnClass + (top - 3) * 4 + (number >> (top - 2) & 3U);
+}
+/// How many bits follow.
+[[nodiscard]] inline std::uint32_t bits_of(std::uint32_t c) { return c < kOwnClass ? 0 : (c - kOwnClass) / 4 + 1; }
+/// The least number of a class.
+[[nodiscard]] inline std::uint32_t base_of(std::uint32_t c) {
+  return c < kOwnClass ? c : (4 + (c & 3U)) << ((c - kOwnClass) / 4 + 1);
+}
+
+/// Differences, small of either sign, as small numbers. Differences of 16 bits are extended to 32 first.
+[[nodiscard]] inline std::uint32_t zigzag(std::uint32_t difference) {
+  return difference << 1U ^ (0U - (difference >> 31U));
+}
+[[nodiscard]] inline std::uint32_t unzigzag(std::uint32_t number) { return number >> 1U ^ (0U - (number & 1U)); }
+
+/// Bits one after the other, the lowest of a byte first.
+class BitWriter {
+ public:
+  void put(std::uint32_t value, std::uint32_t bits) {
+    pending_ |= std::uint64_t{value} << count_;
+    for (count_ += bits; count_ >= 8; count_ -= 8, pending_ >>= 8U) bytes_.push_back(std::byte(pending_ & 255U));
+  }
+  [[nodiscard]] std::vector<std::byte> finish() {
+    if (count_ > 0) bytes_.push_back(std::byte(pending_));
+    return std::move(bytes_);
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::uint64_t pending_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+/// Reads them back. Does not look for the end: whoever reads leaves room behind it and asks within() in time.
+class BitReader {
+ public:
+  BitReader(const std::byte* bytes, std::size_t size) : bytes_(bytes), end_(8 * size) {}
+  /// bits is at most 32.
+  std::uint32_t get(std::uint32_t bits) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes_ + at_ / 8, sizeof(word));
+    const std::uint64_t value = word >> (at_ % 8) & ((std::uint64_t{1} << bits) - 1);
+    at_ += bits;
+    return static_cast<std::uint32_t>(value);
+  }
+  [[nodiscard]] bool within() const { return at_ <= end_; }
+  /// At the end but for the bits that fill the last byte.
+  [[nodiscard]] bool finished() const { return (at_ + 7) / 8 == end_ / 8; }
+
+ private:
+  const std::byte* bytes_;
+  std::size_t at_ = 0, end_;
+};
+
+}  // namespace roam::store

@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What the bytes of a tile hold: numbers of variable length, then one Zstandard frame of streams.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "store/codec/tree_shape.h"
+
+namespace roam::store {
+
+/// The streams of letters, a byte each, in their order in the frame.
+enum Stream : std::uint8_t {
+  kTree,    ///< a letter a node: its counts
+  kCounts,  ///< a letter a leaf: triangles - 1
+  kGates,   ///< three Apex a letter
+  kSeeds,   ///< a letter for each triangle without a gate in its leaf: how it is named
+  kNames,   ///< of vertices that are named by slot or age
+  kGateX,   ///< classes of differences between a vertex and its prediction beyond a gate
+  kGateY,
+  kGateZ,
+  kFreeX,  ///< the same from the vertex named before
+  kFreeY,
+  kFreeZ,
+  kBits,  ///< what follows the classes
+  kStreams
+};
+
+/// How many letters there are, in the order of the numbers before the frame. Those of tree and leaves are known.
+struct StreamSizes {
+  std::uint32_t gates = 0;  ///< letters, not Apex
+  std::uint32_t seeds = 0;
+  std::uint32_t names = 0;
+  std::uint32_t gate_vertices = 0;
+  std::uint32_t free_vertices = 0;
+  std::uint32_t bits = 0;  ///< bytes
+};
+
+/// Letters of kSeeds: a triangle beyond a gate of an earlier leaf, by its Apex - 1; from kFreeSeed the corners of a
+/// triangle one by one, plus 1, 2, 4 for those not seen before.
+inline constexpr std::uint8_t kFreeSeed = kApexes - 1;
+inline constexpr std::uint8_t kSeedLetters = kFreeSeed + 8;
+
+/// Letters of kNames below kWidth: the slot in the leaf. Above: the class of the age, 0 for the newest vertex.
+inline constexpr std::uint8_t kAgeName = index::kWidth;
+
+/// A tile's vertices are counted in 15 bits, its leaves' slots too.
+inline constexpr std::size_t kTileVertices = kTileBlocks * index::kWidth;
+
+}  // namespace roam::store
