@@ -14,3 +14,9 @@ mark_as_advanced(ROAM_CCACHE)
 if(ROAM_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ROAM_CCACHE})
 endif()
+
+# Programs under the thread sanitizer know what it must overlook in libraries that were built without it.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*thread")
+  add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)
+  link_libraries($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:roam_sanitizer>)
+endif()
