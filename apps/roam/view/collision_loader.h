@@ -2,17 +2,16 @@
 /// \file
 /// Loads what a body collides with, beside the thread that draws.
 
-#include <atomic>
+#include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <thread>
+#include <vector>
 
 #include "roam/import.h"
 #include "roam/world.h"
 #include "scene_options.h"
+#include "view/loading.h"
 #include "view/start.h"
-#include "view/status.h"
 
 namespace roam::app {
 
@@ -36,31 +35,24 @@ struct CollisionWish {
 class CollisionLoader {
  public:
   CollisionLoader(const SceneOptions& scene, const CollisionWish& wish);
-  /// Ends what runs, the reader's process too, and waits for that: a fraction of a second.
-  ~CollisionLoader();
-  CollisionLoader(const CollisionLoader&) = delete;
-  CollisionLoader& operator=(const CollisionLoader&) = delete;
 
-  /// Lets what runs come to its end; does not wait for that.
-  void cancel() { cancelled_ = true; }
+  /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
+  /// fraction of a second.
+  void cancel() { loading_.cancel(); }
   /// How far it is; from any thread.
-  [[nodiscard]] LoadState state() const;
+  [[nodiscard]] LoadState state() const { return loading_.state(); }
   /// What was loaded, once, when it is done; else nothing.
   [[nodiscard]] std::optional<Collision> take();
 
  private:
-  void run();
   void load();
   void set(LoadState::Phase phase, double share, std::uint64_t triangles);
 
   SceneOptions scene_;
   CollisionWish wish_;
-  std::atomic<bool> cancelled_ = false;
-  mutable std::mutex mutex_;
-  LoadState state_;
   std::optional<Collision> loaded_;
   std::chrono::steady_clock::time_point phase_start_;
-  std::thread thread_;
+  Loading loading_;
 };
 
 /// The options of import_scene and read_display that follow from those of the command line.

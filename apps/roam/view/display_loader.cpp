@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <osgDB/Registry>
 #include <sstream>
+#include <utility>
 
 #include "graphics/shading.h"
 #include "roam/error.h"
@@ -10,31 +11,19 @@
 
 namespace roam::app {
 
-DisplayLoader::DisplayLoader(const SceneOptions& scene) : scene_(scene), thread_([this] { run(); }) {}
-
-DisplayLoader::~DisplayLoader() {
-  cancelled_ = true;
-  thread_.join();
-}
-
-LoadState DisplayLoader::state() const {
-  const std::lock_guard lock(mutex_);
-  return state_;
-}
+DisplayLoader::DisplayLoader(const SceneOptions& scene) : scene_(scene), loading_([this] { load(); }) {}
 
 std::optional<DisplayNode> DisplayLoader::take() {
-  const std::lock_guard lock(mutex_);
-  if (ready_.empty()) return std::nullopt;
-  DisplayNode first = std::move(ready_.front());
-  ready_.pop_front();
-  return first;
+  return loading_.with_state([this](const LoadState&) -> std::optional<DisplayNode> {
+    if (ready_.empty()) return std::nullopt;
+    DisplayNode first = std::move(ready_.front());
+    ready_.pop_front();
+    return first;
+  });
 }
 
 std::optional<DisplayReport> DisplayLoader::take_report() {
-  const std::lock_guard lock(mutex_);
-  std::optional<DisplayReport> taken = std::move(report_);
-  report_.reset();
-  return taken;
+  return loading_.with_state([this](const LoadState&) { return std::exchange(report_, std::nullopt); });
 }
 
 bool DisplayLoader::receive(DisplayPart&& part) {
@@ -45,40 +34,28 @@ bool DisplayLoader::receive(DisplayPart&& part) {
   if (!read.validNode()) throw Error("a part of the scene came damaged from its reader: " + read.message());
   DisplayNode ready{read.getNode(), part.origin, part.bounds};
   graphics::prepare(*ready.node);
-  const std::lock_guard lock(mutex_);
-  ready_.push_back(std::move(ready));
-  state_.triangles += part.triangles;
-  return !cancelled_;
+  loading_.with_state([&](LoadState& state) {
+    ready_.push_back(std::move(ready));
+    state.triangles += part.triangles;
+  });
+  return loading_.wanted();
 }
 
-void DisplayLoader::run() {
-  std::string error;
-  try {
-    ImportOptions options = import_options(scene_);
-    options.progress = [&](const ImportProgress& p) {
-      const std::lock_guard lock(mutex_);
-      const double share =
-          p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
-      state_.share = std::min(share, 1.0);
-      return !cancelled_;
-    };
-    DisplayReport report =
-        read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(std::move(part)); });
-    const std::lock_guard lock(mutex_);
+void DisplayLoader::load() {
+  ImportOptions options = import_options(scene_);
+  options.progress = [this](const ImportProgress& p) {
+    const double share =
+        p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
+    loading_.with_state([&](LoadState& state) { state.share = std::min(share, 1.0); });
+    return loading_.wanted();
+  };
+  DisplayReport report =
+      read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(std::move(part)); });
+  loading_.with_state([&](LoadState& state) {
     report_ = std::move(report);
-    state_.phase = LoadState::Phase::done;
-    state_.share = 1.0;
-    return;
-  } catch (const Cancelled&) {
-    error = "cancelled";
-  } catch (const std::bad_alloc&) {
-    error = "out of memory; take a smaller scene or a machine with more memory";
-  } catch (const std::exception& e) {
-    error = e.what();
-  }
-  const std::lock_guard lock(mutex_);
-  state_.phase = LoadState::Phase::failed;
-  state_.error = error;
+    state.phase = LoadState::Phase::done;
+    state.share = 1.0;
+  });
 }
 
 }  // namespace roam::app

@@ -2,18 +2,15 @@
 /// \file
 /// Loads what is to be seen, beside the thread that draws.
 
-#include <atomic>
 #include <deque>
-#include <mutex>
 #include <optional>
 #include <osg/Node>
 #include <osg/ref_ptr>
-#include <thread>
 
 #include "import/display.h"
 #include "roam/import.h"
 #include "scene_options.h"
-#include "view/status.h"
+#include "view/loading.h"
 
 namespace roam::app {
 
@@ -28,31 +25,25 @@ struct DisplayNode {
 class DisplayLoader {
  public:
   explicit DisplayLoader(const SceneOptions& scene);
-  /// Ends what runs, the reader's process too, and waits for that: a fraction of a second.
-  ~DisplayLoader();
-  DisplayLoader(const DisplayLoader&) = delete;
-  DisplayLoader& operator=(const DisplayLoader&) = delete;
 
-  /// Lets what runs come to its end; does not wait for that.
-  void cancel() { cancelled_ = true; }
+  /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
+  /// fraction of a second.
+  void cancel() { loading_.cancel(); }
   /// How far it is; from any thread.
-  [[nodiscard]] LoadState state() const;
+  [[nodiscard]] LoadState state() const { return loading_.state(); }
   /// The next piece that is ready, if there is one.
   [[nodiscard]] std::optional<DisplayNode> take();
   /// What was loaded, once, when the loading has ended well; else nothing.
   [[nodiscard]] std::optional<DisplayReport> take_report();
 
  private:
-  void run();
+  void load();
   bool receive(DisplayPart&& part);
 
   SceneOptions scene_;
-  std::atomic<bool> cancelled_ = false;
-  mutable std::mutex mutex_;
-  LoadState state_;
   std::deque<DisplayNode> ready_;
   std::optional<DisplayReport> report_;
-  std::thread thread_;
+  Loading loading_;
 };
 
 }  // namespace roam::app

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The life of a thread that loads something.
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "view/status.h"
+
+namespace roam::app {
+
+/// Runs `load` in a thread of its own and keeps how far it is. What `load` throws becomes the state's error. Let it be
+/// the last member of its owner: it ends first, and `load` may use all others.
+class Loading {
+ public:
+  explicit Loading(std::function<void()> load);
+  /// Cancels, and waits for the end.
+  ~Loading();
+  Loading(const Loading&) = delete;
+  Loading& operator=(const Loading&) = delete;
+
+  /// Lets `load` come to its end; does not wait for that.
+  void cancel() { cancelled_ = true; }
+  /// For `load` to ask now and then: whether it is to go on.
+  [[nodiscard]] bool wanted() const { return !cancelled_; }
+  /// How far it is; from any thread.
+  [[nodiscard]] LoadState state() const;
+  /// Calls `access` with the state and returns what it returns, while no other thread does either.
+  template <typename Access>
+  auto with_state(const Access& access) {
+    const std::lock_guard lock(mutex_);
+    return access(state_);
+  }
+
+ private:
+  void run();
+
+  std::function<void()> load_;
+  std::atomic<bool> cancelled_ = false;
+  mutable std::mutex mutex_;
+  LoadState state_;
+  std::thread thread_;
+};
+
+}  // namespace roam::app
