@@ -2,6 +2,7 @@
 #include <osgUtil/IntersectionVisitor>
 
 #include "osgRoam/BoxIntersector.h"
+#include "osgroam/vectors.h"
 #include "view/session.h"
 
 namespace roam::app {
@@ -10,12 +11,11 @@ namespace {
 constexpr double reach = 0.25;  // m from the body's surface: what is nearer is drawn
 constexpr std::size_t most_triangles = 2000;
 
-osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
-
 /// The triangles of the graph that are near the body.
 std::vector<std::array<Vec3, 3>> triangles_near(osg::Node& graph, const Body& body, const Vec3& place) {
   const Body wider = Body::capsule(body.radius + reach, body.height() + 2.0 * reach);
-  const osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector(wider, to_osg(place), to_osg(place));
+  const osg::Vec3d at = osgRoam::to_osg(place);
+  const osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector(wider, at, at);
   box->setGatherCandidates(true);
   osgUtil::IntersectionVisitor visitor(box);
   graph.accept(visitor);
