@@ -125,7 +125,7 @@ bool Session::frame() {
   if (quits_ || stage_->viewer().done()) return false;
   if (placed_) {
     if (replay_) look_along_path(frame_time_);
-    if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds());
+    if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
     record_way();
   } else {
     show_overview();

@@ -74,6 +74,7 @@ ViewReport Session::report() {
   constexpr double ns_in_ms = 1e-6;
   report.frame_ms = times(stage_->frame_times(), ns_in_ms);
   report.collision_ns = times(log_.collision_times(), 1.0);
+  report.collision_own_ns = times(log_.own_collision_times(), 1.0);
   report.resident_bytes = resident_bytes();
   report.world_bytes = status_.world_bytes;
   report.renderer = stage_->frame().describe();

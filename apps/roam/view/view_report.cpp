@@ -48,6 +48,7 @@ Json json_report(const ViewReport& report) {
                {"steps", report.steps},
                {"simulated_s", report.simulated},
                {"collision_ns", to_json(report.collision_ns)},
+               {"collision_own_ns", to_json(report.collision_own_ns)},
                {"frames", report.frames},
                {"frame_ms", to_json(report.frame_ms)},
                {"least_clearance_m", nullptr},

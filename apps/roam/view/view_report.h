@@ -40,7 +40,8 @@ struct ViewReport {
   std::optional<double> least_clearance;
   std::uint64_t frames = 0;
   Times frame_ms;
-  Times collision_ns;  ///< a frame
+  Times collision_ns;      ///< a frame, by the clock
+  Times collision_own_ns;  ///< of that, what the thread itself used
   std::uint64_t resident_bytes = 0;
   std::uint64_t world_bytes = 0;
   std::string renderer;

@@ -26,8 +26,9 @@ void WalkLog::take(const StepReport& report, const WalkerSettings& settings, Mod
   }
 }
 
-void WalkLog::take_frame(std::int64_t collision_nanoseconds) {
-  collision_.add(static_cast<double>(collision_nanoseconds));
+void WalkLog::take_frame(std::int64_t passed, std::int64_t own) {
+  collision_.add(static_cast<double>(passed));
+  own_collision_.add(static_cast<double>(own));
 }
 
 void WalkLog::finish() {

@@ -23,8 +23,8 @@ class WalkLog {
   /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost and of a body that is held
   /// stand in the trace, but are nothing that could be verified.
   void take(const StepReport& report, const WalkerSettings& settings, Mode mode, double seconds);
-  /// The time that all steps of a frame took.
-  void take_frame(std::int64_t collision_nanoseconds);
+  /// The time that all steps of a frame took, ns: by the clock, and what their thread itself used of it.
+  void take_frame(std::int64_t passed, std::int64_t own);
   /// Writes what is left. Throws roam::Error when not all of the trace could be written.
   void finish();
 
@@ -36,13 +36,14 @@ class WalkLog {
   [[nodiscard]] const std::optional<double>& least_clearance() const { return least_clearance_; }
   /// For verify(), once.
   [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
-  [[nodiscard]] const Histogram& collision_times() const { return collision_; }  ///< ns a frame with steps
+  [[nodiscard]] const Histogram& collision_times() const { return collision_; }          ///< ns a frame with steps
+  [[nodiscard]] const Histogram& own_collision_times() const { return own_collision_; }  ///< the same, the thread's own
 
  private:
   std::optional<TraceFile> trace_;
   bool keep_pieces_;
   std::vector<Piece> pieces_;
-  Histogram collision_;
+  Histogram collision_, own_collision_;
   std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
   std::uint64_t steps_ = 0;
   std::uint64_t throttled_ = 0;
