@@ -56,8 +56,9 @@ TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
   EXPECT_GT(view.picture().colours(), 8u);
   const nlohmann::json report = view.json();
   for (const char* key :
-       {"scene", "triangles", "mode", "radius", "height", "outcome", "steps", "collision_ns", "frames", "frame_ms",
-        "violations", "start", "end", "memory", "renderer", "hud", "notes", "missing_textures", "written"}) {
+       {"scene",        "triangles",        "mode",   "radius",   "height",           "outcome", "steps",
+        "collision_ns", "collision_own_ns", "frames", "frame_ms", "violations",       "start",   "end",
+        "memory",       "renderer",         "hud",    "notes",    "missing_textures", "written"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["triangles"], 12);
