@@ -52,6 +52,7 @@ void Assembler::take_content(FrameKind kind, std::span<const std::byte> payload)
   finish_mesh();
   in_mesh_ = true;
   name_ = fields.take_text();
+  if (fields.take<std::uint8_t>() != 0) throw StreamDamaged{"a piece where a mesh was asked for"};
   if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
   count_bytes(sizeof(Mesh) + name_.size());
 }

@@ -21,14 +21,15 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
     return take(std::move(part));
   };
   const std::function<bool(DisplayPart &&)> give = counting_take;
-  reader::read_all(paths, options, report.import, [&](reader::Reading& reading, std::vector<bool>& matched) {
-    const std::uint64_t parts_before = report.parts;
-    reading.display = true;
-    reading.origin = origin;
-    reader::PartReceiver receiver(report, origin, options.ignore.size(), bytes_left, give);
-    reader::read_one(reading, receiver, matched);
-    return report.parts > parts_before;
-  });
+  reader::read_all(reader::sources(paths), options, report.import,
+                   [&](reader::Reading& reading, std::vector<bool>& matched) {
+                     const std::uint64_t parts_before = report.parts;
+                     reading.wanted = reader::Reading::Wanted::display;
+                     reading.origin = origin;
+                     reader::PartReceiver receiver(report, origin, options.ignore.size(), bytes_left, give);
+                     reader::read_one(reading, receiver, matched);
+                     return report.parts > parts_before;
+                   });
   if (report.missing_textures > 0) {
     report.notes.push_back(fmt::format(
         "{} images that the scene refers to are absent or unreadable; what they cover is shown without: {}.",

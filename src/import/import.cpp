@@ -47,13 +47,14 @@ double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)
 
 Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
   Scene scene;
-  reader::read_all(paths, options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {
-    const std::uint64_t triangles_before = scene.report.triangles;
-    const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, bytes_of(scene.meshes));
-    reader::Assembler assembler(scene, options.ignore.size(), mesh_bytes);
-    reader::read_one(reading, assembler, matched);
-    return scene.report.triangles > triangles_before;
-  });
+  reader::read_all(
+      reader::sources(paths), options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {
+        const std::uint64_t triangles_before = scene.report.triangles;
+        const std::uint64_t mesh_bytes = options.memory_limit - std::min(options.memory_limit, bytes_of(scene.meshes));
+        reader::Assembler assembler(scene, options.ignore.size(), mesh_bytes);
+        reader::read_one(reading, assembler, matched);
+        return scene.report.triangles > triangles_before;
+      });
   return scene;
 }
 

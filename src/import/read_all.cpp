@@ -37,30 +37,6 @@ std::uint64_t bytes_in(const fs::path& path) {
   return bytes;
 }
 
-void check(std::span<const fs::path> paths, const ImportOptions& options) {
-  if (paths.empty()) throw Error("no scene was named; name one or more files or folders to import.");
-  if (options.memory_limit < least_memory_limit) {
-    throw Error(
-        fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
-  }
-  if (!(options.silence_limit > 0.0) || !std::isfinite(options.silence_limit)) {
-    throw Error(fmt::format("an import time limit of {} s makes no sense; give a number of seconds above 0.",
-                            options.silence_limit));
-  }
-  for (const fs::path& path : paths) {
-    std::error_code why;
-    const fs::file_status status = fs::status(path, why);
-    if (!fs::exists(status)) {
-      const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
-      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
-    }
-    if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
-      throw Error(
-          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
-    }
-  }
-}
-
 /// Triangles that were left out so far, by reason.
 struct LeftOut {
   std::uint64_t bad = 0;
@@ -86,25 +62,56 @@ Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOu
 
 }  // namespace
 
-void read_all(std::span<const fs::path> paths, const ImportOptions& options, ImportReport& report,
+std::vector<Source> sources(std::span<const fs::path> paths) {
+  std::vector<Source> all;
+  for (const fs::path& path : paths) all.push_back({path});
+  return all;
+}
+
+void check(std::span<const Source> sources, const ImportOptions& options) {
+  if (sources.empty()) throw Error("no scene was named; name one or more files or folders to import.");
+  if (options.memory_limit < least_memory_limit) {
+    throw Error(
+        fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
+  }
+  if (!(options.silence_limit > 0.0) || !std::isfinite(options.silence_limit)) {
+    throw Error(fmt::format("an import time limit of {} s makes no sense; give a number of seconds above 0.",
+                            options.silence_limit));
+  }
+  for (const Source& source : sources) {
+    const fs::path& path = source.path;
+    std::error_code why;
+    const fs::file_status status = fs::status(path, why);
+    if (!fs::exists(status)) {
+      const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
+      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
+    }
+    if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
+      throw Error(
+          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
+    }
+  }
+}
+
+void read_all(std::span<const Source> sources, const ImportOptions& options, ImportReport& report,
               const std::function<bool(Reading& reading, std::vector<bool>& matched)>& read) {
-  check(paths, options);
+  check(sources, options);
   const fs::path program = find_reader(options.reader);
 
   ImportProgress progress;
   std::vector<std::uint64_t> sizes;
-  for (const fs::path& path : paths) {
-    sizes.push_back(bytes_in(path));
+  for (const Source& source : sources) {
+    sizes.push_back(source.bytes ? *source.bytes : bytes_in(source.path));
     progress.bytes_total += sizes.back();
   }
 
   std::vector<bool> matched(options.ignore.size(), false);
   std::uint64_t bytes_before = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::uint64_t triangles_before = report.triangles;
     const LeftOut before{report.bad_triangles, report.ignored_triangles};
     const auto say = [&](std::uint64_t bytes, std::uint64_t triangles) {
-      progress.path = paths[i];
+      progress.path = sources[i].path;
       progress.bytes_read = bytes_before + std::min(bytes, sizes[i]);
       progress.triangles = triangles_before + triangles;
       if (options.progress && !options.progress(progress)) throw Cancelled();
@@ -112,12 +119,16 @@ void read_all(std::span<const fs::path> paths, const ImportOptions& options, Imp
     say(0, 0);
     Reading reading;
     reading.program = program;
-    reading.path = paths[i];
+    reading.path = sources[i].path;
+    reading.tile = sources[i].tile;
     reading.path_bytes = sizes[i];
     reading.options = &options;
     reading.report_progress = say;
+    if (!report.georeference) report.georeference = sources[i].frame;
     reading.frame = report.georeference;
-    if (!read(reading, matched)) throw no_triangle(paths[i], report, before);
+    const bool whole = sources[i].tile.empty();
+    if (!read(reading, matched) && whole) throw no_triangle(sources[i].path, report, before);
+    if (!whole) matched.assign(matched.size(), true);
     say(sizes[i], report.triangles - triangles_before);
     bytes_before += sizes[i];
   }

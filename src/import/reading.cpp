@@ -16,7 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t receive_bytes = 1u << 20;
 /// How long to wait for bytes before the progress callback is served.
 constexpr int wait_milliseconds = 100;
 /// A reader that has closed its stream is about to end; one that does not is killed.
@@ -38,7 +37,10 @@ std::vector<std::string> arguments_of(const Reading& reading) {
     arguments.insert(arguments.end(),
                      {"--frame", fmt::format("{}", o.x), fmt::format("{}", o.y), fmt::format("{}", o.z), frame->srs});
   }
-  if (reading.display) arguments.emplace_back("--display");
+  if (!reading.tile.empty()) arguments.insert(arguments.end(), {"--tile", reading.tile});
+  if (reading.wanted == Reading::Wanted::display) arguments.emplace_back("--display");
+  if (reading.wanted == Reading::Wanted::pieces) arguments.emplace_back("--pieces");
+  if (reading.wanted == Reading::Wanted::list) arguments.emplace_back("--only-list");
   if (const auto& o = reading.origin) {
     arguments.insert(arguments.end(),
                      {"--origin", fmt::format("{}", o->x), fmt::format("{}", o->y), fmt::format("{}", o->z)});
@@ -94,20 +96,22 @@ void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
   ReaderProcess process(reading.program, arguments_of(reading));
-  std::vector<std::byte> buffer(receive_bytes);
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
-      const auto arrival = process.receive(buffer, wait_milliseconds, received);
-      const Clock::time_point now = Clock::now();
+      const auto arrival = process.receive(receiver.room(), wait_milliseconds, received);
       if (arrival == ReaderProcess::Arrival::end) {
         const Ending ending = process.finish(ending_milliseconds);
         throw fail(cause_of_death(ending, process.complaints(), options));
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
-        receiver.take(std::span(buffer).first(received));
+        receiver.take(received);
+      }
+      // A taker may be slow, which is not the reader's fault.
+      const Clock::time_point now = Clock::now();
+      if (arrival == ReaderProcess::Arrival::bytes) {
         heard = now;
       } else if (std::chrono::duration<double>(now - heard).count() > silence_limit) {
         throw fail(

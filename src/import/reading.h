@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "import/stream_receiver.h"
@@ -20,8 +21,11 @@ struct Reading {
   std::uint64_t path_bytes = 0;   ///< its size
   const ImportOptions* options = nullptr;
   std::optional<Georeference> frame{};  ///< of the paths before, if there is one
-  bool display = false;                 ///< parts of what is seen are wanted, not meshes
-  std::optional<Vec3> origin{};         ///< of the parts of the paths before
+  /// What the reader is to send.
+  enum class Wanted { meshes, pieces, display, list };
+  Wanted wanted = Wanted::meshes;
+  std::string tile{};            ///< of a folder, the only one that is wanted; empty: all
+  std::optional<Vec3> origin{};  ///< of the parts of the paths before
   /// Called about every tenth of a second with the bytes read and triangles received of this path.
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };

@@ -9,9 +9,12 @@
 ///     hello         u32 stream_version                                       first, once
 ///     progress      u64 bytes read so far                                    at any time
 ///     georeference  f64 x, y, z; text srs                                    folders of tiles, at most once
-///     object        text name                                                begins a mesh
+///     tile          text root file; u8 whether it is there                   of folders that are only to be listed
+///     object        text name; u8 continues                                  begins a mesh, or a piece of one: where
+///                   the program asked for pieces, one that continues goes on with the object of the piece before
 ///     vertices      f64 x, y, z of each                                      belong to the mesh begun last
-///     triangles     u32 a, b, c of each                                      index the vertices sent so far
+///     triangles     u32 a, b, c of each                                      index the vertices of the mesh or piece
+///                                                                            that were sent so far
 ///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
 ///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, paged, bytes;
 ///                   begins a part of what is shown (display.h); only where the program asked for that, and then
@@ -38,7 +41,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 2;
+inline constexpr std::uint32_t stream_version = 3;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -49,6 +52,7 @@ enum class FrameKind : std::uint16_t {
   hello,
   progress,
   georeference,
+  tile,
   object,
   vertices,
   triangles,

@@ -18,32 +18,49 @@ void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
   if (objects.size() < ImportReport::name_limit) objects.push_back(std::move(object));
 }
 
+/// The least room: as much as a pipe holds.
+constexpr std::size_t room_bytes = 1u << 20;
+/// A frame that is not whole, and room; what lies before it is seldom moved.
+constexpr std::size_t buffer_bytes = payload_limit + 2 * room_bytes;
+
 /// Most sentences that one reader may say.
 constexpr std::size_t note_limit = 100;
 
 }  // namespace
 
 StreamReceiver::StreamReceiver(ImportReport& report, std::size_t ignore_patterns, std::uint64_t content_bytes)
-    : report_(report), ignore_patterns_(ignore_patterns), content_bytes_left_(content_bytes) {}
+    : report_(report),
+      ignore_patterns_(ignore_patterns),
+      content_bytes_left_(content_bytes),
+      buffer_(std::make_unique_for_overwrite<std::byte[]>(buffer_bytes)) {}
 
-void StreamReceiver::take(std::span<const std::byte> bytes) {
-  pending_.insert(pending_.end(), bytes.begin(), bytes.end());
-  std::size_t begin = 0;
-  while (pending_.size() - begin >= sizeof(FrameHeader)) {
+std::span<std::byte> StreamReceiver::room() {
+  if (buffer_bytes - end_ < room_bytes) {
+    std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  return {buffer_.get() + end_, buffer_bytes - end_};
+}
+
+void StreamReceiver::take(std::size_t count) {
+  end_ += count;
+  while (end_ - begin_ >= sizeof(FrameHeader)) {
     FrameHeader header;
-    std::memcpy(&header, pending_.data() + begin, sizeof(header));
+    std::memcpy(&header, buffer_.get() + begin_, sizeof(header));
     if (header.magic != frame_magic || header.zero != 0 || header.bytes > payload_limit) {
       throw StreamDamaged{"bytes that are no frame"};
     }
     if (header.number != next_number_) throw StreamDamaged{"frames out of order"};
     if ((header.number == 0) != (header.kind == FrameKind::hello)) throw StreamDamaged{"no greeting"};
     if (ended_) throw StreamDamaged{"frames after the end"};
-    if (pending_.size() - begin - sizeof(header) < header.bytes) break;
-    handle(header, std::span(pending_).subspan(begin + sizeof(header), header.bytes));
+    if (end_ - begin_ - sizeof(header) < header.bytes) return;
+    const std::span payload(buffer_.get() + begin_ + sizeof(header), header.bytes);
     ++next_number_;
-    begin += sizeof(header) + header.bytes;
+    begin_ += sizeof(header) + header.bytes;
+    handle(header, payload);
   }
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(begin));
+  if (begin_ == end_) begin_ = end_ = 0;
 }
 
 void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte> payload) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,10 @@ class StreamReceiver {
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;
 
-  /// Takes the next bytes of the stream. Throws StreamDamaged, ContentTooLarge, Failure, or what a taker throws.
-  void take(std::span<const std::byte> bytes);
+  /// Where the next bytes of the stream are to be put.
+  [[nodiscard]] std::span<std::byte> room();
+  /// Takes the first `count` bytes of the room. Throws StreamDamaged, ContentTooLarge, Failure, or what a taker throws.
+  void take(std::size_t count);
 
   /// Whether the reader has said that it is done; nothing may follow.
   [[nodiscard]] bool ended() const { return ended_; }
@@ -60,7 +63,9 @@ class StreamReceiver {
 
   std::size_t ignore_patterns_;
   std::uint64_t content_bytes_left_;
-  std::vector<std::byte> pending_;
+  // Bytes that arrived and are not taken yet; frames are taken from where they lie.
+  std::unique_ptr<std::byte[]> buffer_;
+  std::size_t begin_ = 0, end_ = 0;
   std::uint32_t next_number_ = 0;
   bool ended_ = false;
   std::uint64_t bytes_read_ = 0;

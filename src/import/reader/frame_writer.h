@@ -22,6 +22,9 @@ class FrameWriter {
   void flush();
 
  private:
+  /// Writes what is gathered, and then the payload.
+  void write(std::span<const std::byte> payload);
+
   int descriptor_;
   std::uint32_t number_ = 0;
   std::vector<std::byte> gathered_;

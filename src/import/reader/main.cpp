@@ -9,9 +9,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #ifdef __linux__
@@ -21,6 +23,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/piece_cutter.h"
 #include "import/reader/read_path.h"
 #include "import/stream.h"
 #include "roam/error.h"
@@ -40,18 +43,28 @@ namespace {
 /// Address space that the program's own code, its libraries and their plugins take before a file is opened.
 [[maybe_unused]] constexpr rlim_t own_address_space = rlim_t{1} << 30;
 
-void limit(int resource, rlim_t value) {
-  const struct rlimit both { value, value };
+void limit(int resource, rlim_t value, rlim_t soft) {
+  const struct rlimit both { soft, value };
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+void limit(int resource, rlim_t value) { limit(resource, value, value); }
+
+/// Bytes that the vertices of a file may take outside the memory: its shortest vertex has three bytes, and is kept as
+/// three doubles. Folders hold no file that has so many.
+rlim_t temporary_bytes(const std::string& path) {
+  std::error_code none;
+  const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
+  return none ? 0 : 8 * static_cast<rlim_t>(bytes) + sizeof(Vec3) * PagedVertices::block_size;
 }
 
 /// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
-void confine([[maybe_unused]] std::uint64_t memory_limit) {
+void confine([[maybe_unused]] std::uint64_t memory_limit, rlim_t temporary_bytes) {
 #ifndef ROAM_SHADOW_MEMORY
   limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
 #endif
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
+  // PagedVertices lifts it for its own file.
+  limit(RLIMIT_FSIZE, temporary_bytes, 0);
 #ifdef __linux__
   const pid_t parent = getppid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -64,6 +77,7 @@ void confine([[maybe_unused]] std::uint64_t memory_limit) {
 struct Request {
   ReadingSettings settings;
   bool display = false;
+  bool pieces = false;
   std::optional<Vec3> origin;
   std::string path;
 };
@@ -92,6 +106,12 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       for (int k = 0; k < 3; ++k) frame.origin[k] = std::stod(arguments[i++]);
       frame.srs = arguments[i++];
       settings.frame = frame;
+    } else if (name == "--tile" && left() > 0) {
+      settings.tile = arguments[i++];
+    } else if (name == "--only-list") {
+      settings.only_list = true;
+    } else if (name == "--pieces") {
+      request.pieces = true;
     } else if (name == "--display") {
       request.display = true;
     } else if (name == "--origin" && left() > 2) {
@@ -116,12 +136,14 @@ int run(const std::vector<std::string>& arguments) {
     std::fputs("roam-reader opens scene files for roam, which starts it; there is nothing to run by hand.\n", stderr);
     return 2;
   }
-  confine(request.settings.memory_limit);
+  confine(request.settings.memory_limit, request.pieces ? temporary_bytes(request.path) : 0);
 
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
   PartPool parts(frames, request.origin);
-  MeshSink sink(frames, request.settings, request.display ? &parts : nullptr);
+  std::optional<PieceCutter> pieces;
+  if (request.pieces) pieces.emplace(frames, request.settings.memory_limit);
+  MeshSink sink(frames, request.settings, request.display ? &parts : nullptr, pieces ? &*pieces : nullptr);
   const auto fail = [&](const std::string& sentence) {
     frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
     frames.flush();

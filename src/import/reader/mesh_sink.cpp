@@ -54,10 +54,11 @@ bool good(const Vec3& v) {
 
 }  // namespace
 
-MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts)
+MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts, PieceCutter* pieces)
     : frames_(frames),
       settings_(settings),
       parts_(parts),
+      pieces_(pieces),
       up_(settings.up.value_or(UpAxis::z)),
       matched_(settings.ignore.size(), 0) {}
 
@@ -122,6 +123,7 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
   ignored_ = matches_ignore(names);
   begun_ = true;
   ++object_number_;
+  if (pieces_ != nullptr) pieces_->begin_object(name_);
   return true;
 }
 
@@ -136,15 +138,25 @@ void MeshSink::set_look(const Look& wanted) {
   look_ = look;
 }
 
-std::uint32_t MeshSink::add_vertex(const Vec3& vertex, const VertexLook& look) {
+/// Gives the vertex the next index. False where it is not kept: it is bad, or nobody wants it.
+bool MeshSink::count_vertex(const Vec3& vertex, Vec3& place) {
   if (vertex_count_ == std::numeric_limits<std::uint32_t>::max()) {
     throw Error(fmt::format("object '{}' has more than 2^32 vertices; split it.", name_));
   }
   const std::uint32_t index = vertex_count_++;
-  if (ignored_) return index;
-  const Vec3 v = placed(vertex);
-  if (!good(v)) {
-    bad_.push_back(index);
+  if (ignored_ && !vertices_are_shared_) return false;
+  place = placed(vertex);
+  if (good(place)) return true;
+  bad_.push_back(index);
+  return false;
+}
+
+std::uint32_t MeshSink::add_vertex(const Vec3& vertex, const VertexLook& look) {
+  const std::uint32_t index = vertex_count_;
+  Vec3 v;
+  if (!count_vertex(vertex, v)) return index;
+  if (pieces_ != nullptr) {
+    pieces_->vertices().add(v);
     return index;
   }
   vertices_.push_back(v);
@@ -157,14 +169,59 @@ std::uint32_t MeshSink::add_vertex(const Vec3& vertex, const VertexLook& look) {
   return index;
 }
 
-std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex, const VertexLook& look) {
+MeshSink::Remembered& MeshSink::memory_of(const Vec3& vertex) {
   if (remembered_.empty()) remembered_.resize(std::size_t{1} << remembered_bits);
-  Remembered& slot = remembered_[slot_of(vertex)];
-  const bool seen = slot.object == object_number_ && same_bits(slot.vertex, vertex);
-  if (seen && (parts_ == nullptr || same(slot.look, look))) return slot.index;
-  const std::uint32_t index = add_vertex(vertex, look);
-  slot = {vertex, look, index, object_number_};
+  return remembered_[slot_of(vertex)];
+}
+
+bool MeshSink::holds(const Remembered& memory, const Vec3& vertex, const VertexLook& look) const {
+  const bool seen = memory.object == object_number_ && same_bits(memory.vertex, vertex);
+  return seen && (parts_ == nullptr || same(memory.look, look));
+}
+
+std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex, const VertexLook& look) {
+  Remembered& memory = memory_of(vertex);
+  if (!holds(memory, vertex, look)) memory = {vertex, look, add_vertex(vertex, look), object_number_};
+  return memory.index;
+}
+
+std::uint32_t MeshSink::use_vertex(std::uint32_t index) {
+  if (!ignored_ && is_bad(index)) bad_used_.insert(index);
   return index;
+}
+
+bool MeshSink::is_bad(std::uint32_t index) const {
+  return !bad_.empty() && std::binary_search(bad_.begin(), bad_.end(), index);
+}
+
+void MeshSink::add_polygon(std::span<const Vec3> corners) {
+  corners_.clear();
+  if (pieces_ == nullptr) {
+    for (const Vec3& corner : corners) corners_.push_back(add_shared_vertex(corner));
+    for (std::size_t i = 2; i < corners_.size(); ++i) add_triangle(corners_[0], corners_[i - 1], corners_[i]);
+    return;
+  }
+  // Its places are at hand, so that none need be kept for later.
+  for (const Vec3& corner : corners) {
+    Remembered& memory = memory_of(corner);
+    if (!holds(memory, corner, {})) {
+      Vec3 place;
+      memory = {corner, {}, vertex_count_, object_number_};
+      count_vertex(corner, place);
+    }
+    corners_.push_back(memory.index);
+  }
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const std::array<std::size_t, 3> fan{0, i - 1, i};
+    if (ignored_) {
+      ++ignored_triangles_;
+    } else if (is_bad(corners_[0]) || is_bad(corners_[i - 1]) || is_bad(corners_[i])) {
+      ++bad_triangles_;
+    } else {
+      pieces_->add_triangle({corners_[0], corners_[i - 1], corners_[i]},
+                            [&](std::size_t k) { return placed(corners[fan[k]]); });
+    }
+  }
 }
 
 void MeshSink::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -186,6 +243,10 @@ void MeshSink::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     }
     corner -= static_cast<std::uint32_t>(at - bad_.begin());
   }
+  if (pieces_ != nullptr) {
+    PagedVertices& vertices = pieces_->vertices();
+    return pieces_->add_triangle(corners, [&](std::size_t k) { return vertices[corners[k]]; });
+  }
   triangles_.push_back(corners);
   if (triangles_.size() == triangles_per_frame) {
     send_vertices();
@@ -197,7 +258,7 @@ void MeshSink::send_vertices() {
   // Parts are made of vertices and triangles together.
   if (vertices_.empty() || parts_ != nullptr) return;
   if (!announced_) {
-    frames_.send(FrameKind::object, PayloadWriter().add_text(name_));
+    frames_.send(FrameKind::object, PayloadWriter().add_text(name_).add(std::uint8_t{0}));
     announced_ = true;
   }
   totals_.vertices += vertices_.size();
@@ -225,17 +286,26 @@ void MeshSink::finish_object() {
     send_vertices();
     send_triangles();
   }
-  if (!bad_.empty() || bad_triangles_ > 0) send_left_out(LeftOutReason::bad_vertices, bad_.size(), bad_triangles_);
+  if (pieces_ != nullptr) pieces_->finish_object();
+  const std::uint64_t bad_vertices = vertices_are_shared_ ? bad_used_.size() : bad_.size();
+  if (bad_vertices > 0 || bad_triangles_ > 0) send_left_out(LeftOutReason::bad_vertices, bad_vertices, bad_triangles_);
   if (ignored_triangles_ > 0) send_left_out(LeftOutReason::ignored, 0, ignored_triangles_);
-  totals_.bad_vertices += bad_.size();
+  totals_.bad_vertices += bad_vertices;
   totals_.bad_triangles += bad_triangles_;
   totals_.ignored_triangles += ignored_triangles_;
   bad_triangles_ = ignored_triangles_ = 0;
+  announced_ = ignored_ = begun_ = false;
+  bad_used_.clear();
+  if (vertices_are_shared_) return;
   bad_.clear();
   vertices_.clear();
   looks_.clear();
   vertex_count_ = 0;
-  announced_ = ignored_ = begun_ = false;
+  if (pieces_ != nullptr) pieces_->vertices().clear();
+}
+
+void MeshSink::report_tile(std::string_view root, bool present) {
+  frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)));
 }
 
 void MeshSink::report_missing_page(std::string_view file) {
@@ -294,6 +364,10 @@ void MeshSink::end() {
     totals_.missing_textures = parts_->textures().missing();
   }
   say_what_was_rounded();
+  if (pieces_ != nullptr) {
+    totals_.vertices = pieces_->vertices_sent();
+    totals_.triangles = pieces_->triangles_sent();
+  }
   PayloadWriter payload;
   payload.add(totals_).add(static_cast<std::uint32_t>(matched_.size()));
   for (const std::uint8_t matched : matched_) payload.add(matched);

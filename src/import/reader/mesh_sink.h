@@ -10,11 +10,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "import/reader/display/look.h"
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
+#include "import/reader/piece_cutter.h"
 #include "roam/import.h"
 
 namespace roam::reader {
@@ -26,15 +28,20 @@ struct ReadingSettings {
   std::vector<std::string> ignore;
   std::optional<Georeference> frame;  ///< into which folders of tiles are placed
   std::uint64_t memory_limit = 0;
+  std::string tile;        ///< of a folder, the only one that is read; empty: all
+  bool only_list = false;  ///< the tiles of a folder are told, not read; of a file only its format is looked at
 };
 
 class MeshSink {
  public:
   /// `parts`: where triangles go with their looks when they are to be seen; null when they are to be walked on.
-  MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts);
+  /// `pieces`: where they go when they are wanted in pieces. At most one of the two.
+  MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts, PieceCutter* pieces);
 
   /// Null when nobody asks how surfaces look.
   [[nodiscard]] PartPool* parts() const { return parts_; }
+  /// Whether objects are sent in pieces.
+  [[nodiscard]] bool in_pieces() const { return pieces_ != nullptr; }
 
   /// The up axis of a format whose own definition says one; the user's choice goes before it.
   void set_format_up(UpAxis up);
@@ -59,18 +66,27 @@ class MeshSink {
   /// Adds a triangle of vertices of the current object. One that has a bad vertex, or an index that add_vertex did not
   /// return, is left out and counted.
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  /// Adds a polygon, fanned from its first corner, whose vertices nothing refers to later by their indices; those that
+  /// were seen shortly before are shared.
+  void add_polygon(std::span<const Vec3> corners);
+  /// Where objects are sent in pieces: vertices that are added from now on belong to the file, and every object may
+  /// use them. They count for an object once use_vertex has named them.
+  void share_vertices() { vertices_are_shared_ = true; }
+  /// Says that the current object has a corner there; returns `index`.
+  std::uint32_t use_vertex(std::uint32_t index);
   /// Tells a coordinate that the reader kept as a float though the file may say more; end() notes what that costs.
   void note_rounded(double coordinate) {
     // Written so that a NaN changes nothing; vertices are checked elsewhere.
     const double size = coordinate < 0.0 ? -coordinate : coordinate;
     if (size > largest_rounded_) largest_rounded_ = size;
   }
-  /// How many vertices the current object has.
+  /// How many vertices the current object has, or, where they are shared, the file so far.
   [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
   /// Whether the current object is left out by name, so that its vertices need not be added.
   [[nodiscard]] bool ignored() const { return ignored_; }
 
   void count_file() { ++totals_.files; }
+  void report_tile(std::string_view root, bool present);
   void report_missing_page(std::string_view file);
   void report_note(std::string_view sentence);
   /// The same sentence, said once however often it is found.
@@ -93,6 +109,8 @@ class MeshSink {
   [[nodiscard]] Vec3 turned(const Vec3& v) const;
   [[nodiscard]] Vec3 placed(const Vec3& vertex) const;
   bool matches_ignore(std::span<const std::string> names);
+  bool count_vertex(const Vec3& vertex, Vec3& place);
+  [[nodiscard]] bool is_bad(std::uint32_t index) const;
   void finish_object();
   void say_what_was_rounded();
   void send_vertices();
@@ -102,6 +120,8 @@ class MeshSink {
   FrameWriter& frames_;
   const ReadingSettings& settings_;
   PartPool* parts_;
+  PieceCutter* pieces_;
+  bool vertices_are_shared_ = false;
   UpAxis up_;
   Vec3 offset_{0.0};
   Totals totals_;
@@ -119,7 +139,9 @@ class MeshSink {
   bool ignored_ = false;
   std::uint32_t vertex_count_ = 0;
   std::uint64_t bad_triangles_ = 0, ignored_triangles_ = 0;
-  std::vector<std::uint32_t> bad_;  ///< indices of bad vertices, ascending; they are not sent
+  std::vector<std::uint32_t> bad_;              ///< indices of bad vertices, ascending; they are not sent
+  std::unordered_set<std::uint32_t> bad_used_;  ///< of bad_, where vertices are shared: those of the current object
+  std::vector<std::uint32_t> corners_;          ///< of a polygon
   std::vector<Vec3> vertices_;
   std::vector<VertexLook> looks_;  ///< of vertices_, where there are parts
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -132,6 +154,8 @@ class MeshSink {
     std::uint32_t index = 0;
     std::uint32_t object = 0;
   };
+  Remembered& memory_of(const Vec3& vertex);
+  [[nodiscard]] bool holds(const Remembered& memory, const Vec3& vertex, const VertexLook& look) const;
   std::vector<Remembered> remembered_;
   std::uint32_t object_number_ = 0;
 };

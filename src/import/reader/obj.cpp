@@ -26,6 +26,7 @@ class ObjReader {
         lines_(bytes_),
         stem_(path.stem().string()) {
     if (sink.parts() != nullptr) looks_.emplace(path, sink);
+    if (sink.in_pieces()) sink.share_vertices();
   }
 
   void read() {
@@ -77,7 +78,11 @@ class ObjReader {
       if (word.empty()) fail("a vertex needs three coordinates");
       if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", shown(word)));
     }
-    vertices_.add(v);
+    if (sink_.in_pieces()) {
+      sink_.add_vertex(v);
+    } else {
+      vertices_.add(v);
+    }
     if (looks_) looks_->take_vertex_colour(rest);
   }
 
@@ -91,7 +96,7 @@ class ObjReader {
     const std::string_view number = corner.substr(0, corner.find('/'));
     std::int64_t index = 0;
     if (!parse(number, index) || index == 0) fail(fmt::format("'{}' is no corner of a face", shown(corner)));
-    const auto count = static_cast<std::int64_t>(vertices_.size());
+    const auto count = static_cast<std::int64_t>(sink_.in_pieces() ? sink_.vertex_count() : vertices_.size());
     if (index > count || index < -count) {
       fail(fmt::format("a face refers to vertex {}, but {} vertices come before it", index, count));
     }
@@ -100,6 +105,7 @@ class ObjReader {
 
   std::uint32_t corner_of(std::string_view corner) {
     const std::uint64_t vertex = vertex_of(corner);
+    if (sink_.in_pieces()) return sink_.use_vertex(static_cast<std::uint32_t>(vertex));
     // A vertex that looks different in two faces is two vertices.
     if (looks_) return sink_.add_shared_vertex(vertices_[vertex], looks_->of(vertex, corner));
     return vertices_.index_in_object(vertex, [this](const Vec3& v) { return sink_.add_vertex(v); });

@@ -59,6 +59,27 @@ class BinaryValues {
   /// Bytes that the shortest spelling of a value takes.
   static std::size_t least_bytes(const PlyElement& element) { return element.least_bytes(); }
 
+  /// Gives records of `bytes` each, as many as lie in memory and `most` at most, to `take` until it answers false.
+  /// Returns how many it took.
+  template <class Take>
+  std::uint64_t records(std::size_t bytes, std::uint64_t most, Take&& take) {
+    const std::string_view window = bytes_.window(bytes);
+    const std::uint64_t held = std::min<std::uint64_t>(window.size() / bytes, most);
+    std::uint64_t taken = 0;
+    while (taken < held && take(window.data() + taken * bytes)) ++taken;
+    bytes_.skip(taken * bytes);
+    return taken;
+  }
+  /// The value that lies there.
+  template <class T>
+  [[nodiscard]] T value(const char* at) const {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if (swap_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+  }
+  static constexpr bool in_records = true;
+
  private:
   std::string_view need(std::size_t count) {
     const std::string_view window = bytes_.window(count);
@@ -67,11 +88,9 @@ class BinaryValues {
   }
   template <class T>
   T raw() {
-    std::array<char, sizeof(T)> value;
-    std::memcpy(value.data(), need(sizeof(T)).data(), sizeof(T));
+    const T taken = value<T>(need(sizeof(T)).data());
     bytes_.skip(sizeof(T));
-    if (swap_) std::reverse(value.begin(), value.end());
-    return std::bit_cast<T>(value);
+    return taken;
   }
 
   FileBytes& bytes_;
@@ -99,6 +118,7 @@ class AsciiValues {
   [[nodiscard]] std::string where() const { return fmt::format("{}:{}", bytes_.path(), lines_.number()); }
   /// A digit and a blank for each.
   static std::size_t least_bytes(const PlyElement& element) { return 2 * element.properties.size(); }
+  static constexpr bool in_records = false;
 
  private:
   std::string_view next_word() {
@@ -167,6 +187,10 @@ class PlyBody {
     if (at[0] < 0 || at[1] < 0 || at[2] < 0) fail("the element 'vertex' has no x, y and z");
     const PlyLooks looks(element, header_, bytes_.path(), sink_);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if constexpr (Values::in_records) {
+        if (sink_.parts() == nullptr) i += take_plain_vertices(element, at, element.count - i);
+        if (i == element.count) return;
+      }
       Vec3 v{0.0};
       VertexLook look;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -188,11 +212,54 @@ class PlyBody {
     }
   }
 
+  /// Takes vertices whose coordinates are all floats or all doubles, without a list beside them, from where they lie.
+  std::uint64_t take_plain_vertices(const PlyElement& element, const std::array<int, 3>& at, std::uint64_t most) {
+    if (element.has_list()) return 0;
+    std::array<std::size_t, 3> offset{};
+    const PlyType type = element.properties[static_cast<std::size_t>(at[0])].type;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto position = static_cast<std::size_t>(at[k]);
+      if (element.properties[position].type != type || is_integer(type)) return 0;
+      for (std::size_t p = 0; p < position; ++p) offset[k] += bytes_of(element.properties[p].type);
+    }
+    const auto as = [&]<class T>(T) {
+      return values_.records(element.least_bytes(), most, [&](const char* vertex) {
+        sink_.add_vertex({values_.template value<T>(vertex + offset[0]), values_.template value<T>(vertex + offset[1]),
+                          values_.template value<T>(vertex + offset[2])});
+        return true;
+      });
+    };
+    return type == PlyType::float32 ? as(float{}) : as(double{});
+  }
+
+  /// Takes triangles of nothing but a byte for their 3 and four bytes for each corner from where they lie, up to the
+  /// first face that is anything else.
+  std::uint64_t take_plain_triangles(const PlyElement& element, std::uint64_t most) {
+    const PlyProperty& corners = element.properties.front();
+    const bool plain = element.properties.size() == 1 && bytes_of(corners.count_type) == 1 &&
+                       (corners.type == PlyType::int32 || corners.type == PlyType::uint32);
+    if (!plain || wedges_.wanted()) return 0;
+    const std::uint32_t count = sink_.vertex_count();
+    return values_.records(1 + 3 * sizeof(std::uint32_t), most, [&](const char* face) {
+      const auto a = values_.template value<std::uint32_t>(face + 1);
+      const auto b = values_.template value<std::uint32_t>(face + 5);
+      const auto c = values_.template value<std::uint32_t>(face + 9);
+      // Whoever reads this face alone says what is wrong with it.
+      if (*face != 3 || std::max({a, b, c}) >= count) return false;
+      sink_.add_triangle(a, b, c);
+      return true;
+    });
+  }
+
   void read_faces(const PlyElement& element, int list) {
     const auto list_at = static_cast<std::size_t>(list);
     if (!is_integer(element.properties[list_at].type)) fail("the vertices of a face are no integers");
     const bool strips = element.name == "tristrips";
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if constexpr (Values::in_records) {
+        if (!strips) i += take_plain_triangles(element, element.count - i);
+        if (i == element.count) return;
+      }
       if (wedges_.wanted()) {
         read_wedges(element, list_at);
         continue;

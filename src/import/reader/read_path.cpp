@@ -88,6 +88,7 @@ void read_path(const std::string& name, MeshSink& sink, const ReadingSettings& s
   const std::string extension = extension_of(path);
   for (const Format& format : formats) {
     if (format.extension != extension) continue;
+    if (settings.only_list) return;
     switch (format.family) {
       case Family::obj:
         return read_obj(path, sink);

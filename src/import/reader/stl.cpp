@@ -76,9 +76,7 @@ void read_binary(FileBytes& bytes, const std::string& stem, MeshSink& sink) {
     std::array<float, 9> c;
     std::memcpy(c.data(), facet.data() + normal_bytes, sizeof(c));
     bytes.skip(facet_bytes);
-    const std::uint32_t a = sink.add_shared_vertex({c[0], c[1], c[2]});
-    const std::uint32_t b = sink.add_shared_vertex({c[3], c[4], c[5]});
-    sink.add_triangle(a, b, sink.add_shared_vertex({c[6], c[7], c[8]}));
+    sink.add_polygon(std::array<Vec3, 3>{{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}});
   }
 }
 
@@ -151,12 +149,12 @@ class AsciiStl {
       const std::string_view word = take_word(rest);
       if (!parse(word, v[k])) fail(fmt::format("'{}' is no coordinate", shown(word)));
     }
-    corners_.push_back(sink_.add_shared_vertex(v));
+    corners_.push_back(v);
   }
 
   void finish_facet() {
     if (corners_.size() < 3) fail("a facet needs three vertices");
-    for (std::size_t i = 2; i < corners_.size(); ++i) sink_.add_triangle(corners_[0], corners_[i - 1], corners_[i]);
+    sink_.add_polygon(corners_);
   }
 
   FileBytes& bytes_;
@@ -164,7 +162,7 @@ class AsciiStl {
   std::string stem_;
   MeshSink& sink_;
   Inside inside_ = Inside::nothing;
-  std::vector<std::uint32_t> corners_;
+  std::vector<Vec3> corners_;
 };
 
 }  // namespace

@@ -58,8 +58,8 @@ std::optional<Georeference> georeference_in(const fs::path& file, MeshSink& sink
   return std::nullopt;
 }
 
-/// The root files of all tiles in `folder`, sorted by name; missing ones are told.
-std::vector<fs::path> tile_roots(const fs::path& folder, MeshSink& sink) {
+/// The root files of all tiles in `folder`: the `missing` ones, then the others, each sorted by name.
+std::vector<fs::path> tile_roots(const fs::path& folder, std::size_t& missing) {
   std::vector<fs::path> roots;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
@@ -68,14 +68,22 @@ std::vector<fs::path> tile_roots(const fs::path& folder, MeshSink& sink) {
     roots.push_back(entry.path() / (name + ".osgb"));
   }
   std::sort(roots.begin(), roots.end());
-  const auto absent =
-      std::stable_partition(roots.begin(), roots.end(), [&](const fs::path& root) { return fs::exists(root, none); });
-  for (auto root = absent; root != roots.end(); ++root) sink.report_missing_page(root->string());
-  roots.erase(absent, roots.end());
-  if (const fs::path own = folder / (folder.filename().string() + ".osgb"); roots.empty() && fs::exists(own, none)) {
-    roots.push_back(own);
-  }
+  const auto present =
+      std::stable_partition(roots.begin(), roots.end(), [&](const fs::path& root) { return !fs::exists(root, none); });
+  missing = static_cast<std::size_t>(present - roots.begin());
+  const fs::path own = folder / (folder.filename().string() + ".osgb");
+  if (present == roots.end() && fs::exists(own, none)) roots.push_back(own);
   return roots;
+}
+
+/// Drops all roots but that of one tile, which is missing when there is none any more.
+void keep_only(const std::string& tile, std::vector<fs::path>& roots, std::size_t& missing) {
+  const auto wanted =
+      std::find_if(roots.begin(), roots.end(), [&](const fs::path& root) { return root.stem() == tile; });
+  const bool present = wanted - roots.begin() >= static_cast<std::ptrdiff_t>(missing) && wanted != roots.end();
+  const fs::path root = wanted == roots.end() ? fs::path(tile + ".osgb") : *wanted;
+  roots.assign(1, root);
+  missing = present ? 0 : 1;
 }
 
 /// Moves the sink to where this folder lies in the frame of the scene.
@@ -111,8 +119,9 @@ void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& set
   std::error_code none;
   const bool has_data = fs::is_directory(folder / "Data", none);
   const fs::path metadata = (folder.filename() == "Data" ? folder.parent_path() : folder) / "metadata.xml";
-  const std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, sink);
-  if (roots.empty()) {
+  std::size_t missing = 0;
+  std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, missing);
+  if (roots.size() == missing) {
     throw Error(
         fmt::format("{}: this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the "
                     "scene's file.",
@@ -126,6 +135,13 @@ void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& set
                     "as they are.",
                     path.string()));
   }
+  if (settings.only_list) {
+    for (std::size_t i = 0; i < roots.size(); ++i) sink.report_tile(roots[i].string(), i >= missing);
+    return;
+  }
+  if (!settings.tile.empty()) keep_only(settings.tile, roots, missing);
+  for (std::size_t i = 0; i < missing; ++i) sink.report_missing_page(roots[i].string());
+  roots.erase(roots.begin(), roots.begin() + static_cast<std::ptrdiff_t>(missing));
   // A tile that is paged is not opened here but for its place, which needs no image.
   prepare_osg(sink, false);
   Pages pages(sink);

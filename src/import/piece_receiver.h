@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// The checks that a reader's pieces must pass on their way to whoever takes them.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "import/stream_receiver.h"
+
+namespace roam::reader {
+
+/// Takes the frames of one reader and hands each piece on when it is whole.
+class PieceReceiver : public StreamReceiver {
+ public:
+  PieceReceiver(ImportReport& report, std::size_t ignore_patterns, const PieceSink& sink);
+
+  [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
+
+ private:
+  void take_content(FrameKind kind, std::span<const std::byte> payload) override;
+  void finish_content(const Totals& totals) override;
+  void begin_piece(std::span<const std::byte> payload);
+  void take_vertices(std::span<const std::byte> payload);
+  void take_triangles(std::span<const std::byte> payload);
+  void finish_piece();
+
+  const PieceSink& sink_;
+  std::uint64_t vertices_ = 0, triangles_ = 0;
+
+  // The piece in the making; its memory is used again.
+  bool in_piece_ = false;
+  bool continues_ = false;
+  Mesh piece_;
+};
+
+}  // namespace roam::reader

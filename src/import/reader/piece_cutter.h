@@ -1,0 +1,86 @@
+#pragma once
+/// \file
+/// Objects in pieces, so that neither end of the stream needs to hold a whole one.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/reader/frame_writer.h"
+#include "import/reader/paged_vertices.h"
+#include "roam/math.h"
+
+namespace roam::reader {
+
+/// Gathers triangles, which name their vertices by numbers of the object, into pieces with vertices of their own, and
+/// sends each piece when it is full. Where a piece ends depends on nothing but the triangles.
+class PieceCutter {
+ public:
+  /// `memory_limit`: what this process and the receiver may take together, in bytes.
+  PieceCutter(FrameWriter& frames, std::uint64_t memory_limit);
+
+  /// The vertices that triangles name, for readers that cannot tell when one is used last.
+  [[nodiscard]] PagedVertices& vertices() { return vertices_; }
+
+  void begin_object(std::string_view name);
+  /// Adds a triangle of the current object; vertex_of(k) is the place of its corner k, asked when the piece does not
+  /// have it yet.
+  template <class VertexOf>
+  void add_triangle(const std::array<std::uint32_t, 3>& corners, VertexOf&& vertex_of) {
+    std::array<std::uint32_t, 3> in_piece;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Entry& entry = entry_of(corners[k]);
+      if (entry.in_piece == none) {
+        entry = {corners[k], static_cast<std::uint32_t>(piece_vertices_.size())};
+        piece_entries_.push_back(static_cast<std::uint32_t>(&entry - entries_.data()));
+        piece_vertices_.push_back(vertex_of(k));
+      }
+      in_piece[k] = entry.in_piece;
+    }
+    piece_triangles_.push_back(in_piece);
+    if (piece_triangles_.size() == piece_limit) send();
+  }
+  /// Sends what is left of the current object.
+  void finish_object();
+
+  [[nodiscard]] std::uint64_t vertices_sent() const { return vertices_sent_; }
+  [[nodiscard]] std::uint64_t triangles_sent() const { return triangles_sent_; }
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t piece_limit = 1u << 16;
+  /// More than twice the vertices that a piece can have.
+  static constexpr unsigned entry_bits = 19;
+
+  /// A vertex of the object and its number in the piece.
+  struct Entry {
+    std::uint32_t vertex = 0;
+    std::uint32_t in_piece = none;
+  };
+
+  /// The entry of that vertex, or the free one where it belongs. Vertices that follow each other lie side by side, as
+  /// most triangles use neighbours.
+  Entry& entry_of(std::uint32_t vertex) {
+    constexpr std::uint32_t golden = 0x9e3779b1u;
+    constexpr std::uint32_t mask = (1u << entry_bits) - 1;
+    std::uint32_t at = (vertex + (vertex >> entry_bits) * golden) & mask;
+    while (entries_[at].in_piece != none && entries_[at].vertex != vertex) at = (at + 1) & mask;
+    return entries_[at];
+  }
+  void send();
+
+  FrameWriter& frames_;
+  PagedVertices vertices_;
+  std::uint64_t vertices_sent_ = 0, triangles_sent_ = 0;
+  std::string name_;
+  bool continues_ = false;  ///< a piece of the object is sent
+  std::vector<Vec3> piece_vertices_;
+  std::vector<std::uint32_t> piece_entries_;  ///< of piece_vertices_
+  std::vector<std::array<std::uint32_t, 3>> piece_triangles_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace roam::reader

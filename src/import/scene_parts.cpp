@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "import/find_reader.h"
+#include "import/read_all.h"
+#include "roam/import.h"
+
+namespace roam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tile as the reader lists it.
+struct Tile {
+  fs::path root;
+  bool present = false;
+};
+
+/// Takes the names of a folder's tiles.
+class TileList : public reader::StreamReceiver {
+ public:
+  TileList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
+
+  [[nodiscard]] std::uint64_t triangles() const override { return 0; }
+  [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
+
+ private:
+  /// Names of millions of tiles.
+  static constexpr std::uint64_t text_bytes = 1ull << 30;
+
+  void take_content(reader::FrameKind kind, std::span<const std::byte> payload) override {
+    if (kind != reader::FrameKind::tile) throw StreamDamaged{"a frame of unknown kind"};
+    count_bytes(payload.size());
+    reader::PayloadReader fields(payload);
+    Tile tile;
+    tile.root = fields.take_text();
+    tile.present = fields.take<std::uint8_t>() != 0;
+    if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+    tiles_.push_back(std::move(tile));
+  }
+  void finish_content(const reader::Totals&) override {}
+
+  std::vector<Tile> tiles_;
+};
+
+fs::path normal(const fs::path& path) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none);
+  while (!none && entry != fs::recursive_directory_iterator()) {
+    std::error_code unseen;
+    if (entry->is_regular_file(unseen)) files.push_back(entry->path());
+    entry.increment(none);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Gives every part a name that no other has.
+class Names {
+ public:
+  std::string unique(const std::string& wished) {
+    std::string name = wished;
+    for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{} ({})", wished, i);
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+void count_bytes(ScenePart& part) {
+  for (const fs::path& file : part.files) {
+    std::error_code unseen;
+    const auto bytes = fs::file_size(file, unseen);
+    part.bytes += unseen ? 0 : bytes;
+  }
+}
+
+/// One part a tile; those that are missing too, so that reading it says so.
+void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
+               Names& names, std::vector<ScenePart>& parts) {
+  // As the reader finds it: see read_tiles.
+  fs::path folder = normal(path);
+  if (folder.filename() == "Data") folder = folder.parent_path();
+  std::error_code none;
+  const fs::path metadata = folder / "metadata.xml";
+  for (const Tile& tile : tiles) {
+    ScenePart part;
+    part.path = path;
+    part.tile = tile.root.stem().string();
+    part.name = names.unique(folder.filename().string() + "/" + part.tile);
+    part.frame = frame;
+    if (tile.present) {
+      part.files = files_in(tile.root.parent_path());
+      // It says where the tile lies.
+      if (fs::exists(metadata, none) && std::find(part.files.begin(), part.files.end(), metadata) == part.files.end()) {
+        part.files.push_back(metadata);
+      }
+    }
+    count_bytes(part);
+    parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const ImportOptions& options) {
+  const std::vector<reader::Source> sources = reader::sources(paths);
+  reader::check(sources, options);
+  const fs::path program = reader::find_reader(options.reader);
+
+  std::vector<ScenePart> parts;
+  Names names;
+  ImportReport report;
+  for (const fs::path& path : paths) {
+    reader::Reading reading;
+    reading.program = program;
+    reading.path = path;
+    reading.options = &options;
+    reading.wanted = reader::Reading::Wanted::list;
+    reading.frame = report.georeference;
+    reading.report_progress = [](std::uint64_t, std::uint64_t) {};
+    const std::optional<Georeference> frame = report.georeference;
+    TileList list(report, options.ignore.size());
+    std::vector<bool> matched(options.ignore.size());
+    reader::read_one(reading, list, matched);
+    if (fs::is_directory(path)) {
+      add_tiles(path, list.tiles(), frame, names, parts);
+      continue;
+    }
+    ScenePart part;
+    part.name = names.unique(normal(path).filename().string());
+    part.path = path;
+    part.files = {normal(path)};
+    count_bytes(part);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace roam
