@@ -40,7 +40,7 @@ class Stream {
     return frame(kind, std::string(reinterpret_cast<const char*>(payload.bytes().data()), payload.bytes().size()));
   }
   Stream& hello() { return frame(FrameKind::hello, PayloadWriter().add(reader::stream_version)); }
-  Stream& object() { return frame(FrameKind::object, PayloadWriter().add_text("wall")); }
+  Stream& object() { return frame(FrameKind::object, PayloadWriter().add_text("wall").add(std::uint8_t{0})); }
   Stream& vertices(const std::vector<double>& coordinates) {
     PayloadWriter payload;
     for (const double c : coordinates) payload.add(c);
