@@ -27,12 +27,11 @@ struct VertexKey {
 
 class TileBuilder {
  public:
-  TileBuilder(const Soup& soup, std::span<const std::uint32_t> ids, bool lossless) : ids_(ids) {
-    triangles_.resize(ids.size());
-    soup.for_each(ids, [&](std::size_t i, const Triangle& t) {
-      triangles_[i] = t;
+  TileBuilder(std::span<const Triangle> triangles, std::span<const std::uint32_t> ids, bool lossless)
+      : triangles_(triangles), ids_(ids) {
+    for (const Triangle& t : triangles) {
       for (const Vec3& v : t) out_.bounds.include(v);
-    });
+    }
     grid_ = Grid::fitting(out_.bounds);
     fine_ = lossless || grid_.step > kOrdinaryStep;
   }
@@ -173,9 +172,9 @@ class TileBuilder {
     for (const std::uint32_t t : triangles) put(ids_[t] - base, leaf.id_bytes);
   }
 
+  std::span<const Triangle> triangles_;
   std::span<const std::uint32_t> ids_;
   bool fine_ = false;
-  std::vector<Triangle> triangles_;
   std::vector<Corners> corners_;
   std::vector<StepBox> boxes_;
   Grid grid_;
@@ -185,7 +184,13 @@ class TileBuilder {
 }  // namespace
 
 BuiltTile build_tile(const Soup& soup, std::span<const std::uint32_t> ids, bool lossless) {
-  return TileBuilder(soup, ids, lossless).run();
+  std::vector<Triangle> triangles(ids.size());
+  soup.for_each(ids, [&](std::size_t i, const Triangle& t) { triangles[i] = t; });
+  return build_tile(triangles, ids, lossless);
+}
+
+BuiltTile build_tile(std::span<const Triangle> triangles, std::span<const std::uint32_t> ids, bool lossless) {
+  return TileBuilder(triangles, ids, lossless).run();
 }
 
 std::uint32_t read_id(const std::uint8_t* tile_ids, const Leaf& leaf, int i) {

@@ -25,6 +25,10 @@ struct BuiltTile {
 /// kept where the whole ones would move a vertex by more than kOrdinaryStep allows, and everywhere when `lossless`.
 [[nodiscard]] BuiltTile build_tile(const Soup& soup, std::span<const std::uint32_t> ids, bool lossless);
 
+/// The same for triangles wherever they come from; ids[i], ascending, is the number of triangles[i].
+[[nodiscard]] BuiltTile build_tile(std::span<const Triangle> triangles, std::span<const std::uint32_t> ids,
+                                   bool lossless);
+
 /// The number of triangle i of a leaf, read from its tile's id stream.
 [[nodiscard]] std::uint32_t read_id(const std::uint8_t* tile_ids, const Leaf& leaf, int i);
 

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// Places on a Morton curve: the order in which triangles are cut into tiles.
+///
+/// A key is the size class of a triangle in its top 4 bits, then the interleaved bits of the cell that the centre of
+/// its box lies in.
+
+#include <cmath>
+#include <cstdint>
+
+#include "index/partition.h"
+
+namespace roam::index {
+
+/// 0 for ordinary triangles; each class above holds sixteen times wider ones. `extent`: the widest side of the box, m.
+inline std::uint32_t size_class(double extent) {
+  std::uint32_t c = 0;
+  for (double limit = kOrdinaryTriangle; extent > limit && c < 15; limit = std::ldexp(limit, kClassFactorBits)) ++c;
+  return c;
+}
+
+/// Inserts two zero bits after each of the low 21 bits.
+inline std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffULL;
+  x = (x | x << 16) & 0x001f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+/// The inverse of spread.
+inline std::uint64_t gather(std::uint64_t x) {
+  x = (x | x >> 2) & 0x10c30c30c30c30c3ULL;
+  x = (x | x >> 4) & 0x100f00f00f00f00fULL;
+  x = (x | x >> 8) & 0x001f0000ff0000ffULL;
+  x = (x | x >> 16) & 0x001f00000000ffffULL;
+  return (x | x >> 32) & 0x00000000001fffffULL;
+}
+
+/// The curve over one scene in memory: 2^20 cells along the scene's widest side.
+struct SceneCurve {
+  using Key = std::uint64_t;
+  static constexpr int kAxisBits = 20;
+  static constexpr int kClassShift = 3 * kAxisBits;
+  static constexpr Key kAxis = 0x1249249249249249ULL;  ///< the bits of the first axis
+  static Key spread(std::uint64_t x) { return index::spread(x); }
+  static std::uint64_t gather(Key place) { return index::gather(place); }
+};
+
+}  // namespace roam::index

@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// Cuts a sorted run of triangles into tiles at the cells of a Morton curve.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "index/grid.h"
+#include "index/partition.h"
+
+namespace roam::index {
+
+/// `Curve`: see curve.h. Items have a `key` and ascend by it; `reach(item)` is half the widest side of a triangle's
+/// box, rounded up, in metres: how far it may stick out of the cells of its run.
+///
+/// A run that holds more than kTileTriangles is always divided at the first bit of the keys that divides it. So cutting
+/// the cells of such a division one by one gives the same tiles as cutting the whole.
+template <class Curve, class Item, class Reach>
+class Cutter {
+ public:
+  /// `cell`: side of the curve's smallest cell, m.
+  Cutter(std::span<const Item> items, Reach reach, double cell, bool lossless)
+      : items_(items), reach_(reach), cell_(cell), widest_(lossless ? kWidestLossless : kWidest) {}
+
+  /// Calls out(begin, end) for each tile of items[begin, end), which are of one size class and not empty.
+  template <class Out>
+  void cut(std::uint32_t begin, std::uint32_t end, Out&& out) const {
+    cut(begin, end, Curve::kClassShift - 1, out);
+  }
+
+  /// Where the cutter would divide items[begin, end): at the first bit that does, else in the middle.
+  [[nodiscard]] std::uint32_t middle(std::uint32_t begin, std::uint32_t end) const {
+    int bit = Curve::kClassShift - 1;
+    const std::uint32_t at = divide(begin, end, bit);
+    return at == end ? begin + (end - begin) / 2 : at;
+  }
+
+ private:
+  using Key = typename Curve::Key;
+
+  /// items[begin, end) agree in all key bits above `bit`.
+  template <class Out>
+  void cut(std::uint32_t begin, std::uint32_t end, int bit, Out& out) const {
+    const auto c = static_cast<int>(items_[begin].key >> Curve::kClassShift);
+    const std::uint32_t count = end - begin;
+    if (count <= kTileTriangles && width(begin, end) <= limit(count <= kSparseTriangles ? c + 1 : c)) {
+      out(begin, end);
+      return;
+    }
+    const std::uint32_t at = divide(begin, end, bit);
+    if (at != end) {
+      cut(begin, at, bit - 1, out);
+      cut(at, end, bit - 1, out);
+      return;
+    }
+    // More triangles than a tile holds in one cell of the curve.
+    for (; end - begin > kTileTriangles; begin += kTileTriangles) out(begin, begin + kTileTriangles);
+    out(begin, end);
+  }
+
+  /// The first item with a one in the highest bit, from `bit` down, that not all have alike; `end` when there is none.
+  std::uint32_t divide(std::uint32_t begin, std::uint32_t end, int& bit) const {
+    const Key differ = items_[begin].key ^ items_[end - 1].key;
+    for (; bit >= 0; --bit) {
+      const Key mask = Key{1} << bit;
+      if ((differ & mask) == 0) continue;
+      return static_cast<std::uint32_t>(std::partition_point(items_.begin() + begin, items_.begin() + end,
+                                                             [&](const Item& i) { return (i.key & mask) == 0; }) -
+                                        items_.begin());
+    }
+    return end;
+  }
+
+  /// The widest side that a tile of the class may have.
+  [[nodiscard]] double limit(int c) const {
+    return std::min(widest_, std::ldexp(kOrdinaryStep * double(kGridSteps - 4), kClassFactorBits * c));
+  }
+
+  /// An upper bound of the widest side of the box of a run.
+  [[nodiscard]] double width(std::uint32_t begin, std::uint32_t end) const {
+    Key lower[3], upper[3];
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = ~Key{0};
+      upper[k] = 0;
+    }
+    float reach = 0.0F;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Key key = items_[i].key & ((Key{1} << Curve::kClassShift) - 1);
+      for (int k = 0; k < 3; ++k) {
+        // Interleaved bits of one axis compare as the coordinate does.
+        const Key place = key >> k & Curve::kAxis;
+        lower[k] = std::min(lower[k], place);
+        upper[k] = std::max(upper[k], place);
+      }
+      reach = std::max(reach, reach_(items_[i]));
+    }
+    double widest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      widest = std::max(widest, double(Curve::gather(upper[k]) - Curve::gather(lower[k]) + 1) * cell_);
+    }
+    return widest + 2.0 * double(reach);
+  }
+
+  std::span<const Item> items_;
+  Reach reach_;
+  double cell_, widest_;
+};
+
+}  // namespace roam::index
