@@ -1,0 +1,235 @@
+// The three steps of a build, for programs: see roam/store_build.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+
+#include "roam/store_build.h"
+#include "store/build/layout.h"
+#include "store/build/merge.h"
+#include "store/build/plan.h"
+#include "store/build/shard.h"
+#include "store/files.h"
+
+namespace roam {
+namespace {
+
+using namespace store;
+namespace fs = std::filesystem;
+
+/// Adds the seconds of its life.
+class Timer {
+ public:
+  explicit Timer(double& seconds) : seconds_(seconds) {}
+  ~Timer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void make_folders(const fs::path& store) {
+  for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {
+    make_folder(store / name);
+  }
+}
+
+void describe(const Plan& plan, StoreBuildReport& report) {
+  report.triangles = 0;
+  for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
+  report.shards = plan.shards.size();
+  report.parts = plan.parts.size();
+  report.notes.clear();
+  for (const PartRecord& part : plan.parts) {
+    report.notes.insert(report.notes.end(), part.notes.begin(), part.notes.end());
+  }
+}
+
+/// Nothing when the store is up to date.
+std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
+  const double read_before = report.read_seconds;
+  std::optional<Plan> plan;
+  {
+    const Timer timer(report.plan_seconds);
+    make_folders(work.store);
+    plan = make_plan(work, damaged, report);
+    if (plan) write_plan(work.store, *plan);
+  }
+  report.plan_seconds -= report.read_seconds - read_before;
+  if (plan) {
+    describe(*plan, report);
+    return plan;
+  }
+  tidy(work.store);  // a build may have been killed after it had published
+  report.unchanged = true;
+  const Manifest manifest = *manifest_in_force(work.store);
+  for (const PartInfo& part : manifest.parts) report.triangles += part.triangles;
+  report.shards = manifest.shards.size();
+  report.notes = manifest.notes;
+  return plan;
+}
+
+/// A lower bound of the distance between a place and the triangles of a stretch, squared; by the middles of their
+/// boxes.
+double distance2(const Stretch& stretch, const Vec3& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CurveCell& cell : stretch.cells) {
+    constexpr CurveKey places = (CurveKey{1} << AbsoluteCurve::kClassShift) - 1;
+    // A cell of several size classes is one of all places.
+    const bool all = cell.bits >= AbsoluteCurve::kClassShift;
+    const CurveKey lower = all ? 0 : cell.key & places, upper = all ? places : cell.last() & places;
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const auto metres = [&](CurveKey key) {
+        return AbsoluteCurve::kOrigin +
+               AbsoluteCurve::kCell * double(AbsoluteCurve::gather(key >> k & AbsoluteCurve::kAxis));
+      };
+      const double beside = std::max({0.0, metres(lower) - place[k], place[k] - metres(upper) - AbsoluteCurve::kCell});
+      sum += beside * beside;
+    }
+    least = std::min(least, sum);
+  }
+  return least;
+}
+
+/// Builds these shards; syncs one while it builds the next.
+void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers, StoreBuildReport& report) {
+  const Timer timer(report.shard_seconds);
+  if (const auto& place = work.options.nearest_first) {
+    std::vector<double> distance(plan.shards.size());
+    for (const std::size_t i : numbers) distance[i] = distance2(plan.shards[i].stretch, *place);
+    std::stable_sort(numbers.begin(), numbers.end(), [&](auto a, auto b) { return distance[a] < distance[b]; });
+  }
+  std::uint64_t triangles = 0;
+  for (const std::size_t i : numbers) triangles += plan.shards[i].stretch.triangles;
+  work.begin(Work::Step::shards, 0, triangles);
+  std::future<void> publishing;
+  try {
+    for (const std::size_t i : numbers) {
+      const PlannedShard& shard = plan.shards[i];
+      if (built_shard(work.store, shard.key)) {
+        work.add_triangles(shard.stretch.triangles);
+        work.tick();
+        continue;
+      }
+      const std::function<void()> publish = make_shard(work, plan, shard);
+      if (publishing.valid()) publishing.get();
+      publishing = std::async(std::launch::async, publish);
+      ++report.shards_built;
+    }
+    if (publishing.valid()) publishing.get();
+  } catch (...) {
+    // What is under way is complete, and stays.
+    if (publishing.valid()) publishing.wait();
+    throw;
+  }
+}
+
+void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
+  const Timer timer(report.merge_seconds);
+  merge(work, plan);
+}
+
+/// Whether what is in force there was written by a newer roam.
+bool is_newer(const fs::path& store) {
+  const std::vector<std::byte> bytes = read_file(store / current_file, 1 << 20);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  unsigned version = 0;
+  return std::sscanf(text.c_str(), "roam store %9u", &version) == 1 && version > format_version;
+}
+
+}  // namespace
+
+std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
+  Work work(options);
+  prepare_output(options);
+  const BuildLock lock(work.store);
+  const auto plan = plan_locked(work, {}, report);
+  return plan ? plan->to_build().size() : 0;
+}
+
+void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
+  Work work(options);
+  const Plan plan = read_plan(work.store);
+  describe(plan, report);
+  const std::vector<std::size_t> numbers = plan.to_build();
+  if (i >= numbers.size()) {
+    throw Error(fmt::format("there is no shard {} in the plan of {}: they go from 0 to {}", i, work.store.string(),
+                            numbers.empty() ? 0 : numbers.size() - 1));
+  }
+  build_shards(work, plan, {numbers[static_cast<std::size_t>(i)]}, report);
+}
+
+void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
+  Work work(options);
+  if (!fs::is_directory(work.store)) throw Error(fmt::format("{} is no folder of a store", work.store.string()));
+  const BuildLock lock(work.store);
+  const Plan plan = read_plan(work.store);
+  describe(plan, report);
+  merge_locked(work, plan, report);
+}
+
+StoreBuildReport build_store(const StoreBuildOptions& options) {
+  StoreBuildReport report;
+  Work work(options);
+  prepare_output(options);
+  const BuildLock lock(work.store);
+  const auto plan = plan_locked(work, {}, report);
+  if (!plan) return report;
+  build_shards(work, *plan, plan->to_build(), report);
+  merge_locked(work, *plan, report);
+  return report;
+}
+
+std::uint64_t repair_store(const StoreBuildOptions& options) {
+  Work work(options);
+  if (!Store::is_store(work.store)) throw Error(fmt::format("{} is no store", work.store.string()));
+  const BuildLock lock(work.store);
+  Manifest manifest;
+  try {
+    manifest = *manifest_in_force(work.store);
+  } catch (const Error&) {
+    if (is_newer(work.store)) throw;
+    // Nothing tells what the store held. All of it is built again.
+    make_folders(work.store);
+    std::error_code error;
+    fs::remove(work.store / current_file, error);
+    StoreBuildReport report;
+    const auto plan = plan_locked(work, {}, report);
+    build_shards(work, *plan, plan->to_build(), report);
+    merge_locked(work, *plan, report);
+    return report.shards_built;
+  }
+  std::set<std::string> damaged;
+  const auto check = [&](const std::string& hash, const std::string& file) {
+    std::error_code error;
+    if (!fs::exists(work.store / file, error) ||
+        sha256_of_file(work.store / file, [&](std::uint64_t) { work.tick(); }) != hash) {
+      damaged.insert(hash);
+    }
+  };
+  for (const PartInfo& part : manifest.parts) check(part.file, part_file(part.file));
+  for (const ShardInfo& shard : manifest.shards) check(shard.pack, pack_file(shard.pack));
+  if (damaged.empty()) return 0;
+  StoreBuildReport report;
+  const auto plan = plan_locked(work, damaged, report);
+  bool same = plan && plan->options == manifest.options && plan->lossless == manifest.lossless &&
+              plan->parts.size() == manifest.parts.size();
+  for (std::size_t i = 0; same && i < plan->parts.size(); ++i) {
+    same = plan->parts[i].info.name == manifest.parts[i].name &&
+           plan->parts[i].info.fingerprint == manifest.parts[i].fingerprint;
+  }
+  if (!same) {
+    remove_scratch(work.store);
+    throw Error(fmt::format("{} was not made of this scene, as it is now and as it was read: build it again instead",
+                            work.store.string()));
+  }
+  build_shards(work, *plan, plan->to_build(), report);
+  merge_locked(work, *plan, report);
+  return report.shards_built;
+}
+
+}  // namespace roam

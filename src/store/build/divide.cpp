@@ -1,0 +1,131 @@
+#include "store/build/divide.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+namespace roam::store {
+namespace {
+
+/// Cells are refined by so many bits at a time: into 4096 at most.
+constexpr int kRefineBits = 12;
+
+int width(CurveKey x) {
+  const auto high = static_cast<std::uint64_t>(x >> 64);
+  return high != 0 ? 64 + std::bit_width(high) : std::bit_width(static_cast<std::uint64_t>(x));
+}
+
+bool before(const PartCell& a, const PartCell& b) { return a.key != b.key ? a.key < b.key : a.part < b.part; }
+
+class Divider {
+ public:
+  Divider(const Refine& refine, const ShardLimits& limits) : refine_(refine), limits_(limits) {}
+
+  std::vector<Stretch> run(std::vector<PartCell> cells) {
+    visit({0, kKeyBits}, cells);
+    flush();
+    return std::move(out_);
+  }
+
+ private:
+  /// All of `cells` lie in `cell`.
+  void visit(const CurveCell& cell, std::span<PartCell> cells) {
+    std::uint64_t total = 0;
+    for (const PartCell& c : cells) total += c.triangles;
+    if (total == 0) return;
+    if (total <= limits_.shard) {
+      add(cell, total, cells);
+      return;
+    }
+    const bool district = total > limits_.district;
+    if (district) flush();
+    if (cell.bits == 0) {
+      slice(cell, total, cells);
+      return;
+    }
+    // Nothing divides above the first bit in which keys differ; below the widest cell one cannot tell.
+    int widest = 0;
+    for (const PartCell& c : cells) widest = std::max(widest, c.bits);
+    const int bit = std::max(width(cells.front().key ^ cells.back().key), widest) - 1;
+    if (bit < 0) {
+      // One smallest cell holds them all.
+      visit({cells.front().key, 0}, cells);
+      return;
+    }
+    std::vector<PartCell> finer;
+    if (bit < widest) {
+      finer = refined(cells, widest);
+      cells = finer;
+    }
+    const CurveKey prefix = cells.front().key >> (bit + 1) << (bit + 1);
+    const CurveKey border = prefix | CurveKey{1} << bit;
+    const auto second = static_cast<std::size_t>(
+        std::partition_point(cells.begin(), cells.end(), [&](const PartCell& c) { return c.key < border; }) -
+        cells.begin());
+    visit({prefix, bit}, cells.first(second));
+    if (district) flush();
+    visit({border, bit}, cells.subspan(second));
+    if (district) flush();
+  }
+
+  /// The cells with those of `bits` bits replaced by finer ones.
+  [[nodiscard]] std::vector<PartCell> refined(std::span<const PartCell> cells, int bits) const {
+    std::vector<PartCell> finer;
+    for (const PartCell& c : cells) {
+      if (c.bits < bits) {
+        finer.push_back(c);
+        continue;
+      }
+      const std::vector<PartCell> some = refine_(c.part, {c.key, c.bits}, std::max(0, c.bits - kRefineBits));
+      finer.insert(finer.end(), some.begin(), some.end());
+    }
+    std::sort(finer.begin(), finer.end(), before);
+    return finer;
+  }
+
+  void add(const CurveCell& cell, std::uint64_t total, std::span<const PartCell> cells) {
+    if (open_.triangles + total > limits_.shard) flush();
+    open_.cells.push_back(cell);
+    open_.triangles += total;
+    for (const PartCell& c : cells) open_.parts.push_back(c.part);
+    tidy(open_.parts);
+  }
+
+  /// Shards of one smallest cell.
+  void slice(const CurveCell& cell, std::uint64_t total, std::span<const PartCell> cells) {
+    flush();
+    for (std::uint64_t skip = 0; skip < total; skip += limits_.shard) {
+      Stretch s;
+      s.cells = {cell};
+      s.skip = skip;
+      s.triangles = std::min(limits_.shard, total - skip);
+      for (const PartCell& c : cells) s.parts.push_back(c.part);
+      tidy(s.parts);
+      out_.push_back(std::move(s));
+    }
+  }
+
+  void flush() {
+    if (open_.triangles > 0) out_.push_back(std::move(open_));
+    open_ = {};
+  }
+
+  static void tidy(std::vector<std::uint32_t>& parts) {
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  }
+
+  const Refine& refine_;
+  ShardLimits limits_;
+  Stretch open_;
+  std::vector<Stretch> out_;
+};
+
+}  // namespace
+
+std::vector<Stretch> divide(std::vector<PartCell> cells, const Refine& refine, const ShardLimits& limits) {
+  std::sort(cells.begin(), cells.end(), before);
+  return Divider(refine, limits).run(std::move(cells));
+}
+
+}  // namespace roam::store

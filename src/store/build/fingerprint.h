@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// Whether a part of a scene is what it was.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "roam/import.h"
+
+namespace roam::store {
+
+/// How a scene is read, as text: the same text, the same triangles from the same files.
+[[nodiscard]] std::string text_of(const ImportOptions& options);
+
+/// Knows the content of the scene's files by a hash. A file whose size and time of change are those of the last time is
+/// not read again, unless it was changed so shortly before that the time cannot tell.
+///
+/// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same.
+class Sources {
+ public:
+  /// `file`: where it is remembered. What is damaged there is forgotten.
+  explicit Sources(std::filesystem::path file);
+
+  /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw.
+  void look(const std::vector<ScenePart>& parts, const std::function<void()>& tick);
+  /// Of a part that was looked at.
+  [[nodiscard]] std::string fingerprint(const ScenePart& part, const std::string& options) const;
+  /// Throws roam::Error when a file of the part is not what it was when it was looked at.
+  void check_unchanged(const ScenePart& part) const;
+  void save() const;
+
+ private:
+  struct Seen {
+    std::uint64_t size = 0;
+    std::int64_t changed_ns = 0;
+    std::uint64_t hash = 0;
+    bool settled = false;  ///< it was changed long before it was looked at
+    bool operator==(const Seen&) const = default;
+  };
+  static Seen status(const std::filesystem::path& file);
+
+  std::filesystem::path file_;
+  std::map<std::string, Seen> known_, seen_;
+};
+
+}  // namespace roam::store

@@ -1,0 +1,198 @@
+#include "store/build/intake.h"
+
+#include <fmt/format.h>
+
+#include <future>
+#include <nlohmann/json.hpp>
+
+#include "store/build/histogram.h"
+#include "store/build/layout.h"
+#include "store/build/run.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kRecordLimit = 1u << 30;
+
+/// Takes the pieces of a part and writes runs; sorts one while the next one fills, where memory allows.
+class Intake {
+ public:
+  Intake(Work& work, std::string id) : work_(work), id_(std::move(id)) { filling_.triangles.reserve(run_triangles); }
+
+  void add(const Mesh& piece, bool continues) {
+    if (!continues || part_.objects.empty()) part_.objects.push_back({part_.triangles, piece.name});
+    if (filling_.triangles.size() + piece.triangles.size() > run_triangles) hand_over();
+    const auto first = static_cast<std::uint32_t>(filling_.vertices.size());
+    filling_.vertices.insert(filling_.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+    for (const auto& t : piece.triangles) {
+      filling_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    part_.triangles += piece.triangles.size();
+    work_.add_triangles(piece.triangles.size());
+    work_.tick();
+  }
+
+  PartFile finish() {
+    hand_over();
+    wait();
+    histogram_.finish(part_);
+    return std::move(part_);
+  }
+  [[nodiscard]] const std::vector<PartRecord::Run>& runs() const { return runs_; }
+
+  ~Intake() {
+    if (sorting_.valid()) sorting_.wait();
+  }
+  Intake(const Intake&) = delete;
+  Intake& operator=(const Intake&) = delete;
+
+ private:
+  void hand_over() {
+    if (filling_.triangles.empty()) return;
+    wait();
+    std::swap(filling_, full_);
+    filling_.vertices.clear();
+    filling_.triangles.clear();
+    filling_.first = part_.triangles;
+    if (work_.sorts_beside_reading()) {
+      sorting_ = std::async(std::launch::async, [this] { sort(); });
+    } else {
+      sort();
+      full_ = {};
+    }
+  }
+
+  void sort() {
+    work_.arena.execute([&] {
+      const std::vector<RunItem> items = sort_run(full_);
+      write_run(run_file(work_.store, id_, runs_.size()), full_, items);
+      runs_.push_back({items.front().key, items.back().key});
+      histogram_.add(items);
+    });
+  }
+
+  void wait() {
+    if (sorting_.valid()) sorting_.get();
+  }
+
+  Work& work_;
+  std::string id_;
+  PartFile part_;
+  RunContent filling_;
+  // Of the thread that sorts:
+  RunContent full_;
+  std::vector<PartRecord::Run> runs_;
+  Histogram histogram_;
+  std::future<void> sorting_;
+};
+
+std::string to_text(const PartRecord& record) {
+  Json runs = Json::array();
+  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
+  return Json{{"scratch_version", scratch_version},
+              {"name", record.info.name},
+              {"fingerprint", record.info.fingerprint},
+              {"file", record.info.file},
+              {"bytes", record.info.bytes},
+              {"triangles", record.info.triangles},
+              {"objects", record.info.objects},
+              {"runs", std::move(runs)},
+              {"notes", record.notes}}
+             .dump(1) +
+         "\n";
+}
+
+/// What JSON can hold of a text that comes from a file of unknown encoding.
+std::string valid(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+}  // namespace
+
+std::string key_text(CurveKey key) {
+  return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(key >> 64), static_cast<std::uint64_t>(key));
+}
+
+CurveKey parse_key(const std::string& text) {
+  if (text.size() != 32) throw std::invalid_argument(text);
+  return CurveKey{std::stoull(text.substr(0, 16), nullptr, 16)} << 64 | std::stoull(text.substr(16), nullptr, 16);
+}
+
+std::string record_id(const std::string& name, const std::string& fingerprint) {
+  const std::string text = name + "\n" + fingerprint;
+  return sha256(std::as_bytes(std::span(text))).substr(0, 24);
+}
+
+std::optional<PartRecord> find_record(const fs::path& store, const std::string& id) {
+  const fs::path file = record_file(store, id);
+  std::error_code error;
+  if (!fs::exists(file, error)) return {};
+  const std::vector<std::byte> bytes = read_file(file, kRecordLimit);
+  PartRecord record;
+  record.id = id;
+  try {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    const Json json = Json::parse(text, text + bytes.size());
+    if (json.at("scratch_version").get<int>() != scratch_version) return {};
+    record.info.name = json.at("name").get<std::string>();
+    record.info.fingerprint = json.at("fingerprint").get<std::string>();
+    record.info.file = json.at("file").get<std::string>();
+    record.info.bytes = json.at("bytes").get<std::uint64_t>();
+    record.info.triangles = json.at("triangles").get<std::uint64_t>();
+    record.info.objects = json.at("objects").get<std::uint64_t>();
+    for (const Json& run : json.at("runs")) {
+      record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
+    }
+    record.notes = json.at("notes").get<std::vector<std::string>>();
+  } catch (const std::exception&) {
+    return {};  // it is read again
+  }
+  for (std::size_t i = 0; i < record.runs.size(); ++i) {
+    if (!fs::exists(run_file(store, id, i), error)) return {};
+  }
+  if (fs::file_size(store / part_file(record.info.file), error) != record.info.bytes || error) return {};
+  record.has_runs = true;
+  return record;
+}
+
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, std::uint64_t bytes_before) {
+  PartRecord record;
+  record.info.name = part.name;
+  record.info.fingerprint = fingerprint;
+  record.id = record_id(part.name, fingerprint);
+  Intake intake(work, record.id);
+  ImportOptions options = work.options.import;
+  options.memory_limit = work.reader_memory();
+  options.progress = [&](const ImportProgress& p) {
+    work.set_bytes(bytes_before + std::min(p.bytes_read, part.bytes));
+    try {
+      work.tick();
+    } catch (const Cancelled&) {
+      return false;
+    }
+    return true;
+  };
+  const ImportReport report =
+      stream_part(part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); });
+  const PartFile file = intake.finish();
+  record.runs = intake.runs();
+  record.has_runs = true;
+  for (const std::string& note : report.notes) record.notes.push_back(valid(part.name + ": " + note));
+  const std::vector<std::byte> bytes = encode_part(file);
+  NewFile out(work.store / part_file("new"));
+  out.write(bytes);
+  record.info.file = out.commit_by_hash();
+  record.info.bytes = bytes.size();
+  record.info.triangles = file.triangles;
+  record.info.objects = file.objects.size();
+  write_file(record_file(work.store, record.id), to_text(record));
+  work.set_bytes(bytes_before + part.bytes);
+  work.tick();
+  return record;
+}
+
+}  // namespace roam::store

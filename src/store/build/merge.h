@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// The last step of a build.
+
+#include "store/build/plan.h"
+#include "store/build/work.h"
+
+namespace roam::store {
+
+/// Makes one store of the shards of the plan and puts it in force; then removes what no manifest in force names, and
+/// the scratch folder. The store must be locked.
+void merge(Work& work, const Plan& plan);
+
+/// Removes what no manifest in force names, and the scratch folder. The store must be locked.
+void tidy(const std::filesystem::path& store);
+
+/// Removes what builds keep to go on from.
+void remove_scratch(const std::filesystem::path& store);
+
+}  // namespace roam::store

@@ -1,0 +1,153 @@
+#include "store/build/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "roam/error.h"
+#include "store/build/layout.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kPlanLimit = 1u << 30;
+/// What a shard's tiles depend on beside its triangles: goes up with every change of what the builder makes of them.
+constexpr int kBuilderVersion = 1;
+
+Json json_of(const Stretch& s) {
+  Json cells = Json::array();
+  for (const CurveCell& cell : s.cells) cells.push_back({key_text(cell.key), cell.bits});
+  return {{"cells", std::move(cells)}, {"skip", s.skip}, {"triangles", s.triangles}};
+}
+
+Json json_of(const PartRecord& record) {
+  Json runs = Json::array();
+  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
+  return {{"name", record.info.name},
+          {"fingerprint", record.info.fingerprint},
+          {"file", record.info.file},
+          {"bytes", record.info.bytes},
+          {"triangles", record.info.triangles},
+          {"objects", record.info.objects},
+          {"id", record.id},
+          {"runs", std::move(runs)},
+          {"has_runs", record.has_runs},
+          {"notes", record.notes}};
+}
+
+PartRecord record_of(const Json& json) {
+  PartRecord record;
+  record.info.name = json.at("name").get<std::string>();
+  record.info.fingerprint = json.at("fingerprint").get<std::string>();
+  record.info.file = json.at("file").get<std::string>();
+  record.info.bytes = json.at("bytes").get<std::uint64_t>();
+  record.info.triangles = json.at("triangles").get<std::uint64_t>();
+  record.info.objects = json.at("objects").get<std::uint64_t>();
+  record.id = json.at("id").get<std::string>();
+  for (const Json& run : json.at("runs")) {
+    record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
+  }
+  record.has_runs = json.at("has_runs").get<bool>();
+  record.notes = json.at("notes").get<std::vector<std::string>>();
+  return record;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Plan::to_build() const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    if (!shards[i].there) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+std::string key_of(const Stretch& stretch, const Plan& plan) {
+  Json parts = Json::array();
+  for (const std::uint32_t p : stretch.parts) {
+    const PartInfo& info = plan.parts[p].info;
+    parts.push_back({info.name, info.fingerprint, info.file});
+  }
+  const std::string text = Json{{"format", format_version}, {"builder", kBuilderVersion},  {"lossless", plan.lossless},
+                                {"options", plan.options},  {"stretch", json_of(stretch)}, {"parts", std::move(parts)}}
+                               .dump();
+  return sha256(std::as_bytes(std::span(text)));
+}
+
+void write_plan(const fs::path& store, const Plan& plan) {
+  Json parts = Json::array(), shards = Json::array();
+  for (const PartRecord& record : plan.parts) parts.push_back(json_of(record));
+  for (const PlannedShard& shard : plan.shards) {
+    Json json = json_of(shard.stretch);
+    json["parts"] = shard.stretch.parts;
+    json["key"] = shard.key;
+    json["there"] = shard.there;
+    shards.push_back(std::move(json));
+  }
+  const Json json = {{"scratch_version", scratch_version},
+                     {"options", plan.options},
+                     {"lossless", plan.lossless},
+                     {"parts", std::move(parts)},
+                     {"shards", std::move(shards)}};
+  write_file(plan_file(store), json.dump(1) + "\n");
+}
+
+Plan read_plan(const fs::path& store) {
+  const fs::path file = plan_file(store);
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
+  }
+  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
+  try {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    const Json json = Json::parse(text, text + bytes.size());
+    if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
+    Plan plan;
+    plan.options = json.at("options").get<std::string>();
+    plan.lossless = json.at("lossless").get<bool>();
+    for (const Json& part : json.at("parts")) plan.parts.push_back(record_of(part));
+    for (const Json& item : json.at("shards")) {
+      PlannedShard shard;
+      for (const Json& cell : item.at("cells")) {
+        shard.stretch.cells.push_back({parse_key(cell.at(0).get<std::string>()), cell.at(1).get<int>()});
+      }
+      shard.stretch.skip = item.at("skip").get<std::uint64_t>();
+      shard.stretch.triangles = item.at("triangles").get<std::uint64_t>();
+      shard.stretch.parts = item.at("parts").get<std::vector<std::uint32_t>>();
+      shard.key = item.at("key").get<std::string>();
+      shard.there = item.at("there").get<bool>();
+      for (const std::uint32_t p : shard.stretch.parts) {
+        if (p >= plan.parts.size()) throw std::runtime_error("a part is out of range");
+      }
+      if (shard.key != key_of(shard.stretch, plan)) throw std::runtime_error("a key is not what it should be");
+      plan.shards.push_back(std::move(shard));
+    }
+    return plan;
+  } catch (const std::exception& e) {
+    throw Error(fmt::format("{} cannot be used ({}); plan again", file.string(), e.what()));
+  }
+}
+
+std::optional<Manifest> manifest_in_force(const fs::path& store) {
+  if (!Store::is_store(store)) return {};
+  return read_manifest(*files_of(store), store.string());
+}
+
+std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
+  const fs::path file = shard_file(store, key);
+  std::error_code error;
+  if (!fs::exists(file, error)) return {};
+  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
+  ShardInfo shard = parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file.string());
+  if (shard.key != key || fs::file_size(store / pack_file(shard.pack), error) != shard.bytes || error) return {};
+  return shard;
+}
+
+}  // namespace roam::store

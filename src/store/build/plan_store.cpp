@@ -1,0 +1,238 @@
+// The first step of a build: what has changed is read, and the shards are decided.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "roam/error.h"
+#include "store/build/fingerprint.h"
+#include "store/build/layout.h"
+#include "store/build/plan.h"
+#include "store/build/run.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kPartFileLimit = 1ull << 32;
+
+bool is_inside(const fs::path& inner, const fs::path& outer) {
+  const fs::path relative = fs::weakly_canonical(inner).lexically_relative(fs::weakly_canonical(outer));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+class Planner {
+ public:
+  Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
+      : work_(work), damaged_(damaged), report_(report), sources_(sources_file(work.store)) {}
+
+  std::optional<Plan> run() {
+    work_.begin(Work::Step::read, 0, 0);
+    in_force_ = manifest_in_force(work_.store);
+    parts_ = scene_parts(work_.options.scene, work_.options.import);
+    plan_.options = text_of(work_.options.import);
+    plan_.lossless = work_.options.lossless;
+    work_.arena.execute([&] { sources_.look(parts_, [&] { work_.tick(); }); });
+    take_records();
+    report_.parts = parts_.size();
+    if (unchanged()) {
+      sources_.save();
+      return {};
+    }
+    read(unknown_);
+    do {
+      work_.begin(Work::Step::plan, 0, 0);
+      lay_out();
+    } while (read(needed()));
+    sources_.save();
+    return std::move(plan_);
+  }
+
+ private:
+  /// What is known of each part without reading it.
+  void take_records() {
+    std::map<std::string, const PartInfo*> before;
+    if (in_force_) {
+      for (const PartInfo& info : in_force_->parts) before[info.name] = &info;
+    }
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const std::string fingerprint = sources_.fingerprint(parts_[i], plan_.options);
+      const std::string id = record_id(parts_[i].name, fingerprint);
+      std::optional<PartRecord> record = find_record(work_.store, id);
+      const auto old = before.find(parts_[i].name);
+      if (!record && old != before.end() && old->second->fingerprint == fingerprint && is_there(*old->second)) {
+        record.emplace();
+        record->info = *old->second;
+        record->id = id;
+        for (const std::string& note : in_force_->notes) {
+          if (note.starts_with(parts_[i].name + ": ")) record->notes.push_back(note);
+        }
+      }
+      if (!record) {
+        record.emplace();
+        record->info.name = parts_[i].name;
+        record->info.fingerprint = fingerprint;
+        record->id = id;
+        unknown_.push_back(i);
+      }
+      plan_.parts.push_back(std::move(*record));
+    }
+  }
+
+  [[nodiscard]] bool is_there(const PartInfo& info) const {
+    std::error_code error;
+    return !damaged_.contains(info.file) && fs::file_size(work_.store / part_file(info.file), error) == info.bytes &&
+           !error;
+  }
+  [[nodiscard]] bool is_there(const ShardInfo& shard) const {
+    std::error_code error;
+    return !damaged_.contains(shard.pack) && fs::file_size(work_.store / pack_file(shard.pack), error) == shard.bytes &&
+           !error;
+  }
+
+  [[nodiscard]] bool unchanged() const {
+    if (!in_force_ || in_force_->lossless != plan_.lossless || in_force_->options != plan_.options ||
+        in_force_->format != format_version || !unknown_.empty() || in_force_->parts.size() != plan_.parts.size()) {
+      return false;
+    }
+    for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
+      const PartInfo &now = plan_.parts[i].info, &then = in_force_->parts[i];
+      if (now.name != then.name || now.fingerprint != then.fingerprint || now.file != then.file) return false;
+    }
+    return std::all_of(in_force_->shards.begin(), in_force_->shards.end(),
+                       [&](const ShardInfo& shard) { return is_there(shard); });
+  }
+
+  /// Reads these parts; false when there are none.
+  bool read(const std::vector<std::size_t>& numbers) {
+    if (numbers.empty()) return false;
+    std::uint64_t bytes = 0, done = 0;
+    for (const std::size_t i : numbers) bytes += parts_[i].bytes;
+    work_.begin(Work::Step::read, bytes, 0);
+    for (const std::size_t i : numbers) {
+      plan_.parts[i] = read_part(work_, parts_[i], plan_.parts[i].info.fingerprint, done);
+      sources_.check_unchanged(parts_[i]);
+      done += parts_[i].bytes;
+      ++report_.parts_read;
+    }
+    return true;
+  }
+
+  /// Decides the shards, as far as the parts that were read let it: `missing_` are those that must be read first.
+  void lay_out() {
+    missing_.clear();
+    std::vector<PartCell> cells;
+    for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
+      const std::string file = part_file(plan_.parts[i].info.file);
+      const PartFile part = decode_part(read_file(work_.store / file, kPartFileLimit), file);
+      for (const Cell& cell : part.cells) {
+        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), part.cell_bits});
+      }
+      work_.tick();
+    }
+    if (cells.empty()) throw Error("the scene holds no triangle");
+    std::vector<Stretch> stretches = divide(std::move(cells), [&](std::uint32_t part, const CurveCell& cell, int bits) {
+      return refine(part, cell, bits);
+    });
+    plan_.shards.clear();
+    if (!missing_.empty()) return;
+    std::map<std::string, const ShardInfo*> before;
+    if (in_force_) {
+      for (const ShardInfo& shard : in_force_->shards) before[shard.key] = &shard;
+    }
+    for (Stretch& stretch : stretches) {
+      PlannedShard shard;
+      shard.key = key_of(stretch, plan_);
+      shard.stretch = std::move(stretch);
+      const auto old = before.find(shard.key);
+      shard.there = old != before.end() && is_there(*old->second);
+      plan_.shards.push_back(std::move(shard));
+    }
+  }
+
+  /// See Refine. Counts in the runs of the part; a part without runs is noted down and counted as if in one place.
+  std::vector<PartCell> refine(std::uint32_t part, const CurveCell& cell, int bits) {
+    const PartRecord& record = plan_.parts[part];
+    if (!record.has_runs) {
+      missing_.insert(part);
+      return {{cell.key, 1, part, bits}};
+    }
+    std::vector<std::uint64_t> counts(std::size_t{1} << (cell.bits - bits));
+    RunBlock block;
+    for (std::size_t r = 0; r < record.runs.size(); ++r) {
+      if (record.runs[r].last < cell.key || cell.last() < record.runs[r].first) continue;
+      const RunReader run(run_file(work_.store, record.id, r));
+      const RunReader::Range range = run.blocks(cell.key, cell.last());
+      for (std::size_t b = range.begin; b < range.end; ++b) {
+        run.read(b, block);
+        for (const Triangle& t : block.triangles) {
+          const CurveKey key = place_of(t).key;
+          if (key >= cell.key && key <= cell.last()) ++counts[static_cast<std::size_t>((key - cell.key) >> bits)];
+        }
+        work_.tick();
+      }
+    }
+    std::vector<PartCell> out;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0) out.push_back({cell.key + (CurveKey{i} << bits), counts[i], part, bits});
+    }
+    return out;
+  }
+
+  /// The parts that must be read before the shards can be built, or decided.
+  [[nodiscard]] std::vector<std::size_t> needed() const {
+    std::set<std::size_t> parts(missing_.begin(), missing_.end());
+    for (const PlannedShard& shard : plan_.shards) {
+      if (shard.there || built_shard(work_.store, shard.key)) continue;
+      for (const std::uint32_t p : shard.stretch.parts) {
+        if (!plan_.parts[p].has_runs) parts.insert(p);
+      }
+    }
+    return {parts.begin(), parts.end()};
+  }
+
+  Work& work_;
+  const std::set<std::string>& damaged_;
+  StoreBuildReport& report_;
+  Sources sources_;
+  std::optional<Manifest> in_force_;
+  std::vector<ScenePart> parts_;
+  std::vector<std::size_t> unknown_;  ///< parts that must be read in any case
+  std::set<std::size_t> missing_;
+  Plan plan_;
+};
+
+}  // namespace
+
+void prepare_output(const StoreBuildOptions& options) {
+  const fs::path& out = options.output;
+  std::error_code error;
+  const fs::file_status status = fs::status(out, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error(fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
+  }
+  for (const fs::path& path : options.scene) {
+    if (fs::is_directory(path, error) && is_inside(out, path)) {
+      throw Error(
+          fmt::format("{} lies in the folder of the scene, {}; choose an output outside", out.string(), path.string()));
+    }
+    if (fs::exists(path, error) && is_inside(path, out)) {
+      throw Error(
+          fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
+    }
+  }
+  if (fs::is_directory(status) && !Store::is_store(out) && !fs::exists(scratch_folder(out), error) &&
+      !fs::is_empty(out, error)) {
+    throw Error(
+        fmt::format("{} is a folder that holds other things; choose another output, or empty it", out.string()));
+  }
+  make_folder(out);
+}
+
+std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
+  return Planner(work, damaged, report).run();
+}
+
+}  // namespace roam::store

@@ -1,0 +1,254 @@
+#include "store/build/run.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "roam/error.h"
+#include "store/build/curve.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+constexpr char kMagic[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
+/// Blocks that are encoded, in parallel, before they are written.
+constexpr std::size_t kBlocksAtOnce = 32;
+
+/// What a block begins with. Then follow the vertices, 3 corners of 16 bits and a number of 32 bits of each triangle.
+struct BlockHeader {
+  std::uint32_t triangles;
+  std::uint32_t vertices : 31;
+  std::uint32_t floats : 1;  ///< the coordinates are floats, which are exact for all of them
+};
+static_assert(sizeof(BlockHeader) == 8);
+
+bool all_floats(std::span<const Vec3> vertices) {
+  for (const Vec3& v : vertices) {
+    for (int k = 0; k < 3; ++k) {
+      if (double(static_cast<float>(v[k])) != v[k]) return false;
+    }
+  }
+  return true;
+}
+
+/// Finds the place of a vertex in the table of a block.
+class LocalVertices {
+ public:
+  void clear() {
+    slots_.assign(kSlots, {});
+    vertices.clear();
+  }
+  std::uint16_t add(std::uint32_t vertex, const std::vector<Vec3>& all) {
+    for (std::uint32_t at = vertex * 2654435761U >> (32 - kBits);; at = (at + 1) % kSlots) {
+      Slot& slot = slots_[at];
+      if (slot.used && slot.vertex == vertex) return slot.place;
+      if (slot.used) continue;
+      slot = {vertex, static_cast<std::uint16_t>(vertices.size()), true};
+      vertices.push_back(all[vertex]);
+      return slot.place;
+    }
+  }
+  std::vector<Vec3> vertices;
+
+ private:
+  static constexpr std::uint32_t kBits = 13, kSlots = 1u << kBits;
+  static_assert(kSlots > 3 * block_triangles);
+  struct Slot {
+    std::uint32_t vertex = 0;
+    std::uint16_t place = 0;
+    bool used = false;
+  };
+  std::vector<Slot> slots_;
+};
+
+std::vector<std::byte> encode_block(const RunContent& run, std::span<const RunItem> items) {
+  static thread_local LocalVertices local;
+  local.clear();
+  std::vector<std::uint16_t> corners;
+  std::vector<std::uint32_t> numbers;
+  corners.reserve(3 * items.size());
+  numbers.reserve(items.size());
+  for (const RunItem& item : items) {
+    for (const std::uint32_t v : run.triangles[item.triangle]) corners.push_back(local.add(v, run.vertices));
+    numbers.push_back(item.triangle);
+  }
+  const bool floats = all_floats(local.vertices);
+  const BlockHeader header{static_cast<std::uint32_t>(items.size()),
+                           static_cast<std::uint32_t>(local.vertices.size()) & 0x7fffffffU, floats};
+  std::vector<std::byte> bytes(sizeof header + local.vertices.size() * 3 * (floats ? 4 : 8) + corners.size() * 2 +
+                               numbers.size() * 4);
+  std::byte* at = bytes.data();
+  const auto put = [&at](const void* from, std::size_t size) {
+    std::memcpy(at, from, size);
+    at += size;
+  };
+  put(&header, sizeof header);
+  for (const Vec3& v : local.vertices) {
+    if (floats) {
+      const float f[3] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+      put(f, sizeof f);
+    } else {
+      const double d[3] = {v.x, v.y, v.z};
+      put(d, sizeof d);
+    }
+  }
+  put(corners.data(), corners.size() * 2);
+  put(numbers.data(), numbers.size() * 4);
+  return bytes;
+}
+
+}  // namespace
+
+struct RunReader::Footer {
+  char magic[8];
+  std::uint64_t first_number;
+  std::uint64_t index_offset;
+  std::uint64_t index_hash;
+  std::uint64_t blocks;
+  std::uint64_t zero;
+  std::uint64_t hash;  ///< of all before
+};
+
+std::vector<RunItem> sort_run(const RunContent& run) {
+  std::vector<RunItem> items(run.triangles.size());
+  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
+    items[i] = {place_of(run.triangle(i)).key, static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(items.begin(), items.end(), [](const RunItem& a, const RunItem& b) {
+    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
+  });
+  return items;
+}
+
+void write_run(const std::filesystem::path& file, const RunContent& run, std::span<const RunItem> items) {
+  NewFile out(file);
+  const std::size_t blocks = (items.size() + block_triangles - 1) / block_triangles;
+  std::vector<RunReader::Entry> index(blocks);
+  std::vector<std::vector<std::byte>> encoded(kBlocksAtOnce);
+  for (std::size_t first = 0; first < blocks; first += kBlocksAtOnce) {
+    const std::size_t count = std::min(kBlocksAtOnce, blocks - first);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const std::size_t begin = (first + i) * block_triangles;
+      const auto block = items.subspan(begin, std::min<std::size_t>(block_triangles, items.size() - begin));
+      encoded[i] = encode_block(run, block);
+      index[first + i] = {
+          block.front().key, 0, xxh3(encoded[i]), static_cast<std::uint32_t>(encoded[i].size()), {0, 0, 0}};
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      index[first + i].offset = out.size();
+      out.write(encoded[i]);
+    }
+  }
+  const auto index_bytes = std::as_bytes(std::span(index));
+  RunReader::Footer footer{};
+  std::memcpy(footer.magic, kMagic, sizeof kMagic);
+  footer.first_number = run.first;
+  footer.index_offset = out.size();
+  footer.index_hash = xxh3(index_bytes);
+  footer.blocks = blocks;
+  footer.hash = xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(RunReader::Footer, hash)));
+  out.write(index_bytes);
+  out.write(std::as_bytes(std::span(&footer, 1)));
+  out.commit();
+}
+
+RunReader::RunReader(const std::filesystem::path& file) : file_(file) {
+  descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) refuse(std::strerror(errno));
+  try {
+    struct stat status {};
+    Footer footer{};
+    if (::fstat(descriptor_, &status) != 0) refuse(std::strerror(errno));
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size < sizeof footer) refuse("it is too short");
+    get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
+    if (std::memcmp(footer.magic, kMagic, sizeof kMagic) != 0 ||
+        footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
+        footer.blocks > size / sizeof(Entry)) {
+      refuse("its end is damaged");
+    }
+    first_number_ = footer.first_number;
+    index_.resize(static_cast<std::size_t>(footer.blocks));
+    const auto bytes = std::as_writable_bytes(std::span(index_));
+    get(footer.index_offset, bytes);
+    if (xxh3(bytes) != footer.index_hash) refuse("its index is damaged");
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+RunReader::~RunReader() { ::close(descriptor_); }
+
+RunReader::Range RunReader::blocks(CurveKey first, CurveKey last) const {
+  // A block that begins at or before `first` may reach beyond it; several may begin at `first`.
+  const auto begin =
+      std::lower_bound(index_.begin(), index_.end(), first, [](const Entry& e, CurveKey key) { return e.first < key; });
+  const auto end =
+      std::upper_bound(index_.begin(), index_.end(), last, [](CurveKey key, const Entry& e) { return key < e.first; });
+  const auto b = static_cast<std::size_t>(begin - index_.begin());
+  return {b > 0 ? b - 1 : 0, static_cast<std::size_t>(end - index_.begin())};
+}
+
+void RunReader::read(std::size_t block, RunBlock& out) const {
+  const Entry& entry = index_[block];
+  out.bytes.resize(entry.bytes);
+  get(entry.offset, out.bytes);
+  if (xxh3(out.bytes) != entry.hash) refuse("a block of it is damaged");
+  const std::byte* at = out.bytes.data();
+  const auto take = [&at](void* to, std::size_t size) {
+    std::memcpy(to, at, size);
+    at += size;
+  };
+  BlockHeader header{};
+  take(&header, sizeof header);
+  out.vertices.resize(header.vertices);
+  for (Vec3& v : out.vertices) {
+    if (header.floats != 0) {
+      float f[3];
+      take(f, sizeof f);
+      v = {f[0], f[1], f[2]};
+    } else {
+      double d[3];
+      take(d, sizeof d);
+      v = {d[0], d[1], d[2]};
+    }
+  }
+  out.triangles.resize(header.triangles);
+  for (Triangle& t : out.triangles) {
+    std::uint16_t corners[3];
+    take(corners, sizeof corners);
+    for (int c = 0; c < 3; ++c) t[c] = out.vertices[corners[c]];
+  }
+  out.numbers.resize(header.triangles);
+  for (std::uint64_t& n : out.numbers) {
+    std::uint32_t number = 0;
+    take(&number, sizeof number);
+    n = first_number_ + number;
+  }
+}
+
+void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
+  while (!out.empty()) {
+    const ssize_t got = ::pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) refuse(std::strerror(errno));
+    if (got == 0) refuse("it is too short");
+    out = out.subspan(static_cast<std::size_t>(got));
+    offset += static_cast<std::uint64_t>(got);
+  }
+}
+
+void RunReader::refuse(const char* why) const {
+  throw Error(fmt::format("cannot read {}: {}; remove the folder {}, and build again: what was published before stays",
+                          file_.string(), why, file_.parent_path().parent_path().string()));
+}
+
+}  // namespace roam::store

@@ -1,0 +1,92 @@
+#pragma once
+/// \file
+/// Runs: up to 2^19 triangles of a part, sorted along the curve, in a file of the scratch folder.
+///
+/// A run is a sequence of blocks of about a thousand neighbours on the curve, each with its vertices, and an index that
+/// says where on the curve each block begins. So whoever wants a range of the curve reads just that range of each run.
+/// The format is private to one build: scratch of another version is not read.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roam/mesh.h"
+#include "store/part.h"
+
+namespace roam::store {
+
+inline constexpr std::uint32_t run_triangles = 1u << 19;
+inline constexpr std::uint32_t block_triangles = 1024;
+
+/// Triangles in the order in which they came.
+struct RunContent {
+  std::uint64_t first = 0;  ///< number, in the part, of the first one
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  [[nodiscard]] Triangle triangle(std::size_t i) const {
+    const auto& t = triangles[i];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+};
+
+/// A triangle of a run that is being sorted.
+struct RunItem {
+  CurveKey key;
+  std::uint32_t triangle;
+};
+
+/// By key, then in the order in which they came. On all threads of the arena that it is called in.
+[[nodiscard]] std::vector<RunItem> sort_run(const RunContent& run);
+
+/// Publishes the file. `items`: of sort_run.
+void write_run(const std::filesystem::path& file, const RunContent& run, std::span<const RunItem> items);
+
+/// Triangles of a block, and their numbers in the part.
+struct RunBlock {
+  std::vector<Triangle> triangles;
+  std::vector<std::uint64_t> numbers;
+  std::vector<Vec3> vertices;    ///< space to decode in
+  std::vector<std::byte> bytes;  ///< the same
+};
+
+/// A run that is open for reading, by any number of threads. Throws roam::Error for files that are not as they were
+/// written, with what to do.
+class RunReader {
+ public:
+  explicit RunReader(const std::filesystem::path& file);
+  ~RunReader();
+  RunReader(const RunReader&) = delete;
+  RunReader& operator=(const RunReader&) = delete;
+
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  /// The blocks that may hold keys in [first, last].
+  [[nodiscard]] Range blocks(CurveKey first, CurveKey last) const;
+  void read(std::size_t block, RunBlock& out) const;
+
+ private:
+  struct Entry {
+    CurveKey first;
+    std::uint64_t offset;
+    std::uint64_t hash;
+    std::uint32_t bytes;
+    std::uint32_t zero[3];
+  };
+  static_assert(sizeof(Entry) == 48);
+  struct Footer;
+  friend void write_run(const std::filesystem::path&, const RunContent&, std::span<const RunItem>);
+
+  void get(std::uint64_t offset, std::span<std::byte> out) const;
+  [[noreturn]] void refuse(const char* why) const;
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::uint64_t first_number_ = 0;
+  std::vector<Entry> index_;
+};
+
+}  // namespace roam::store

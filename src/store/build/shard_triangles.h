@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// The triangles of one shard, in memory.
+
+#include <cstdint>
+#include <vector>
+
+#include "roam/mesh.h"
+#include "store/build/plan.h"
+#include "store/build/work.h"
+#include "store/part.h"
+
+namespace roam::store {
+
+struct ShardItem {
+  CurveKey key;
+  float reach;             ///< see Place
+  std::uint32_t triangle;  ///< of ShardTriangles::triangles
+};
+static_assert(sizeof(ShardItem) == 32);
+
+struct ShardTriangles {
+  struct Source {
+    std::uint64_t number;  ///< in the part
+    std::uint32_t part;    ///< of the plan
+  };
+  std::vector<Triangle> triangles;  ///< in no order
+  std::vector<Source> sources;
+  /// Along the curve; in one cell of it by what the triangles are, so that their order in the scene makes no
+  /// difference to the tiles, then by where they come from.
+  std::vector<ShardItem> items;
+};
+
+/// Reads the stretch from the runs of the plan. Throws roam::Error when a run is missing or damaged.
+[[nodiscard]] ShardTriangles read_shard(Work& work, const Plan& plan, const Stretch& stretch);
+
+}  // namespace roam::store

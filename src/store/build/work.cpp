@@ -1,0 +1,79 @@
+#include "store/build/work.h"
+
+#include <fmt/format.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+
+namespace roam::store {
+namespace {
+
+constexpr std::uint64_t kMiB = 1u << 20;
+/// The program itself, its libraries and what an allocator keeps of what was given back.
+constexpr std::uint64_t kProgram = 48 * kMiB;
+/// A run at worst, when no triangle shares a vertex, and what sorts it.
+constexpr std::uint64_t kRun = 64 * kMiB;
+/// A shard: triangles, where they come from, their keys; and its tiles.
+constexpr std::uint64_t kShard = 136 * kMiB;
+/// A tile that is being built.
+constexpr std::uint64_t kTile = 8 * kMiB;
+/// Where sorting beside reading begins.
+constexpr std::uint64_t kPlenty = 512 * kMiB;
+
+constexpr auto kPeriod = std::chrono::milliseconds(100);
+
+int threads_of(const StoreBuildOptions& options) {
+  const int cores = tbb::info::default_concurrency();
+  const int wished = options.threads > 0 ? std::min(options.threads, cores) : cores;
+  const std::uint64_t rest = options.memory - std::min(options.memory, kProgram + kShard);
+  return std::clamp(static_cast<int>(std::min<std::uint64_t>(rest / kTile, 1024)), 1, wished);
+}
+
+const StoreBuildOptions& checked(const StoreBuildOptions& options) {
+  if (options.memory < StoreBuildOptions::least_memory) {
+    throw Error(fmt::format("a build needs at least {} MiB of memory, not {}", StoreBuildOptions::least_memory / kMiB,
+                            options.memory / kMiB));
+  }
+  if (options.threads < 0) throw Error("the number of threads is negative");
+  if (options.output.empty()) throw Error("a build needs the name of a folder for its output");
+  return options;
+}
+
+}  // namespace
+
+Work::Work(const StoreBuildOptions& o) : options(checked(o)), store(o.output), arena(threads_of(o)) {}
+
+std::uint64_t Work::reader_memory() const {
+  return options.memory - kProgram - (sorts_beside_reading() ? 2 * kRun : kRun);
+}
+
+bool Work::sorts_beside_reading() const { return options.memory >= kPlenty; }
+
+void Work::begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total) {
+  {
+    const std::lock_guard lock(mutex_);
+    step_ = step;
+    bytes_total_ = bytes_total;
+    triangles_total_ = triangles_total;
+    bytes_ = 0;
+    triangles_ = 0;
+    next_ = {};
+  }
+  tick();
+}
+
+void Work::tick() {
+  if (!options.progress) return;
+  if (cancelled_) throw Cancelled();
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  const auto now = Clock::now();
+  if (now < next_) return;
+  next_ = now + kPeriod;
+  if (!options.progress({step_, bytes_, bytes_total_, triangles_, triangles_total_, written_})) {
+    cancelled_ = true;
+    throw Cancelled();
+  }
+}
+
+}  // namespace roam::store

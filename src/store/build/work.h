@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// What all steps of a build share: its options, its threads, and how far it is.
+
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+
+#include "roam/store_build.h"
+
+namespace roam::store {
+
+class Work {
+ public:
+  using Step = StoreBuildProgress::Step;
+
+  /// Throws roam::Error for options out of range.
+  explicit Work(const StoreBuildOptions& options);
+
+  const StoreBuildOptions& options;
+  const std::filesystem::path store;
+  tbb::task_arena arena;
+
+  /// Of the memory, what the import and its reader may take.
+  [[nodiscard]] std::uint64_t reader_memory() const;
+  /// Whether one run may be sorted while the next one is filled.
+  [[nodiscard]] bool sorts_beside_reading() const;
+
+  // Progress. Any thread may tell; the caller's "no" is thrown as roam::Cancelled in one of those that do.
+  void begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total);
+  void set_bytes(std::uint64_t done) { bytes_ = done; }
+  void add_triangles(std::uint64_t count) { triangles_ += count; }
+  void add_written(std::uint64_t bytes) { written_ += bytes; }
+  void tick();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Step step_ = Step::read;
+  std::uint64_t bytes_total_ = 0, triangles_total_ = 0;
+  std::atomic<std::uint64_t> bytes_{0}, triangles_{0}, written_{0};
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_;
+  Clock::time_point next_;
+};
+
+}  // namespace roam::store

@@ -1,0 +1,259 @@
+// The pieces of the builder: the division into shards, histograms, masks, fingerprints.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "clutter.h"
+#include "program.h"
+#include "store/build/divide.h"
+#include "store/build/histogram.h"
+#include "store/build/mask.h"
+#include "store/build/run.h"
+
+namespace {
+
+using namespace roam::store;
+using roam::Box;
+using roam::Triangle;
+using roam::Vec3;
+
+CurveKey key_at(const Vec3& p) { return place_of({p, p, p}).key; }
+
+/// Keys of points, most of them crowded in a corner, some in one smallest cell.
+std::vector<CurveKey> crowded_keys(clutter::Random& random, int count) {
+  std::vector<CurveKey> keys;
+  for (int i = 0; i < count; ++i) {
+    const double size = std::pow(10.0, random.between(-4.0, 4.0));
+    keys.push_back(i % 5 == 0 ? key_at({3.0, 4.0, 5.0}) : key_at(Vec3(3.0, 4.0, 5.0) + random.in_box(size)));
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::vector<PartCell> cells_of(const std::vector<CurveKey>& keys, std::uint32_t part, int bits) {
+  std::map<CurveKey, std::uint64_t> counts;
+  for (const CurveKey key : keys) ++counts[key >> bits << bits];
+  std::vector<PartCell> cells;
+  for (const auto& [key, count] : counts) cells.push_back({key, count, part, bits});
+  return cells;
+}
+
+struct Divided {
+  std::vector<Stretch> stretches;
+  int refined = 0;
+};
+
+Divided divided(const std::vector<std::vector<CurveKey>>& parts, const std::vector<int>& bits, ShardLimits limits) {
+  std::vector<PartCell> cells;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    const auto some = cells_of(parts[p], p, bits[p]);
+    cells.insert(cells.end(), some.begin(), some.end());
+  }
+  Divided result;
+  result.stretches = divide(
+      cells,
+      [&](std::uint32_t part, const CurveCell& cell, int finer) {
+        ++result.refined;
+        std::vector<CurveKey> inside;
+        for (const CurveKey key : parts[part]) {
+          if (key >= cell.key && key <= cell.last()) inside.push_back(key);
+        }
+        return cells_of(inside, part, finer);
+      },
+      limits);
+  return result;
+}
+
+TEST(StoreDivision, CoversEveryTriangleOnceInShardsThatAreSmallEnough) {
+  clutter::Random random(1);
+  const std::vector<std::vector<CurveKey>> parts{crowded_keys(random, 9000), crowded_keys(random, 4000)};
+  const ShardLimits limits{1000, 4000};
+  const auto [stretches, refined] = divided(parts, {40, 61}, limits);
+  EXPECT_GT(refined, 0);
+  ASSERT_GT(stretches.size(), 10U);
+  std::vector<CurveKey> all = parts[0];
+  all.insert(all.end(), parts[1].begin(), parts[1].end());
+  std::sort(all.begin(), all.end());
+  std::size_t at = 0;
+  for (const Stretch& s : stretches) {
+    ASSERT_LE(s.triangles, limits.shard);
+    ASSERT_FALSE(s.cells.empty());
+    const std::size_t begin = at;
+    for (; at < begin + s.triangles; ++at) {
+      ASSERT_LT(at, all.size());
+      ASSERT_TRUE(std::any_of(s.cells.begin(), s.cells.end(),
+                              [&](const CurveCell& c) { return c.key <= all[at] && all[at] <= c.last(); }));
+    }
+    for (std::uint32_t p = 0; p < 2; ++p) {
+      const bool has = std::any_of(parts[p].begin(), parts[p].end(), [&](CurveKey key) {
+        return s.cells.front().key <= key && key <= s.cells.back().last();
+      });
+      EXPECT_EQ(std::count(s.parts.begin(), s.parts.end(), p), has ? 1 : 0);
+    }
+  }
+  EXPECT_EQ(at, all.size());
+}
+
+TEST(StoreDivision, DoesNotDependOnHowFinelyTrianglesAreCounted) {
+  clutter::Random random(2);
+  const std::vector<std::vector<CurveKey>> parts{crowded_keys(random, 5000), crowded_keys(random, 5000)};
+  const ShardLimits limits{700, 2000};
+  const auto fine = divided(parts, {0, 0}, limits).stretches;
+  for (const auto& bits : {std::vector{30, 55}, std::vector{90, 3}, std::vector{123, 123}}) {
+    const auto coarse = divided(parts, bits, limits).stretches;
+    ASSERT_EQ(coarse.size(), fine.size());
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      EXPECT_EQ(coarse[i].cells, fine[i].cells);
+      EXPECT_EQ(coarse[i].skip, fine[i].skip);
+      EXPECT_EQ(coarse[i].triangles, fine[i].triangles);
+      EXPECT_EQ(coarse[i].parts, fine[i].parts);
+    }
+  }
+}
+
+TEST(StoreDivision, BordersLieOnlyWhereMoreThanAShardIsDivided) {
+  clutter::Random random(3);
+  const std::vector<std::vector<CurveKey>> parts{crowded_keys(random, 8000)};
+  const ShardLimits limits{500, 1500};
+  for (const Stretch& s : divided(parts, {20}, limits).stretches) {
+    for (const CurveCell& cell : s.cells) {
+      if (cell.bits == kKeyBits) continue;
+      // The cell around it, up to where another triangle shares it.
+      std::uint64_t inside = 0, around = 0;
+      const CurveCell twice{cell.key >> (cell.bits + 1) << (cell.bits + 1), cell.bits + 1};
+      for (const CurveKey key : parts[0]) {
+        inside += key >= cell.key && key <= cell.last() ? 1 : 0;
+        around += key >= twice.key && key <= twice.last() ? 1 : 0;
+      }
+      EXPECT_GT(inside, 0U);
+      EXPECT_GT(around, limits.shard);
+    }
+  }
+}
+
+TEST(StoreDivision, AChangeMovesNoBordersFarAway) {
+  clutter::Random random(4);
+  std::vector<CurveKey> keys;
+  for (int i = 0; i < 40'000; ++i) keys.push_back(key_at(random.in_box(1000.0)));
+  const ShardLimits limits{1000, 4000};
+  const auto before = divided({keys}, {30}, limits).stretches;
+  for (int i = 0; i < 600; ++i) keys.push_back(key_at(Vec3(-900.0) + random.in_box(20.0)));
+  const auto after = divided({keys}, {30}, limits).stretches;
+  int moved = 0;
+  for (const Stretch& s : after) {
+    moved += std::none_of(before.begin(), before.end(),
+                          [&](const Stretch& o) { return o.cells == s.cells && o.triangles == s.triangles; });
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, 10);
+  EXPECT_GT(after.size(), 40U);
+}
+
+TEST(StoreHistogram, DoesNotDependOnTheRuns) {
+  clutter::Random random(5);
+  std::vector<RunItem> items;
+  for (std::uint32_t i = 0; i < 50'000; ++i) items.push_back({key_at(random.in_box(300.0)), i});
+  const auto by_key = [](const RunItem& a, const RunItem& b) { return a.key < b.key; };
+  PartFile parts[2];
+  for (int way = 0; way < 2; ++way) {
+    Histogram histogram;
+    const std::size_t run = way == 0 ? items.size() : 777;
+    for (std::size_t at = 0; at < items.size(); at += run) {
+      std::vector<RunItem> some(items.begin() + static_cast<std::ptrdiff_t>(at),
+                                items.begin() + static_cast<std::ptrdiff_t>(std::min(items.size(), at + run)));
+      std::sort(some.begin(), some.end(), by_key);
+      histogram.add(some);
+    }
+    parts[way].triangles = items.size();
+    histogram.finish(parts[way]);
+  }
+  EXPECT_GT(parts[0].cells.size(), 100U);
+  EXPECT_LE(parts[0].cells.size(), 256U);
+  EXPECT_EQ(parts[0].cell_bits, parts[1].cell_bits);
+  EXPECT_EQ(encode_part(parts[0]), encode_part(parts[1]));
+}
+
+TEST(StoreCurve, PlacesOfAnAxisComeBack) {
+  clutter::Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const std::uint64_t x = random.engine() & ((std::uint64_t{1} << AbsoluteCurve::kAxisBits) - 1);
+    for (int k = 0; k < 3; ++k) {
+      const CurveKey place = AbsoluteCurve::spread(x) << k;
+      ASSERT_EQ(place >> AbsoluteCurve::kClassShift, 0U);
+      ASSERT_EQ(AbsoluteCurve::gather(place >> k & AbsoluteCurve::kAxis), x);
+    }
+  }
+}
+
+TEST(StoreRun, GivesBackEveryTriangleOfARange) {
+  const TestFolder folder;
+  clutter::Random random(7);
+  for (const bool floats : {false, true}) {
+    const roam::Mesh mesh = clutter::make(random, {30'000, 50.0, 1e-3, 5.0, Vec3(100.0)});
+    RunContent content{1'000'000, mesh.vertices, mesh.triangles};
+    if (floats) {
+      for (Vec3& v : content.vertices) v = {float(v.x), float(v.y), float(v.z)};
+    }
+    const std::vector<RunItem> items = sort_run(content);
+    const std::string file = folder.file(floats ? "floats.run" : "doubles.run");
+    write_run(file, content, items);
+    const RunReader run(file);
+    const CurveKey first = items[7000].key, last = items[21'000].key;
+    std::map<std::uint64_t, Triangle> found;
+    RunBlock block;
+    const auto range = run.blocks(first, last);
+    EXPECT_LE(range.end - range.begin, 16U);
+    for (std::size_t b = range.begin; b < range.end; ++b) {
+      run.read(b, block);
+      for (std::size_t i = 0; i < block.triangles.size(); ++i) found[block.numbers[i]] = block.triangles[i];
+    }
+    for (std::size_t i = 7000; i <= 21'000; ++i) {
+      const auto it = found.find(1'000'000 + items[i].triangle);
+      ASSERT_NE(it, found.end());
+      ASSERT_EQ(it->second, content.triangle(items[i].triangle));
+    }
+  }
+}
+
+TEST(StoreMask, CoversTrianglesAndLittleMore) {
+  clutter::Random random(8);
+  int marked = 0, touched = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 centre = i % 2 == 0 ? Vec3(0.0) : Vec3(1e6, -2e6, 3e5);
+    const Box box{centre - Vec3(8.0, 5.0, i % 3 == 0 ? 0.0 : 2.0), centre + Vec3(8.0, 5.0, i % 3 == 0 ? 0.0 : 2.0)};
+    const double size = random.between(0.01, 12.0);
+    Triangle t;
+    for (Vec3& corner : t) {
+      corner = centre + random.in_box(size);
+      for (int k = 0; k < 3; ++k) corner[k] = std::clamp(corner[k], box.lower[k], box.upper[k]);
+    }
+    Mask mask(box, 1e-3);
+    mask.add(t);
+    const Vec3 cell = box.size() / 8.0;
+    std::array<std::uint64_t, 8> hit{};
+    for (int s = 0; s < 20'000; ++s) {
+      double u = random.unit(), v = random.unit();
+      if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+      int at[3];
+      for (int k = 0; k < 3; ++k) {
+        at[k] = cell[k] > 0.0 ? std::clamp(static_cast<int>((p[k] - box.lower[k]) / cell[k]), 0, 7) : 0;
+      }
+      const int bit = at[0] + 8 * (at[1] + 8 * at[2]);
+      hit[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{1} << (bit % 64);
+    }
+    for (std::size_t w = 0; w < 8; ++w) {
+      ASSERT_EQ(hit[w] & ~mask.words[w], 0U) << "triangle " << i;
+      marked += std::popcount(mask.words[w]);
+      touched += std::popcount(hit[w]);
+    }
+  }
+  EXPECT_LT(marked, 1.1 * touched);
+}
+
+}  // namespace

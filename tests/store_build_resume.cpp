@@ -1,0 +1,319 @@
+// Builds that are killed, repeated, cut into steps, or follow a change give the same bytes as one that is not.
+
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "clutter.h"
+#include "store/files.h"
+#include "store_builds.h"
+
+namespace {
+
+/// Ends the process by SIGKILL in the middle of its n-th call that changes the disk. 0: never.
+std::atomic<int> calls{0};
+std::atomic<int> fatal_call{0};
+/// Whether the fatal call is still done.
+std::atomic<bool> dies_after{false};
+
+template <class Call>
+auto counted(Call&& call) {
+  const bool fatal = ++calls == fatal_call;
+  if (fatal && !dies_after) ::kill(::getpid(), SIGKILL);
+  const auto result = call();
+  if (fatal) ::kill(::getpid(), SIGKILL);
+  return result;
+}
+
+}  // namespace
+
+// These take the place of the C library's in this program.
+extern "C" int fsync(int fd) {
+  return counted([&] { return static_cast<int>(::syscall(SYS_fsync, fd)); });
+}
+extern "C" int rename(const char* from, const char* to) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to)); });
+}
+extern "C" ssize_t write(int fd, const void* bytes, std::size_t size) {
+  return counted([&] { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, size)); });
+}
+extern "C" int unlink(const char* file) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_unlinkat, AT_FDCWD, file, 0)); });
+}
+
+namespace {
+
+using namespace store_builds;
+
+/// Runs in a process of its own, which dies at a call that changes the disk; returns its wait status.
+int in_child(const std::function<void()>& work, int dies_at = 0, bool after = false) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    calls = 0;
+    fatal_call = dies_at;
+    dies_after = after;
+    int status = 0;
+    try {
+      work();
+    } catch (const std::exception& e) {
+      fprintf(stderr, "%s\n", e.what());
+      status = 1;
+    }
+    ::_exit(status);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+bool was_killed(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL; }
+
+/// How many calls that change the disk the work makes.
+int calls_of(const std::string& file, const std::function<void()>& work) {
+  EXPECT_EQ(in_child([&] {
+              work();
+              std::ofstream(file) << calls.load();
+            }),
+            0);
+  int count = 0;
+  std::ifstream(file) >> count;
+  return count;
+}
+
+TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}));
+  const auto build = [&](const std::string& output) {
+    roam::build_store(options({folder.file("a.ply"), folder.file("b.ply")}, output));
+  };
+  const int count = calls_of(folder.file("count"), [&] { build(folder.file("whole")); });
+  ASSERT_GT(count, 20);
+  expect_whole(folder.file("whole"));
+  const std::string output = folder.file("killed");
+  constexpr int samples = 24;
+  for (int i = 0; i < samples; ++i) {
+    fs::remove_all(output);
+    const int at = 1 + (count - 1) * i / (samples - 1);
+    ASSERT_TRUE(was_killed(in_child([&] { build(output); }, at, i % 2 == 1))) << at;
+    if (fs::exists(output + "/CURRENT")) expect_whole(output);
+    ASSERT_EQ(in_child([&] { build(output); }), 0);
+    expect_same(folder.file("whole"), output);
+  }
+}
+
+TEST(StoreBuildResume, AfterBeingKilledAgainAndAgainAtAnyTime) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(760, 0.5, {0.0, 0.0, 0.0}));  // two shards
+  const auto build = [&](const std::string& output) { roam::build_store(options({folder.file("a.ply")}, output)); };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(in_child([&] { build(folder.file("whole")); }), 0);
+  const auto whole = std::chrono::steady_clock::now() - start;
+  clutter::Random random(1);
+  const std::string output = folder.file("killed");
+  for (int i = 0; i < 6; ++i) {
+    std::thread killer;
+    const pid_t child = ::fork();
+    if (child == 0) {
+      build(output);
+      ::_exit(0);
+    }
+    std::this_thread::sleep_for(whole * random.unit());
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
+  ASSERT_EQ(in_child([&] { build(output); }), 0);
+  expect_same(folder.file("whole"), output);
+}
+
+TEST(StoreBuildResume, GivesTheSameBytesForAnyThreadsAndMemory) {
+  const TestFolder folder;
+  clutter::Random random(2);
+  write_ply(folder.file("a.ply"), field(740, 0.25, {0.0, 0.0, 0.0}));
+  write_ply(folder.file("b.ply"), clutter::make(random, {30'000, 90.0, 1e-3, 300.0, {50.0, 60.0, 0.0}}));
+  const auto build = [&](const std::string& output, int threads, std::uint64_t memory, bool near) {
+    auto o = options({folder.file("a.ply"), folder.file("b.ply")}, output);
+    o.threads = threads;
+    o.memory = memory;
+    if (near) o.nearest_first = roam::Vec3(180.0, 180.0, 0.0);
+    EXPECT_GT(roam::build_store(o).shards, 1U);
+  };
+  ASSERT_EQ(in_child([&] { build(folder.file("1"), 1, roam::StoreBuildOptions::least_memory, false); }), 0);
+  ASSERT_EQ(in_child([&] { build(folder.file("2"), 2, 1ull << 30, true); }), 0);
+  expect_same(folder.file("1"), folder.file("2"));
+}
+
+TEST(StoreBuildResume, InStepsByManyProcessesInAnyOrder) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(760, 0.5, {0.0, 0.0, 0.0}));
+  ASSERT_EQ(in_child([&] { roam::build_store(options({folder.file("a.ply")}, folder.file("whole"))); }), 0);
+  auto o = options({folder.file("a.ply")}, folder.file("steps"));
+  roam::StoreBuildReport report;
+  std::uint64_t count = 0;
+  ASSERT_EQ(in_child([&] { std::ofstream(folder.file("count")) << roam::plan_store(o, report); }), 0);
+  std::ifstream(folder.file("count")) >> count;
+  ASSERT_GT(count, 1U);
+  o.scene.clear();
+  const std::string missing = refusal([&] { roam::merge_store(o, report); });
+  EXPECT_NE(missing.find("shard 0 is missing"), std::string::npos) << missing;
+  for (std::uint64_t i = count; i-- > 0;) {
+    ASSERT_EQ(in_child([&] { roam::build_shard(o, i, report); }), 0);
+    ASSERT_EQ(in_child([&] { roam::build_shard(o, i, report); }), 0);
+  }
+  EXPECT_NE(refusal([&] { roam::build_shard(o, count, report); }).find("there is no shard"), std::string::npos);
+  ASSERT_EQ(in_child([&] { roam::merge_store(o, report); }), 0);
+  expect_same(folder.file("whole"), folder.file("steps"));
+  EXPECT_NE(refusal([&] { roam::build_shard(o, 0, report); }).find("no plan"), std::string::npos);
+}
+
+TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply")}, folder.file("s"));
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_shard(o, 0, report);
+  const auto pack = fs::directory_iterator(folder.file("s") + "/packs")->path();
+  {
+    std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(500);
+    file.put('?');
+  }
+  const std::string text = refusal([&] { roam::merge_store(o, report); });
+  EXPECT_NE(text.find("shard 0 is damaged"), std::string::npos) << text;
+  EXPECT_FALSE(fs::exists(folder.file("s") + "/CURRENT"));
+  roam::build_shard(o, 0, report);
+  roam::merge_store(o, report);
+  expect_whole(folder.file("s"));
+}
+
+TEST(StoreBuildResume, DoesNothingWhenNothingChanged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply")}, folder.file("s"));
+  EXPECT_FALSE(roam::build_store(o).unchanged);
+  const auto before = content(folder.file("s"));
+  const auto again = roam::build_store(o);
+  EXPECT_TRUE(again.unchanged);
+  EXPECT_EQ(again.triangles, 7200U);
+  EXPECT_EQ(again.parts_read + again.shards_built, 0U);
+  // Another time is no other content.
+  fs::last_write_time(folder.file("a.ply"), fs::last_write_time(folder.file("a.ply")) + std::chrono::hours(1));
+  EXPECT_TRUE(roam::build_store(o).unchanged);
+  EXPECT_TRUE(content(folder.file("s")) == before);
+  auto other = o;
+  other.import.unit = roam::LengthUnit::cm;
+  EXPECT_FALSE(roam::build_store(other).unchanged);
+}
+
+TEST(StoreBuildResume, TakesAFileThatChangedButNotInSizeForChanged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply")}, folder.file("s"));
+  roam::build_store(o);
+  write_ply(folder.file("a.ply"), field(60, 0.5, {1.0, 0.0, 0.0}));
+  EXPECT_FALSE(roam::build_store(o).unchanged);
+  roam::build_store(options({folder.file("a.ply")}, folder.file("fresh")));
+  expect_same(folder.file("s"), folder.file("fresh"));
+}
+
+TEST(StoreBuildResume, ReadsAndBuildsOnlyWhatChanged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(548, 0.5, {0.0, 0.0, 0.0}));
+  write_ply(folder.file("b.ply"), field(548, 0.5, {9000.0, 0.0, 0.0}));
+  const std::vector<std::string> scene{folder.file("a.ply"), folder.file("b.ply")};
+  const auto first = roam::build_store(options(scene, folder.file("s")));
+  ASSERT_EQ(first.shards, 2U);
+  write_ply(folder.file("b.ply"), field(540, 0.5, {9000.0, 0.0, 3.0}));
+  const auto second = roam::build_store(options(scene, folder.file("s")));
+  EXPECT_FALSE(second.unchanged);
+  EXPECT_EQ(second.parts_read, 1U);
+  EXPECT_EQ(second.shards_built, 1U);
+  expect_whole(folder.file("s"));
+  roam::build_store(options(scene, folder.file("fresh")));
+  expect_same(folder.file("s"), folder.file("fresh"));
+  // A part less: its shard goes, the other stays as it is.
+  const auto third = roam::build_store(options({scene[0]}, folder.file("s")));
+  EXPECT_EQ(third.parts_read, 0U);
+  EXPECT_EQ(third.triangles, 548U * 548U * 2U);
+  roam::build_store(options({scene[0]}, folder.file("fresh")));
+  expect_same(folder.file("s"), folder.file("fresh"));
+}
+
+TEST(StoreBuildResume, RepairsJustWhatIsDamaged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(548, 0.5, {0.0, 0.0, 0.0}));
+  write_ply(folder.file("b.ply"), field(548, 0.5, {9000.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("s"));
+  roam::build_store(o);
+  const auto before = content(folder.file("s"));
+  EXPECT_EQ(roam::repair_store(o), 0U);
+  const auto pack = fs::directory_iterator(folder.file("s") + "/packs")->path();
+  {
+    std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(1000);
+    file.put('?');
+  }
+  fs::remove(fs::directory_iterator(folder.file("s") + "/parts")->path());
+  EXPECT_FALSE(roam::verify_store(folder.file("s")).damage.empty());
+  auto other = o;
+  other.scene.pop_back();
+  EXPECT_NE(refusal([&] { roam::repair_store(other); }).find("not made of this scene"), std::string::npos);
+  EXPECT_EQ(roam::repair_store(o), 1U);
+  EXPECT_TRUE(content(folder.file("s")) == before);
+  expect_whole(folder.file("s"));
+}
+
+TEST(StoreBuildResume, RefusesOutputsThatCannotBe) {
+  const TestFolder folder;
+  fs::create_directory(folder.file("scene"));
+  const std::string scene = write_ply(folder.file("scene/a.ply"), field(10, 1.0, {0.0, 0.0, 0.0}));
+  folder.write("file", "text");
+  fs::create_directory(folder.file("full"));
+  folder.write("full/holiday.jpg", "");
+  const auto says = [&](const std::vector<std::string>& from, const std::string& output, const char* what) {
+    const std::string text = refusal([&] { roam::build_store(options(from, output)); });
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  says({scene}, folder.file("file"), "is a file");
+  says({scene}, folder.file("full"), "holds other things");
+  says({folder.file("scene")}, folder.file("scene/s"), "lies in the folder of the scene");
+  says({scene}, folder.file("scene"), "lies in the output");
+  says({folder.file("nothing.ply")}, folder.file("s"), "nothing.ply");
+  auto small = options({scene}, folder.file("s"));
+  small.memory = 100 << 20;
+  EXPECT_NE(refusal([&] { roam::build_store(small); }).find("256 MiB"), std::string::npos);
+  EXPECT_EQ(content(folder.file("full")).size(), 1U);
+}
+
+TEST(StoreBuildResume, RefusesASecondBuilder) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(10, 1.0, {0.0, 0.0, 0.0}));
+  roam::build_store(options({scene}, folder.file("s")));
+  const roam::store::BuildLock lock(folder.file("s"));
+  const std::string text = refusal([&] { roam::build_store(options({scene}, folder.file("s"))); });
+  EXPECT_NE(text.find("process " + std::to_string(::getpid())), std::string::npos) << text;
+}
+
+TEST(StoreBuildResume, StopsWhenTheCallerSaysSoAndGoesOnLater) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(300, 0.5, {0.0, 0.0, 0.0}));
+  roam::build_store(options({scene}, folder.file("whole")));
+  for (const auto step : {roam::StoreBuildProgress::Step::read, roam::StoreBuildProgress::Step::plan,
+                          roam::StoreBuildProgress::Step::shards, roam::StoreBuildProgress::Step::merge}) {
+    auto o = options({scene}, folder.file("s"));
+    o.progress = [&](const roam::StoreBuildProgress& p) { return p.step != step; };
+    EXPECT_THROW(roam::build_store(o), roam::Cancelled);
+  }
+  roam::build_store(options({scene}, folder.file("s")));
+  expect_same(folder.file("whole"), folder.file("s"));
+}
+
+}  // namespace
