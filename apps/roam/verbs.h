@@ -17,6 +17,7 @@ void add_walk(CLI::App& program, Run& run);
 void add_sweep(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_make(CLI::App& program, Run& run);
+void add_build(CLI::App& program, Run& run);
 void add_view(CLI::App& program, Run& run);
 
 }  // namespace roam::app

@@ -1,0 +1,215 @@
+// roam build: makes a collision store of a scene of any size.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+#include "interrupt.h"
+#include "progress.h"
+#include "report.h"
+#include "roam/store.h"
+#include "roam/store_build.h"
+#include "scene_options.h"
+#include "store_name.h"
+#include "verbs.h"
+
+namespace roam::app {
+
+std::filesystem::path store_beside(const std::filesystem::path& scene) {
+  std::filesystem::path path = std::filesystem::absolute(scene).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const bool relative = scene.is_relative() && scene.lexically_normal().has_parent_path() == false;
+  path += ".roam";
+  return relative ? path.filename() : path;
+}
+
+namespace {
+
+struct BuildVerb {
+  SceneOptions scene;
+  std::filesystem::path output;
+  std::uint64_t memory = StoreBuildOptions{}.memory;
+  bool plan = false, merge = false, json = false;
+  std::optional<std::uint64_t> shard;
+};
+
+/// One line for each step of a build.
+class Steps {
+ public:
+  explicit Steps(std::string output) : output_(std::move(output)) {}
+
+  bool show(const StoreBuildProgress& p) {
+    using Step = StoreBuildProgress::Step;
+    if (!line_ || p.step != step_) {
+      line_.reset();
+      step_ = p.step;
+      switch (step_) {
+        case Step::read:
+          line_.emplace("reading the scene", "B");
+          break;
+        case Step::plan:
+          line_.emplace("planning " + output_, "triangles");
+          break;
+        case Step::shards:
+          line_.emplace("building " + output_, "triangles");
+          break;
+        case Step::merge:
+          line_.emplace("checking " + output_, "triangles");
+          break;
+      }
+    }
+    return step_ == Step::read ? line_->goes_on(p.bytes_done, p.bytes_total)
+                               : line_->goes_on(p.triangles_done, p.triangles_total);
+  }
+
+ private:
+  std::string output_;
+  StoreBuildProgress::Step step_ = StoreBuildProgress::Step::read;
+  std::optional<Progress> line_;
+};
+
+StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
+  StoreBuildOptions options;
+  options.scene = verb.scene.scenes;
+  options.output = verb.output;
+  if (!verb.scene.up.empty()) options.import.up = parse_up_axis(verb.scene.up);
+  options.import.unit = parse_length_unit(verb.scene.unit);
+  options.import.ignore = verb.scene.ignore;
+  options.memory = verb.memory;
+  options.threads = verb.scene.threads;
+  options.lossless = verb.scene.lossless;
+  options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
+  return options;
+}
+
+Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
+  Json json = {{"store", verb.output.string()},
+               {"unchanged", report.unchanged},
+               {"triangles", report.triangles},
+               {"parts", report.parts},
+               {"parts_read", report.parts_read},
+               {"shards", report.shards},
+               {"shards_built", report.shards_built},
+               {"read_s", report.read_seconds},
+               {"plan_s", report.plan_seconds},
+               {"shard_s", report.shard_seconds},
+               {"merge_s", report.merge_seconds},
+               {"seconds", seconds},
+               {"notes", report.notes}};
+  return json;
+}
+
+/// What a store that is complete came to.
+void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
+  const StoreInfo info = Store::open(verb.output)->info();
+  const double per_triangle = static_cast<double>(info.bytes) / static_cast<double>(info.triangles);
+  if (verb.json) {
+    Json json = json_report(verb, report, seconds);
+    json["tiles"] = info.tiles;
+    json["bytes"] = info.bytes;
+    json["bytes_per_triangle"] = per_triangle;
+    json["hash"] = info.hash;
+    print(json);
+  } else if (report.unchanged) {
+    print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", verb.output.string(), info.triangles));
+  } else {
+    print(fmt::format(
+        "{}: {} triangles in {} tiles, {}B, {:.2f} bytes a triangle\n"
+        "read {} of {} parts, built {} of {} shards, in {}\n",
+        verb.output.string(), info.triangles, info.tiles, short_count(static_cast<double>(info.bytes)), per_triangle,
+        report.parts_read, report.parts, report.shards_built, report.shards, short_time(seconds)));
+  }
+}
+
+ExitStatus run_steps(const BuildVerb& verb) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  StoreBuildReport report;
+  {
+    Steps steps(verb.output.string());
+    const StoreBuildOptions options = build_options(verb, steps);
+    if (verb.plan) {
+      const std::uint64_t count = plan_store(options, report);
+      if (!report.unchanged) {
+        if (verb.json) {
+          Json json = json_report(verb, report, seconds());
+          json["shards_to_build"] = count;
+          print(json);
+        } else {
+          print(fmt::format("{} shards to build: --shard 0 to --shard {}, on any machines that see {}; then --merge\n",
+                            count, count == 0 ? 0 : count - 1, verb.output.string()));
+        }
+        return done;
+      }
+    } else if (verb.shard) {
+      build_shard(options, *verb.shard, report);
+      if (verb.json) print(json_report(verb, report, seconds()));
+      return done;
+    } else if (verb.merge) {
+      merge_store(options, report);
+    } else {
+      report = build_store(options);
+    }
+  }
+  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  tell_store(verb, report, seconds());
+  return done;
+}
+
+ExitStatus build(BuildVerb verb) {
+  if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
+  if (verb.output.empty()) {
+    if (verb.scene.scenes.empty()) throw UsageError("build: without SCENE, -o says which store is meant");
+    verb.output = store_beside(verb.scene.scenes.front());
+  }
+  try {
+    return run_steps(verb);
+  } catch (const std::exception&) {
+    // Ctrl-C also reaches the reader's process; its end is then no error of the scene.
+    if (!interrupted()) throw;
+    fmt::print(stderr, "roam: stopped; what was done is kept in {}: the same command again goes on from there\n",
+               verb.output.string());
+    return failed;
+  }
+}
+
+constexpr const char* help =
+    "Makes a collision store, a folder that `roam walk`, `view`, `sweep` and `info` take as they take scenes, and "
+    "that\n"
+    "is walked at full detail in little memory. A build may be stopped, or killed, at any moment: the same command\n"
+    "again goes on, and the result is the same to the last byte. When the scene has changed only what changed is "
+    "built\n"
+    "again.\n\n"
+    "Many machines that see one folder build one store: --plan first, then each --shard, in any order, then "
+    "--merge.\n\n"
+    "Examples:\n"
+    "  roam build mine.dae\n"
+    "  roam build Data/ -o dam.roam --memory 2G\n"
+    "  roam build Data/ -o dam.roam --plan\n"
+    "  roam build -o dam.roam --shard 17\n"
+    "  roam build -o dam.roam --merge\n";
+
+}  // namespace
+
+void add_build(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("build", "Makes a collision store of a scene of any size");
+  verb->footer(help);
+  const auto options = std::make_shared<BuildVerb>();
+  options->scene.add_to(*verb);
+  verb->get_option("SCENE")->required(false);
+  verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
+      ->type_name("FOLDER");
+  verb->add_option("--memory", options->memory, "Memory to keep within, the reader's too (default: 1G; at least 256M)")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
+  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed and decide the shards");
+  CLI::Option* shard =
+      verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")->type_name("I");
+  CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
+  plan->excludes(shard)->excludes(merge);
+  shard->excludes(merge);
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return build(*options); }; });
+}
+
+}  // namespace roam::app
