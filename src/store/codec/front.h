@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "index/block.h"
 
@@ -14,18 +15,30 @@ namespace roam::store {
 
 inline constexpr std::uint16_t kNoVertex = UINT16_MAX;
 
-/// A vertex of a tile, numbered by first use. 20 bytes, so that those of a tile stay in the second cache.
+/// A vertex of a tile, numbered by first use. 24 bytes, so that those of a tile stay in the second cache.
+///
+/// A front that meets itself at a vertex passes it twice: once from `previous` to `after`, once from `before` to
+/// `next`. Where it passes once, `after` and `before` are kNoVertex.
 struct FrontVertex {
   std::array<std::uint32_t, 3> at;  ///< on the tile's grid; of fine tiles on the fine one, from -kFineSteps / 2
   std::uint16_t next;               ///< the front goes from here to there: a known triangle lies at its left
   std::uint16_t previous;
-  std::uint16_t across;  ///< the third corner of that triangle
+  std::uint16_t after;
+  std::uint16_t before;
+  std::uint16_t across;  ///< the third corner of the triangle at the edge to `next`
   std::uint16_t place;   ///< 16 * leaf + slot in the last leaf that has the vertex
+
+  /// Where the front that came from `previous` goes.
+  [[nodiscard]] std::uint16_t onward() const { return after != kNoVertex ? after : next; }
+  /// Where the front that goes to `next` came from.
+  [[nodiscard]] std::uint16_t backward() const { return before != kNoVertex ? before : previous; }
 };
 
-/// An edge of the front, from one vertex to its next. A triangle beyond it has the corners `to`, `from` and another.
+/// An edge of the front, from one vertex to its next, both in the leaf that grows. A triangle beyond it has the corners
+/// `to`, `from` and another.
 struct Gate {
   std::uint16_t from, to;
+  std::uint8_t from_slot, to_slot;
 };
 
 /// How the third corner of a triangle beyond a gate is named.
@@ -39,95 +52,182 @@ enum class Apex : std::uint8_t {
 inline constexpr unsigned kApexes = 5;
 
 /// One leaf as it grows, triangle by triangle, and the front with it.
+template <bool fine>
 class Growth {
  public:
   explicit Growth(FrontVertex* vertices) : vertices_(vertices) {}
 
-  void begin(std::uint32_t leaf_number, index::Leaf& leaf, index::FineLeaf* fine) {
-    number_ = leaf_number;
+  /// The leaf must be zero.
+  void begin(std::uint32_t leaf_number, index::Leaf& leaf, index::FineLeaf* low) {
+    first_place_ = leaf_number * index::kWidth;
     leaf_ = &leaf;
-    fine_ = fine;
+    low_ = low;
     slots_ = triangles_ = gates_ = 0;
+    corners_ = {};
   }
 
-  /// The vertex's slot in the leaf, a new one if it has none; kWidth or more when the leaf is full.
-  int slot(std::uint16_t v) {
-    FrontVertex& vertex = vertices_[v];
-    if (vertex.place / index::kWidth == number_) return vertex.place % index::kWidth;
-    if (slots_ >= index::kWidth) return index::kWidth;
-    vertex.place = static_cast<std::uint16_t>(number_ * index::kWidth + slots_);
-    in_slot_[slots_] = v;
-    return slots_++;
-  }
-  [[nodiscard]] int slots() const { return slots_; }
-  [[nodiscard]] std::uint16_t in_slot(std::uint32_t slot) const { return in_slot_[slot]; }
-  [[nodiscard]] int triangles() const { return triangles_; }
-  [[nodiscard]] std::uint32_t number() const { return number_; }
+  [[nodiscard]] unsigned triangles() const { return triangles_; }
+  [[nodiscard]] unsigned slots() const { return slots_; }
+  [[nodiscard]] std::uint16_t in_slot(unsigned slot) const { return in_slot_[slot]; }
 
-  /// Adds the triangle to the leaf and moves the front over it. False when the leaf has no room for its corners.
-  bool add(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
-    const int slot_a = slot(a), slot_b = slot(b), slot_c = slot(c);
-    if (slot_a == index::kWidth || slot_b == index::kWidth || slot_c == index::kWidth) return false;
-    const int word = triangles_ / 8, shift = 4 * (triangles_ % 8);
-    leaf_->corner[0][word] |= static_cast<std::uint32_t>(slot_a) << shift;
-    leaf_->corner[1][word] |= static_cast<std::uint32_t>(slot_b) << shift;
-    leaf_->corner[2][word] |= static_cast<std::uint32_t>(slot_c) << shift;
-    ++triangles_;
-    add_edge(a, b, c);
-    add_edge(b, c, a);
-    add_edge(c, a, b);
-    return true;
+  /// The vertex's slot in the leaf; kWidth for none.
+  [[nodiscard]] unsigned slot_of(std::uint16_t v) const {
+    const unsigned slot = vertices_[v].place - first_place_;
+    return slot < index::kWidth ? slot : index::kWidth;
   }
 
   /// The newest gate of the leaf that is still on the front; false when there is none.
   bool pop(Gate& gate) {
     while (gates_ > 0) {
-      gate = open_[--gates_];
+      const std::uint8_t slots = open_[--gates_];
+      gate.from_slot = slots & 15U;
+      gate.to_slot = slots >> 4U;
+      gate.from = in_slot_[gate.from_slot];
+      gate.to = in_slot_[gate.to_slot];
       if (vertices_[gate.from].next == gate.to) return true;
     }
     return false;
   }
 
-  /// Fills what the leaf has no triangles and no vertices for.
-  template <bool fine>
-  void finish() {
-    for (auto& c : leaf_->corner) {
-      const std::uint32_t all = (c[0] & 15U) * 0x11111111U;
-      if (triangles_ < 8) c[0] |= all << (4 * triangles_);
-      if (triangles_ < 16) c[1] |= all << (4 * (triangles_ < 8 ? 0 : triangles_ - 8));
+  /// The gate that begins at a vertex, of whichever leaf. False where there is none, or when the leaf has no room.
+  bool enter(std::uint16_t from, Gate& gate) {
+    gate.from = from;
+    gate.to = vertices_[from].next;
+    return gate.to != kNoVertex && place(gate.from, gate.from_slot) && place(gate.to, gate.to_slot);
+  }
+
+  /// Adds the triangle beyond a gate. False when the leaf has no room for its third corner.
+  bool add(const Gate& gate, Apex apex, std::uint16_t third) {
+    std::uint8_t slot = 0;
+    if (!(apex == Apex::fresh ? place_new(third, slot) : place(third, slot))) return false;
+    put(gate.to_slot, gate.from_slot, slot);
+    FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &v = vertices_[third];
+    switch (apex) {
+      case Apex::next:
+        leave_onward(to);
+        if (v.next == gate.from) {  // a hole is closed
+          v.next = from.previous = from.next = kNoVertex;
+        } else if (v.before == gate.to) {
+          const std::uint16_t previous = v.previous;
+          join(gate.from, third, gate.to, gate.from_slot, slot);
+          v.before = gate.from;
+          v.previous = previous;
+        } else {
+          join(gate.from, third, gate.to, gate.from_slot, slot);
+        }
+        break;
+      case Apex::previous:
+        leave_backward(from);
+        if (v.after == gate.from) {  // the pass that changes is the one with `next`
+          v.after = v.next;
+          std::swap(v.previous, v.before);
+        }
+        join(third, gate.to, gate.from, slot, gate.to_slot);
+        break;
+      case Apex::other:
+        if (v.next != kNoVertex) {
+          v.after = v.next;
+          v.before = v.previous;
+        }
+        [[fallthrough]];
+      default:
+        join(gate.from, third, gate.to, gate.from_slot, slot);
+        join(third, gate.to, gate.from, slot, gate.to_slot);
     }
-    for (int s = 0; s < index::kWidth; ++s) {
-      const FrontVertex& v = vertices_[in_slot_[s < slots_ ? s : 0]];
-      for (int k = 0; k < 3; ++k) {
-        leaf_->vertex[k][s] = static_cast<std::uint16_t>(fine ? v.at[k] >> 16U : v.at[k]);
-        if (fine) fine_->vertex[k][s] = static_cast<std::int16_t>((v.at[k] & 0xffffU) ^ 0x8000U);
+    return true;
+  }
+
+  /// Adds a triangle that lies beyond no gate. False when the leaf has no room for its corners.
+  bool add(const std::array<std::uint16_t, 3>& corners) {
+    std::array<std::uint8_t, 3> slots{};
+    for (int c = 0; c < 3; ++c) {
+      if (!place(corners[c], slots[c])) return false;
+    }
+    put(slots[0], slots[1], slots[2]);
+    for (int c = 0; c < 3; ++c) {
+      const int to = (c + 1) % 3;
+      if (corners[c] == corners[to]) continue;
+      FrontVertex& other = vertices_[corners[to]];
+      if (other.next == corners[c]) {  // the triangle at the other side is known
+        other.next = kNoVertex;
+        vertices_[corners[c]].previous = kNoVertex;
+      } else {
+        join(corners[c], corners[to], corners[(c + 2) % 3], slots[c], slots[to]);
+      }
+    }
+    return true;
+  }
+
+  /// Fills what the leaf has no triangles and no vertices for.
+  void finish() {
+    for (int k = 0; k < 3; ++k) {
+      std::uint64_t c = corners_[k];
+      if (triangles_ < index::kWidth) c |= (c & 15U) * 0x1111111111111111U << (4 * triangles_);
+      leaf_->corner[k][0] = static_cast<std::uint32_t>(c);
+      leaf_->corner[k][1] = static_cast<std::uint32_t>(c >> 32U);
+      for (unsigned s = slots_; s < index::kWidth; ++s) {
+        leaf_->vertex[k][s] = leaf_->vertex[k][0];
+        if (fine) low_->vertex[k][s] = low_->vertex[k][0];
       }
     }
     leaf_->triangle_count = static_cast<std::uint8_t>(triangles_);
   }
 
  private:
-  void add_edge(std::uint16_t from, std::uint16_t to, std::uint16_t third) {
-    if (from == to) return;
-    FrontVertex &f = vertices_[from], &t = vertices_[to];
-    if (t.next == from) {  // the triangle at the other side is known
-      t.next = kNoVertex;
-      if (f.previous == to) f.previous = kNoVertex;
-      return;
+  /// The vertex's slot in the leaf, a new one if it has none.
+  bool place(std::uint16_t v, std::uint8_t& slot) {
+    const unsigned known = slot_of(v);
+    slot = static_cast<std::uint8_t>(known);
+    return known < index::kWidth || place_new(v, slot);
+  }
+  bool place_new(std::uint16_t v, std::uint8_t& slot) {
+    if (slots_ == index::kWidth) return false;
+    FrontVertex& vertex = vertices_[v];
+    vertex.place = static_cast<std::uint16_t>(first_place_ + slots_);
+    for (int k = 0; k < 3; ++k) {
+      leaf_->vertex[k][slots_] = static_cast<std::uint16_t>(fine ? vertex.at[k] >> 16U : vertex.at[k]);
+      if (fine) low_->vertex[k][slots_] = static_cast<std::int16_t>((vertex.at[k] & 0xffffU) ^ 0x8000U);
     }
-    f.next = to;
-    f.across = third;
-    t.previous = from;
-    open_[gates_++] = {from, to};
+    in_slot_[slots_] = v;
+    slot = static_cast<std::uint8_t>(slots_++);
+    return true;
+  }
+
+  void put(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+    const unsigned shift = 4 * triangles_++;
+    corners_[0] |= a << shift;
+    corners_[1] |= b << shift;
+    corners_[2] |= c << shift;
+  }
+
+  /// The pass from `previous` ends here.
+  static void leave_onward(FrontVertex& v) {
+    if (v.after == kNoVertex) v.next = kNoVertex;
+    v.previous = v.before;
+    v.after = v.before = kNoVertex;
+  }
+  /// The pass to `next` ends here.
+  static void leave_backward(FrontVertex& v) {
+    if (v.before == kNoVertex) v.previous = kNoVertex;
+    v.next = v.after;
+    v.after = v.before = kNoVertex;
+  }
+
+  void join(std::uint16_t from, std::uint16_t to, std::uint16_t third, std::uint8_t from_slot, std::uint8_t to_slot) {
+    vertices_[from].next = to;
+    vertices_[from].across = third;
+    vertices_[to].previous = from;
+    open_[gates_++] = static_cast<std::uint8_t>(from_slot | to_slot << 4U);
   }
 
   FrontVertex* vertices_;
   index::Leaf* leaf_ = nullptr;
-  index::FineLeaf* fine_ = nullptr;
-  std::uint32_t number_ = 0;
-  int slots_ = 0, triangles_ = 0, gates_ = 0;
-  std::array<std::uint16_t, index::kWidth> in_slot_;
-  std::array<Gate, std::size_t{3} * index::kWidth> open_;
+  index::FineLeaf* low_ = nullptr;
+  unsigned first_place_ = 0;  ///< that of the leaf's slot 0
+  unsigned slots_ = 0, triangles_ = 0, gates_ = 0;
+  std::array<std::uint64_t, 3> corners_{};
+  std::array<std::uint16_t, index::kWidth> in_slot_{};
+  std::array<std::uint8_t, std::size_t{3} * index::kWidth> open_{};  ///< gates: from_slot | to_slot << 4
 };
 
 }  // namespace roam::store

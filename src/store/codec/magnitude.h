@@ -21,9 +21,9 @@ inline constexpr std::uint32_t kClasses = kOwnClass + (32 - 3) * 4;
   return kOwnClass + (top - 3) * 4 + (number >> (top - 2) & 3U);
 }
 /// How many bits follow.
-[[nodiscard]] inline std::uint32_t bits_of(std::uint32_t c) { return c < kOwnClass ? 0 : (c - kOwnClass) / 4 + 1; }
+[[nodiscard]] constexpr std::uint32_t bits_of(std::uint32_t c) { return c < kOwnClass ? 0 : (c - kOwnClass) / 4 + 1; }
 /// The least number of a class.
-[[nodiscard]] inline std::uint32_t base_of(std::uint32_t c) {
+[[nodiscard]] constexpr std::uint32_t base_of(std::uint32_t c) {
   return c < kOwnClass ? c : (4 + (c & 3U)) << ((c - kOwnClass) / 4 + 1);
 }
 
@@ -55,14 +55,13 @@ class BitWriter {
 class BitReader {
  public:
   BitReader(const std::byte* bytes, std::size_t size) : bytes_(bytes), end_(8 * size) {}
-  /// bits is at most 32.
-  std::uint32_t get(std::uint32_t bits) {
+  /// The next 57 bits or more, the first lowest.
+  [[nodiscard]] std::uint64_t peek() const {
     std::uint64_t word;
     std::memcpy(&word, bytes_ + at_ / 8, sizeof(word));
-    const std::uint64_t value = word >> (at_ % 8) & ((std::uint64_t{1} << bits) - 1);
-    at_ += bits;
-    return static_cast<std::uint32_t>(value);
+    return word >> (at_ % 8);
   }
+  void skip(std::uint32_t bits) { at_ += bits; }
   [[nodiscard]] bool within() const { return at_ <= end_; }
   /// At the end but for the bits that fill the last byte.
   [[nodiscard]] bool finished() const { return (at_ + 7) / 8 == end_ / 8; }

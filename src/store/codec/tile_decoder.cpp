@@ -33,6 +33,7 @@ class Letters {
  public:
   Letters() = default;
   Letters(const std::byte* begin, std::size_t size) : at_(begin), end_(begin + size) {}
+  [[nodiscard]] const std::byte* at() const { return at_; }
   bool next(std::uint8_t& letter) {
     if (at_ == end_) return false;
     letter = std::to_integer<std::uint8_t>(*at_++);
@@ -44,132 +45,162 @@ class Letters {
   const std::byte *at_ = nullptr, *end_ = nullptr;
 };
 
-/// What a class stands for, in a table.
+/// What a class stands for, in a table. Letters that are no class are as good as zero.
 struct Magnitude {
   std::uint32_t base, bits;
+  [[nodiscard]] std::uint32_t with(std::uint64_t word) const {
+    return base + (static_cast<std::uint32_t>(word) & ((1U << bits) - 1));
+  }
 };
 constexpr auto magnitudes() {
   std::array<Magnitude, 256> table{};
-  for (std::uint32_t c = 0; c < kClasses; ++c) {
-    table[c] = {c < kOwnClass ? c : (4 + (c & 3U)) << ((c - kOwnClass) / 4 + 1),
-                c < kOwnClass ? 0 : (c - kOwnClass) / 4 + 1};
-  }
+  for (std::uint32_t c = 0; c < kClasses; ++c) table[c] = {base_of(c), bits_of(c)};
   return table;
 }
 constexpr std::array<Magnitude, 256> kMagnitudes = magnitudes();
+
+/// The three Apex of a letter of kGates, three bits each, and a one above.
+constexpr auto apexes() {
+  std::array<std::uint16_t, 256> table{};
+  for (unsigned l = 0; l < 256; ++l) {
+    const unsigned known = l < kApexes * kApexes * kApexes ? l : 0;
+    table[l] = static_cast<std::uint16_t>(known % kApexes | known / kApexes % kApexes << 3U |
+                                          known / kApexes / kApexes << 6U | 1U << 9U);
+  }
+  return table;
+}
+constexpr std::array<std::uint16_t, 256> kApexesOfLetter = apexes();
+
+/// The three streams of classes of vertices that are predicted alike.
+struct VertexLetters {
+  std::array<const std::byte*, 3> at;
+  std::size_t left;
+  Magnitude next(int k) { return kMagnitudes[std::to_integer<std::size_t>(*at[k]++)]; }
+};
 
 /// Fills the leaves of a tile from its streams.
 template <bool fine>
 class LeafDecoder {
  public:
-  LeafDecoder(const std::array<Letters, kBits>& letters, BitReader bits, FrontVertex* vertices, std::size_t limit)
-      : letters_(letters), bits_(bits), vertices_(vertices), limit_(limit), growth_(vertices) {}
+  LeafDecoder(const std::array<Letters, kBits>& letters, const StreamSizes& sizes, BitReader bits,
+              FrontVertex* vertices)
+      : gates_(letters[kGates]),
+        seeds_(letters[kSeeds]),
+        names_(letters[kNames]),
+        gate_vertices_{{letters[kGateX].at(), letters[kGateY].at(), letters[kGateZ].at()}, sizes.gate_vertices},
+        free_vertices_{{letters[kFreeX].at(), letters[kFreeY].at(), letters[kFreeZ].at()}, sizes.free_vertices},
+        bits_(bits),
+        vertices_(vertices),
+        growth_(vertices) {}
 
-  bool leaf(std::uint32_t number, int triangles, index::Leaf& leaf, index::FineLeaf* low) {
+  bool leaf(std::uint32_t number, unsigned triangles, index::Leaf& leaf, index::FineLeaf* low) {
     growth_.begin(number, leaf, low);
     while (growth_.triangles() < triangles) {
-      Gate gate;
+      Gate gate{};
       if (growth_.pop(gate)) {
-        const unsigned apex = next_apex();
-        if (apex != 0 && !beyond(gate, static_cast<Apex>(apex))) return false;
+        const Apex apex = next_apex();
+        if (apex != Apex::none && !beyond(gate, apex)) return false;
       } else if (!seed()) {
         return false;
       }
     }
-    growth_.template finish<fine>();
+    growth_.finish();
     return bits_.within();
   }
 
   [[nodiscard]] bool finished() const {
-    bool all = bits_.finished();
-    for (int s = kGates; s < kBits; ++s) all = all && letters_[s].finished();
-    return all;
+    return gates_.finished() && seeds_.finished() && names_.finished() && gate_vertices_.left == 0 &&
+           free_vertices_.left == 0 && bits_.finished();
   }
 
  private:
-  unsigned next_apex() {
-    if (left_in_letter_ == 0) {
-      if (!letters_[kGates].next(letter_)) letter_ = 0;
-      left_in_letter_ = 3;
+  Apex next_apex() {
+    if (apexes_ == 1) {
+      std::uint8_t letter = 0;
+      gates_.next(letter);
+      apexes_ = kApexesOfLetter[letter];
     }
-    --left_in_letter_;
-    const unsigned apex = letter_ % kApexes;
-    letter_ /= kApexes;
+    const auto apex = static_cast<Apex>(apexes_ & 7U);
+    apexes_ >>= 3U;
     return apex;
   }
 
   bool beyond(const Gate& gate, Apex apex) {
+    const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to];
     std::uint16_t v = kNoVertex;
     switch (apex) {
       case Apex::fresh: {
-        const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
+        const FrontVertex& across = vertices_[from.across];
         std::array<std::uint32_t, 3> near;
         for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
-        v = fresh(kGateX, near);
-        break;
+        v = fresh(gate_vertices_, near);
+        return v != kNoVertex && growth_.add(gate, Apex::fresh, v);
       }
       case Apex::next:
-        v = vertices_[gate.to].next;
-        break;
+        v = to.onward();
+        return v != kNoVertex && growth_.add(gate, Apex::next, v);
       case Apex::previous:
-        v = vertices_[gate.from].previous;
-        break;
+        v = from.backward();
+        return v != kNoVertex && growth_.add(gate, Apex::previous, v);
       default:
         v = named();
+        return v != kNoVertex && growth_.add(gate, Apex::other, v);
     }
-    return v != kNoVertex && growth_.add(gate.to, gate.from, v);
   }
 
   bool seed() {
     std::uint8_t letter = 0;
-    if (!letters_[kSeeds].next(letter) || letter >= kSeedLetters) return false;
+    if (!seeds_.next(letter) || letter >= kSeedLetters) return false;
     if (letter < kFreeSeed) {
-      Gate gate;
-      gate.from = named();
-      if (gate.from == kNoVertex) return false;
-      gate.to = vertices_[gate.from].next;
-      return gate.to != kNoVertex && beyond(gate, static_cast<Apex>(letter + 1));
+      const std::uint16_t from = named();
+      Gate gate{};
+      return from != kNoVertex && growth_.enter(from, gate) && beyond(gate, static_cast<Apex>(letter + 1));
     }
     std::array<std::uint16_t, 3> corners;
     for (unsigned c = 0; c < 3; ++c) {
-      corners[c] = (letter - kFreeSeed) >> c & 1U ? fresh(kFreeX, last_) : named();
+      corners[c] = (letter - kFreeSeed) >> c & 1U ? fresh(free_vertices_, last_) : named();
       if (corners[c] == kNoVertex) return false;
       last_ = vertices_[corners[c]].at;
     }
-    return growth_.add(corners[0], corners[1], corners[2]);
+    return growth_.add(corners);
   }
 
   /// A vertex by slot or age.
   std::uint16_t named() {
     std::uint8_t letter = 0;
-    if (!letters_[kNames].next(letter)) return kNoVertex;
-    if (letter < kAgeName) return static_cast<int>(letter) < growth_.slots() ? growth_.in_slot(letter) : kNoVertex;
+    if (!names_.next(letter)) return kNoVertex;
+    if (letter < kAgeName) return letter < growth_.slots() ? growth_.in_slot(letter) : kNoVertex;
     const Magnitude m = kMagnitudes[letter - kAgeName];
-    const std::uint32_t age = m.base + bits_.get(m.bits);
+    const std::uint32_t age = m.with(bits_.peek());
+    bits_.skip(m.bits);
     return age < count_ ? static_cast<std::uint16_t>(count_ - 1 - age) : kNoVertex;
   }
 
-  std::uint16_t fresh(int stream, const std::array<std::uint32_t, 3>& near) {
-    if (count_ == limit_ || !bits_.within()) return kNoVertex;
+  std::uint16_t fresh(VertexLetters& letters, const std::array<std::uint32_t, 3>& near) {
+    if (letters.left == 0) return kNoVertex;
+    --letters.left;
+    const std::array<Magnitude, 3> m{letters.next(0), letters.next(1), letters.next(2)};
     FrontVertex& v = vertices_[count_];
+    std::uint64_t word = bits_.peek();
     for (int k = 0; k < 3; ++k) {
-      std::uint8_t letter = 0;
-      if (!letters_[stream + k].next(letter)) return kNoVertex;
-      const Magnitude m = kMagnitudes[letter];
-      const std::uint32_t at = near[k] + unzigzag(m.base + bits_.get(m.bits));
+      if (fine && k > 0) word = bits_.peek();  // three numbers of 16 bits are in one word, of 32 bits not
+      const std::uint32_t at = near[k] + unzigzag(m[k].with(word));
       v.at[k] = fine ? at : at & 0xffffU;
+      word >>= m[k].bits;
+      bits_.skip(m[k].bits);
     }
-    v.next = v.previous = v.across = v.place = kNoVertex;
+    v.next = v.previous = v.after = v.before = v.across = v.place = kNoVertex;
     return static_cast<std::uint16_t>(count_++);
   }
 
-  std::array<Letters, kBits> letters_;
+  Letters gates_, seeds_, names_;
+  VertexLetters gate_vertices_, free_vertices_;
   BitReader bits_;
   FrontVertex* vertices_;
-  std::size_t limit_, count_ = 0;
-  Growth growth_;
+  std::size_t count_ = 0;  ///< of vertices
+  Growth<fine> growth_;
   std::array<std::uint32_t, 3> last_{};
-  std::uint8_t letter_ = 0, left_in_letter_ = 0;
+  std::uint32_t apexes_ = 1;  ///< those of the letter that are left, and a one above
 };
 
 }  // namespace
@@ -189,8 +220,8 @@ struct TileDecoder::State {
 
   template <bool fine>
   const char* leaves(const std::array<Letters, kBits>& letters, BitReader bits, std::span<index::Leaf> leaves,
-                     index::FineLeaf* low, std::uint32_t triangles, std::size_t vertex_count) {
-    LeafDecoder<fine> decoder(letters, bits, vertices.data(), vertex_count);
+                     index::FineLeaf* low, std::uint32_t triangles, const StreamSizes& sizes) {
+    LeafDecoder<fine> decoder(letters, sizes, bits, vertices.data());
     Letters counts = letters[kCounts];
     std::uint32_t done = 0;
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
@@ -199,7 +230,7 @@ struct TileDecoder::State {
       leaves[i] = {};
       leaves[i].ids = done;
       done += letter + 1U;
-      if (!decoder.leaf(i, letter + 1, leaves[i], fine ? low + i : nullptr)) return "its triangles are damaged";
+      if (!decoder.leaf(i, letter + 1U, leaves[i], fine ? low + i : nullptr)) return "its triangles are damaged";
     }
     if (done != triangles) return "it has another number of triangles";
     return decoder.finished() ? nullptr : "there is more in it than a tile needs";
@@ -247,8 +278,8 @@ const char* TileDecoder::decode(std::span<const std::byte> coded, const TileShap
   auto* low = reinterpret_cast<index::FineLeaf*>(leaves.data() + leaves.size());
   if (const char* why = s.tree.topology({s.raw.data(), shape.nodes}, nodes, shape.leaves)) return why;
   if (shape.fine) std::memset(low, 0, shape.bytes() - (nodes.size() + leaves.size()) * sizeof(index::Block));
-  if (const char* why = shape.fine ? s.leaves<true>(letters, bits, leaves, low, shape.triangles, vertex_count)
-                                   : s.leaves<false>(letters, bits, leaves, low, shape.triangles, vertex_count)) {
+  if (const char* why = shape.fine ? s.leaves<true>(letters, bits, leaves, low, shape.triangles, n)
+                                   : s.leaves<false>(letters, bits, leaves, low, shape.triangles, n)) {
     return why;
   }
   s.tree.refit(nodes, leaves);

@@ -41,13 +41,20 @@ struct Source {
   std::array<Place, kWidth> places;
   std::array<std::uint16_t, kWidth> numbers;  ///< of the vertices, kNoVertex for those not seen before
   std::array<std::array<std::uint8_t, kWidth>, kWidth> beyond;  ///< the triangle with an edge from .. to, kWidth: none
+  std::array<std::uint8_t, kWidth> slot;                        ///< of the source, for each of the leaf that grows
+
+  /// The slot of the corner of a triangle with an edge from .. to that is not on it.
+  [[nodiscard]] unsigned third(int t, unsigned from, unsigned to) const {
+    const auto& c = corners[t];
+    return c[0] == from && c[1] == to ? c[2] : c[1] == from && c[2] == to ? c[0] : c[1];
+  }
 };
 
+template <bool fine>
 class TileEncoder {
  public:
   explicit TileEncoder(index::BuiltTile& tile)
       : tile_(tile),
-        fine_(tile.tile.fine),
         vertices_(std::make_unique_for_overwrite<FrontVertex[]>(tile.leaves.size() * kWidth)),
         table_(tile.leaves.size() * kWidth),
         growth_(vertices_.get()) {}
@@ -93,7 +100,7 @@ class TileEncoder {
       if ((used >> v & 1U) == 0) continue;
       for (int k = 0; k < 3; ++k) {
         s.places[v][k] = leaf.vertex[k][v];
-        if (fine_) {
+        if (fine) {
           s.places[v][k] = (s.places[v][k] << 16U) + static_cast<std::uint32_t>(tile_.fine_leaves[i].vertex[k][v]) +
                            std::uint32_t{1U << 15U};
         }
@@ -109,100 +116,85 @@ class TileEncoder {
     index::Leaf leaf{};
     leaf.id_bytes = old.id_bytes;
     leaf.ids = old.ids;
-    growth_.begin(i, leaf, fine_ ? &tile_.fine_leaves[i] : nullptr);
+    growth_.begin(i, leaf, fine ? &tile_.fine_leaves[i] : nullptr);
     put(kCounts, static_cast<std::uint32_t>(s.triangles) - 1);
     std::array<std::uint8_t, kWidth> order{};
-    while (growth_.triangles() < s.triangles) {
-      Gate gate;
+    while (growth_.triangles() < static_cast<unsigned>(s.triangles)) {
+      Gate gate{};
       int t = 0;
       if (growth_.pop(gate)) {
-        t = triangle_beyond(s, gate);
-        if (t == kWidth) {
+        const unsigned to = s.slot[gate.to_slot], from = s.slot[gate.from_slot];
+        t = s.beyond[to][from];
+        if (t == kWidth || (s.undone >> t & 1U) == 0) {
           put_apex(Apex::none);
           continue;
         }
-        put_apex(pass(s, t, gate));
-        finish_apex(s, t, gate);
+        const unsigned third = s.third(t, to, from);
+        const Apex how = apex(s, third, gate.from, gate.to);
+        put_apex(how);
+        add(s, third, gate, how);
       } else {
         t = seed(s);
       }
       order[growth_.triangles() - 1] = static_cast<std::uint8_t>(t);
       s.undone &= ~(1U << t);
     }
-    fine_ ? growth_.finish<true>() : growth_.finish<false>();
+    growth_.finish();
     reorder_ids(old, {order.data(), static_cast<std::size_t>(s.triangles)});
     old = leaf;
   }
 
-  /// The slot of the source that holds a vertex, kWidth: none.
-  static int slot_of(const Source& s, std::uint16_t vertex) {
-    const auto* const found = std::find(s.numbers.begin(), s.numbers.end(), vertex);
-    return static_cast<int>(found - s.numbers.begin());
-  }
-
-  static int triangle_beyond(const Source& s, const Gate& gate) {
-    const int from = slot_of(s, gate.from), to = slot_of(s, gate.to);
-    if (from == kWidth || to == kWidth) return kWidth;
-    const int t = s.beyond[to][from];
-    return t < kWidth && (s.undone >> t & 1U) != 0 ? t : kWidth;
-  }
-
-  /// The slot of the corner of a triangle that is none of a gate's.
-  static int apex_slot(const Source& s, int t, const Gate& gate) {
-    for (int c = 0; c < 3; ++c) {
-      const int a = s.corners[t][c], b = s.corners[t][(c + 1) % 3];
-      if (s.numbers[a] == gate.to && s.numbers[b] == gate.from) return s.corners[t][(c + 2) % 3];
-    }
-    return kWidth;
-  }
-
   /// How the third corner of the triangle beyond a gate is named.
-  Apex pass(const Source& s, int t, const Gate& gate) {
-    const std::uint16_t apex = s.numbers[apex_slot(s, t, gate)];
-    if (apex == kNoVertex) return Apex::fresh;
-    if (apex == vertices_[gate.to].next) return Apex::next;
-    if (apex == vertices_[gate.from].previous) return Apex::previous;
+  Apex apex(const Source& s, unsigned third, std::uint16_t from, std::uint16_t to) {
+    const std::uint16_t v = s.numbers[third];
+    if (v == kNoVertex) return Apex::fresh;
+    if (v == vertices_[to].onward()) return Apex::next;
+    if (v == vertices_[from].backward()) return Apex::previous;
     return Apex::other;
   }
 
-  void finish_apex(Source& s, int t, const Gate& gate) {
-    const Apex how = pass(s, t, gate);
-    const int slot = apex_slot(s, t, gate);
+  /// Adds the triangle beyond a gate; `third` is the source's slot of its third corner.
+  void add(Source& s, unsigned third, const Gate& gate, Apex how) {
     if (how == Apex::fresh) {
       const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
       Place near;
       for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
-      put_fresh(s, slot, kGateX, near);
+      put_fresh(s, third, kGateX, near);
     } else if (how == Apex::other) {
-      put_name(s.numbers[slot]);
+      put_name(s.numbers[third]);
     }
-    growth_.add(gate.to, gate.from, s.numbers[slot]);
+    growth_.add(gate, how, s.numbers[third]);
+    s.slot[growth_.slot_of(s.numbers[third])] = static_cast<std::uint8_t>(third);
   }
 
   /// A triangle that no gate of the leaf leads to. Returns which.
   int seed(Source& s) {
-    int best = kWidth;
-    Gate gate{};
-    int age = INT32_MAX;
+    int best = kWidth, first = 0, age = INT32_MAX;
     for (int t = 0; t < s.triangles; ++t) {
       if ((s.undone >> t & 1U) == 0) continue;
       for (int c = 0; c < 3; ++c) {
         const std::uint16_t to = s.numbers[s.corners[t][c]], from = s.numbers[s.corners[t][(c + 1) % 3]];
         if (to == kNoVertex || from == kNoVertex || vertices_[from].next != to || count_ - from >= age) continue;
         age = count_ - from;
-        gate = {from, to};
         best = t;
+        first = c;
       }
     }
     if (best < kWidth) {
-      put(kSeeds, static_cast<std::uint32_t>(pass(s, best, gate)) - 1);
-      put_name(gate.from);
-      finish_apex(s, best, gate);
+      const unsigned to = s.corners[best][first], from = s.corners[best][(first + 1) % 3];
+      const unsigned third = s.corners[best][(first + 2) % 3];
+      const Apex how = apex(s, third, s.numbers[from], s.numbers[to]);
+      put(kSeeds, static_cast<std::uint32_t>(how) - 1);
+      put_name(s.numbers[from]);
+      Gate gate{};
+      growth_.enter(s.numbers[from], gate);
+      s.slot[gate.from_slot] = static_cast<std::uint8_t>(from);
+      s.slot[gate.to_slot] = static_cast<std::uint8_t>(to);
+      add(s, third, gate, how);
       return best;
     }
     // None touches the front: the one with most known corners, those first.
     std::uint32_t least = UINT32_MAX;
-    int first = 0;
     for (int t = 0; t < s.triangles; ++t) {
       if ((s.undone >> t & 1U) == 0) continue;
       for (int c = 0; c < 3; ++c) {
@@ -234,7 +226,7 @@ class TileEncoder {
     std::uint32_t mask = 0;
     std::array<std::uint16_t, 3> corners;
     for (int c = 0; c < 3; ++c) {
-      const int slot = s.corners[t][(first + c) % 3];
+      const unsigned slot = s.corners[t][(first + c) % 3];
       if (s.numbers[slot] == kNoVertex) {
         mask |= 1U << c;
         put_fresh(s, slot, kFreeX, last_);
@@ -245,26 +237,27 @@ class TileEncoder {
       last_ = vertices_[corners[c]].at;
     }
     streams_[kSeeds][letter] = std::byte(kFreeSeed + mask);
-    growth_.add(corners[0], corners[1], corners[2]);
+    growth_.add(corners);
+    for (int c = 0; c < 3; ++c) s.slot[growth_.slot_of(corners[c])] = s.corners[t][(first + c) % 3];
   }
 
-  void put_fresh(Source& s, int slot, int stream, const Place& near) {
+  void put_fresh(Source& s, unsigned slot, int stream, const Place& near) {
     const Place& at = s.places[slot];
     for (int k = 0; k < 3; ++k) {
       std::uint32_t difference = at[k] - near[k];
-      if (!fine_) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
+      if (!fine) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
       put_magnitude(stream + k, 0, zigzag(difference));
     }
     // Before it counts as seen: the table finds the free slot of its place.
     std::uint16_t& number = table_.find(at, vertices_.get());
     number = static_cast<std::uint16_t>(count_);
     s.numbers[slot] = number;
-    vertices_[count_++] = {at, kNoVertex, kNoVertex, kNoVertex, kNoVertex};
+    vertices_[count_++] = {at, kNoVertex, kNoVertex, kNoVertex, kNoVertex, kNoVertex, kNoVertex};
   }
 
   void put_name(std::uint16_t vertex) {
-    if (vertices_[vertex].place / kWidth == growth_.number()) {
-      put(kNames, vertices_[vertex].place % kWidth);
+    if (const unsigned slot = growth_.slot_of(vertex); slot < kWidth) {
+      put(kNames, slot);
     } else {
       put_magnitude(kNames, kAgeName, static_cast<std::uint32_t>(count_ - 1 - vertex));
     }
@@ -305,13 +298,12 @@ class TileEncoder {
     return coded;
   }
 
-  static constexpr int kLevel = 3;
+  static constexpr int kLevel = 1;
 
   index::BuiltTile& tile_;
-  bool fine_;
   std::unique_ptr<FrontVertex[]> vertices_;
   VertexTable table_;
-  Growth growth_;
+  Growth<fine> growth_;
   int count_ = 0;  ///< of vertices
   std::size_t apexes_ = 0;
   Place last_{};
@@ -323,7 +315,7 @@ class TileEncoder {
 
 std::vector<std::byte> encode_tile(index::BuiltTile& tile) {
   assert(shape_of(tile).bytes() <= kTileBytes);
-  return TileEncoder(tile).run();
+  return tile.tile.fine ? TileEncoder<true>(tile).run() : TileEncoder<false>(tile).run();
 }
 
 }  // namespace roam::store

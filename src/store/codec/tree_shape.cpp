@@ -67,13 +67,14 @@ void TreeBuilder::refit(std::span<Node> nodes, std::span<const Leaf> leaves) {
     for (std::uint32_t c = node.inner_count; c < node.child_count; ++c) {
       const Leaf& leaf = leaves[node.first_leaf + c - node.inner_count];
       for (int k = 0; k < 3; ++k) {
-        std::uint16_t lower = leaf.vertex[k][0], upper = lower;
-        for (int v = 1; v < kWidth; ++v) {
-          lower = std::min(lower, leaf.vertex[k][v]);
-          upper = std::max(upper, leaf.vertex[k][v]);
+        // Signed numbers, which have minimum and maximum in the oldest vector units.
+        std::int16_t lower = INT16_MAX, upper = INT16_MIN;
+        for (const std::uint16_t at : leaf.vertex[k]) {
+          lower = std::min(lower, static_cast<std::int16_t>(at ^ 0x8000U));
+          upper = std::max(upper, static_cast<std::int16_t>(at ^ 0x8000U));
         }
-        children[c].lower[k] = lower;
-        children[c].upper[k] = upper;
+        children[c].lower[k] = lower + 0x8000;
+        children[c].upper[k] = upper + 0x8000;
       }
     }
     boxes_[i] = index::set_boxes(node, {children.data(), node.child_count});
