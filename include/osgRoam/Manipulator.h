@@ -89,9 +89,10 @@ class Manipulator : public osgGA::CameraManipulator {
   /// moved or placed it since, goes home() again: now there may be a floor to stand on. Ends a building that is under
   /// way, and waits until that is noticed. Call between two frames.
   ///
-  /// A Patchwork that is passed as const is the caller's to update, between two frames.
+  /// A roam::LiveSpace, such as a Patchwork or a Pager, that is passed as const is the caller's to update, between two
+  /// frames.
   void setSpace(std::shared_ptr<const roam::Space> space);
-  /// The same; and if it is a Patchwork, whichever type the pointer has, what was delivered is taken into use before
+  /// The same; and if it is a LiveSpace, whichever type the pointer has, what has come is taken into use before
   /// the steps of each frame and before a placement.
   template <std::derived_from<roam::Space> Space>
   requires(!std::is_const_v<Space>) void setSpace(std::shared_ptr<Space> space) { setGrowingSpace(std::move(space)); }

@@ -50,7 +50,7 @@ struct PatchworkStats {
   std::uint64_t bytes = 0;      ///< resident worlds, with those that wait and those that wait to be freed
 };
 
-class Patchwork final : public Space {
+class Patchwork final : public LiveSpace {
  public:
   /// Stored vertices may lie this far off at most, metres: what World::build keeps to.
   static constexpr double error_limit = 1e-3;
@@ -96,6 +96,8 @@ class Patchwork final : public Space {
   /// what changed; only where a quarter of all is new is the tree over the patches made anew, 1 us a patch. Throws
   /// roam::Error for a body or a place that no query takes, and then takes nothing.
   bool update(const Body& body, const Vec3& place);
+  /// The same; where the body goes to makes no difference.
+  bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   /// The same before there is a body.
   bool update();
 

@@ -69,7 +69,7 @@ struct RouteResult {
   std::uint64_t steps = 0;
   double simulated = 0.0;              ///< seconds
   double least_clearance = 0.0;        ///< metres, certified, over all moves; capped as StepReport::clearance is
-  std::uint64_t throttled = 0;         ///< steps that ended early, see EventKind::throttled
+  std::uint64_t throttled = 0;         ///< steps that ended early or were slowed, see EventKind
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end
   std::optional<Blockage> blocked_at;  ///< when blocked by a contact

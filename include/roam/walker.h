@@ -116,6 +116,7 @@ enum class EventKind : std::uint8_t {
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
   met_unknown,   ///< touched, stands on or is in what is not known yet (see space.h): solid until it is known
+  slowed,        ///< the wish was faster than Space::speed_limit() and was followed at that speed
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -253,6 +254,9 @@ class Walker {
   [[nodiscard]] const Stance& stance() const { return stance_; }
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
   [[nodiscard]] double rise_speed() const { return stance_.rise_speed; }
+  /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put.
+  /// What LiveSpace::update wants to know.
+  [[nodiscard]] Vec3 velocity() const;
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const { return report_; }
 
@@ -268,6 +272,7 @@ class Walker {
 
  private:
   [[nodiscard]] walking::Move under_way();
+  [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
   void begin();
   void move(const WalkerInput& input, double dt);
   walking::Ending move_for(const WalkerInput& input, double dt);

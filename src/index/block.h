@@ -66,11 +66,15 @@ struct Tile {
   float error;                ///< metres: no source vertex is farther from its stored one (16 bits)
   float fine_error;           ///< the same with the low 16 bits; equal to error where there are none
   bool fine;                  ///< the tile has low bits, and answers are decided with them
-  std::uint32_t nodes;        ///< first node in the arena: the root
+  std::uint32_t nodes;        ///< first node in the arena: the root; kAbsent: the tile is not in memory
   std::uint32_t leaves;       ///< first leaf in the arena
-  std::uint32_t fine_leaves;  ///< first FineLeaf, when fine
+  std::uint64_t fine_leaves;  ///< first byte of its FineLeafs, when fine
   std::uint64_t ids;          ///< first byte of its id stream
+
+  static constexpr std::uint32_t kAbsent = UINT32_MAX;
+  [[nodiscard]] bool absent() const { return nodes == kAbsent; }
 };
+static_assert(sizeof(Tile) == 64);
 
 /// A box in grid steps, both ends included.
 struct StepBox {

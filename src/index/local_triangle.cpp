@@ -8,7 +8,9 @@ namespace roam::index {
 certified::LocalTriangle local_triangle(const Index& index, const Place& place, const Vec3& start) {
   const Tile& tile = index.tiles[place.tile];
   const Leaf& leaf = index.blocks[place.leaf].leaf;
-  const FineLeaf* low = tile.fine ? index.fine + tile.fine_leaves + (place.leaf - tile.leaves) : nullptr;
+  const FineLeaf* low =
+      tile.fine ? reinterpret_cast<const FineLeaf*>(index.fine + tile.fine_leaves) + (place.leaf - tile.leaves)
+                : nullptr;
   const double step = tile.step;
   const Vec3 offset = tile.origin - start;
   certified::LocalTriangle out{};

@@ -52,23 +52,32 @@ HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& vis
 constexpr float kTileSteps = 0x1p16F;
 constexpr float kTopSteps = 0x1p29F;
 
+/// How much farther than triangles the boxes of tiles matter, metres.
+HWY_INLINE double margin_of(const Index& index) { return index.absent ? index.absent->margin : 0.0; }
+
+/// Whether what is in a tile that is in memory is of no interest.
+HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.absent->only; }
+
 class SweepTraversal {
  public:
-  SweepTraversal(const Index& index, const Piece& piece)
-      : index_(index), piece_(piece), motion_(piece.motion, piece.body.half_height) {}
+  SweepTraversal(const Index& index, const Piece& piece, double until)
+      : index_(index), piece_(piece), motion_(piece.motion, piece.body.half_height) {
+    best_.time = until;
+    if (until < 1.0) t_max_ = round_up(until);
+  }
 
   Impact run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
-    const float grown = grown_for(round_up(piece_.body.radius), kTopSteps, frame);
+    const float grown = grown_for(round_up(piece_.body.radius + margin_of(index_)), kTopSteps, frame);
     Stack stack;
     search(
         stack, [this](float key) { return key >= t_max_; },
         [&](const Stack::Entry& e) {
           if (e.leaf) return tile(e.number);
-          const Node& node = index_.blocks[e.number].node;
+          const Node& node = index_.top[e.number].node;
           Children children;
           sweep_node(node, frame, motion_, grown, t_max_, children);
-          push_children(node, children, index_.blocks, nullptr, stack);
+          push_children(node, children, index_.top, nullptr, stack);
         });
     return best_;
   }
@@ -80,6 +89,7 @@ class SweepTraversal {
 
   void tile(std::uint32_t number) {
     const Tile& t = index_.tiles[number];
+    if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
     const Frame frame(t.origin, t.step, piece_.start);
     const float radius = round_up(piece_.body.radius + double(t.error));
     const float grown = grown_for(radius, kTileSteps, frame);
@@ -138,7 +148,7 @@ class SweepTraversal {
   }
 
   void take(double time, const Place& place) {
-    if (time >= best_.time && (best_.hit || time >= 1.0)) return;
+    if (time >= best_.time) return;
     best_ = {true, time, place};
     t_max_ = round_up(time);
   }
@@ -154,7 +164,9 @@ class SweepTraversal {
   Stack stack_;
 };
 
-Impact FirstImpact(const Index& index, const Piece& piece) { return SweepTraversal(index, piece).run(); }
+Impact FirstImpact(const Index& index, const Piece& piece, double until) {
+  return SweepTraversal(index, piece, until).run();
+}
 
 /// Everything near a resting body, nearest boxes first, within a reach that visits may shrink.
 class NearTraversal {
@@ -170,49 +182,55 @@ class NearTraversal {
   void run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     Stack stack;
+    const double more = margin_of(index_);
     search(
-        stack, [this](float key) { return key > axis_reach(0.0F); },
+        stack, [&](float key) { return key > axis_reach(more); },
         [&](const Stack::Entry& e) {
           if (e.leaf) return tile(e.number);
-          const Node& node = index_.blocks[e.number].node;
+          const Node& node = index_.top[e.number].node;
           Children children;
-          near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(0.0F), children);
-          push_children(node, children, index_.blocks, nullptr, stack);
+          near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(more), children);
+          push_children(node, children, index_.top, nullptr, stack);
         });
   }
 
  private:
   /// How far from the axis stored triangles matter still.
-  [[nodiscard]] float axis_reach(float error) const {
-    return round_up(std::max(0.0, piece_.body.radius + reach_ + double(error)));
+  [[nodiscard]] float axis_reach(double error) const {
+    return round_up(std::max(0.0, piece_.body.radius + reach_ + error));
   }
   [[nodiscard]] float margin(float steps, const Frame& frame) const {
-    return grown_radius(0.0F, half_height_, axis_reach(0.0F), steps * frame.step, frame.step);
+    return grown_radius(0.0F, half_height_, axis_reach(margin_of(index_)), steps * frame.step, frame.step);
   }
 
   void tile(std::uint32_t number) {
     const Tile& t = index_.tiles[number];
+    if (t.absent()) {
+      reach_ = index_.absent->near(index_.absent->context, number);
+      return;
+    }
+    if (only_absent(index_)) return;
     const Frame frame(t.origin, t.step, piece_.start);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     search(
-        stack_, [&](float key) { return key > axis_reach(t.error); },
+        stack_, [&](float key) { return key > axis_reach(double(t.error)); },
         [&](const Stack::Entry& e) {
           Children children;
           if (!e.leaf) {
             const Node& node = nodes[e.number].node;
-            near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(t.error), children);
+            near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(double(t.error)), children);
             push_children(node, children, nodes, leaves, stack_);
             return;
           }
-          near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(t.error), children);
+          near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(double(t.error)), children);
           while (children.mask != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
             for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
               const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
               if (children.key[i] < children.key[nearest]) nearest = i;
             }
-            if (children.key[nearest] > axis_reach(t.error)) break;
+            if (children.key[nearest] > axis_reach(double(t.error))) break;
             children.mask &= ~(1U << nearest);
             reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
           }
@@ -236,16 +254,22 @@ void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visi
     return grown_radius(radius, motion.half_height, motion.longest, steps * frame.step, frame.step);
   };
   const auto reach_of = [&](double error) { return round_up(std::max(0.0, piece.body.radius + reach + error)); };
+  const double more = margin_of(index);
   const auto never = [](float) { return false; };  // what is met late may be as near as what is met early
   Stack tiles, blocks;
   search(tiles, never, [&](const Stack::Entry& e) {
     Children children;
     if (!e.leaf) {
-      const Node& node = index.blocks[e.number].node;
-      sweep_node(node, top, motion, grown_for(reach_of(0.0), kTopSteps, top), 1.0F, children);
-      return push_children(node, children, index.blocks, nullptr, tiles);
+      const Node& node = index.top[e.number].node;
+      sweep_node(node, top, motion, grown_for(reach_of(more), kTopSteps, top), 1.0F, children);
+      return push_children(node, children, index.top, nullptr, tiles);
     }
     const Tile& t = index.tiles[e.number];
+    if (t.absent()) {
+      reach = index.absent->near(index.absent->context, e.number);
+      return;
+    }
+    if (only_absent(index)) return;
     const Frame frame(t.origin, t.step, piece.start);
     search(blocks, never, [&](const Stack::Entry& b) {
       const float radius = reach_of(double(t.error));
@@ -280,7 +304,9 @@ namespace roam::index {
 HWY_EXPORT(FirstImpact);
 HWY_EXPORT(VisitNear);
 
-Impact first_impact(const Index& index, const Piece& piece) { return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece); }
+Impact first_impact(const Index& index, const Piece& piece, double until) {
+  return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece, until);
+}
 
 void visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
   HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, visit, context);

@@ -5,6 +5,7 @@
 /// A float filter, sixteen boxes or triangles at a time, drops only what is certainly out of reach; what it cannot
 /// settle goes to the certified functions of the sweep room, in double precision.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "index/block.h"
@@ -14,13 +15,29 @@
 
 namespace roam::index {
 
+/// Of the number of a triangle of an index without id streams: those that count in its tile.
+inline constexpr int kTileTriangleBits = 14;
+
+/// Answers for tiles that are not in memory, in the place of their triangles.
+struct Absent {
+  /// The time of the piece at which tile `tile` is met; `until` or later when it is not met before.
+  double (*sweep)(void* context, std::uint32_t tile, double until);
+  /// Looks at what is near of tile `tile`; returns as Visit does.
+  double (*near)(void* context, std::uint32_t tile);
+  void* context;
+  double margin;      ///< metres that are kept from such tiles, beside the radius
+  bool only = false;  ///< tiles that are in memory are passed over
+};
+
 /// A tree over tiles and the tiles, as one read-only view.
 struct Index {
-  const Block* blocks = nullptr;  ///< blocks[0] is the root over all tiles; its leaves count in `tiles`
+  const Block* top = nullptr;     ///< top[0] is the root over all tiles; its leaves count in `tiles`
   const Tile* tiles = nullptr;    ///< null when there is no triangle
-  const FineLeaf* fine = nullptr;
-  const std::uint8_t* ids = nullptr;
-  Grid grid;  ///< of the nodes over tiles
+  const Block* blocks = nullptr;  ///< what the tiles' nodes and leaves count in
+  const std::byte* fine = nullptr;
+  const std::uint8_t* ids = nullptr;  ///< null: triangle i of a leaf of tile t is number t << 14 | leaf.ids + i
+  Grid grid;                          ///< of the nodes over tiles
+  const Absent* absent = nullptr;     ///< null where no tile is
 };
 
 /// Where a triangle is stored.
@@ -40,18 +57,19 @@ struct Piece {
 struct Impact {
   bool hit = false;
   double time = 1.0;  ///< of the piece
-  Place place;
+  Place place;        ///< of which only `tile` means something where that is absent
 };
 
-/// The first impact with any stored triangle, each grown by its tile's error.
-[[nodiscard]] Impact first_impact(const Index& index, const Piece& piece);
+/// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
+[[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
 /// Receives a triangle that may be near and returns how near others must be to matter, from now on: metres from the
 /// body's surface, never more than before.
 using Visit = double (*)(void* context, const Place& place);
 
 /// Visits all triangles that may come within `reach` (m) of the body's surface somewhere along the piece, each at
-/// least once, roughly nearest first for a piece without motion. Grown by the tile's error as above.
+/// least once, roughly nearest first for a piece without motion. Grown by the tile's error as above. Absent tiles are
+/// looked at likewise.
 void visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context);
 
 /// The stored triangle as seen from `start`.

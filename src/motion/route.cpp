@@ -154,7 +154,7 @@ const StepReport& Route::advance() {
     if (!c.teleport) result_.length += glm::length(c.position - at);
     at = c.position;
   }
-  if (report.has(EventKind::throttled)) ++result_.throttled;
+  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
   result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
   result_.end = walker_->position();
   note_events(report);

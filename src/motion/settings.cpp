@@ -101,6 +101,8 @@ const char* name(EventKind kind) {
       return "throttled";
     case EventKind::met_unknown:
       return "met_unknown";
+    case EventKind::slowed:
+      return "slowed";
   }
   return "unknown";
 }

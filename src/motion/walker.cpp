@@ -44,6 +44,26 @@ Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
 
 Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
 
+Vec3 Walker::velocity() const {
+  Vec3 way(0.0), at = report_.from;
+  for (const Corner& c : report_.corners) {
+    if (!c.teleport) way += c.position - at;
+    at = c.position;
+  }
+  return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
+}
+
+/// The wish, no faster than the space can follow.
+WalkerInput Walker::slowed(const WalkerInput& input) {
+  const double limit = space_->speed_limit(), speed = glm::length(input.velocity);
+  WalkerInput out = input;
+  if (speed > limit) {
+    out.velocity *= limit / speed;
+    report_.events.push({EventKind::slowed, position_});
+  }
+  return out;
+}
+
 walking::Move Walker::under_way() {
   walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
   m.time = report_.elapsed;
@@ -172,7 +192,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
     if (held_ || space_->revision() != looked_at_) look_again();
-    if (!held_) move(input, dt);
+    if (!held_) move(slowed(input), dt);
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   finish();

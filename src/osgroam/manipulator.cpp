@@ -68,8 +68,10 @@ void Manipulator::setSpace(std::shared_ptr<const roam::Space> space) {
 void Manipulator::setGrowingSpace(std::shared_ptr<roam::Space> space) {
   _state->build.reset();
   State::Update update;
-  if (const auto patchwork = std::dynamic_pointer_cast<roam::Patchwork>(space)) {
-    update = [patchwork](const roam::Body& body, const roam::Vec3& place) { patchwork->update(body, place); };
+  if (const auto live = std::dynamic_pointer_cast<roam::LiveSpace>(space)) {
+    update = [live](const roam::Body& body, const roam::Vec3& place, const roam::Vec3& velocity) {
+      (void)live->update(body, place, velocity);
+    };
   }
   _state->change_space(std::move(space), std::move(update));
   if (_state->at_computed_home && _state->mode == roam::Mode::walk) home(0.0);
@@ -78,7 +80,11 @@ void Manipulator::setGrowingSpace(std::shared_ptr<roam::Space> space) {
 const std::shared_ptr<const roam::Space>& Manipulator::space() const { return _state->space; }
 
 void Manipulator::setSpaceUpdate(std::function<void(const roam::Body&, const roam::Vec3&)> update) {
-  _state->update = std::move(update);
+  _state->update = nullptr;
+  if (!update) return;
+  _state->update = [given = std::move(update)](const roam::Body& body, const roam::Vec3& place, const roam::Vec3&) {
+    given(body, place);
+  };
 }
 
 void Manipulator::buildSpace(osg::Node& scene) {

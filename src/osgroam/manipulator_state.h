@@ -21,7 +21,7 @@
 namespace osgRoam {
 
 struct Manipulator::State {
-  using Update = std::function<void(const roam::Body&, const roam::Vec3&)>;
+  using Update = std::function<void(const roam::Body&, const roam::Vec3& place, const roam::Vec3& velocity)>;
   using StepCallback = std::function<void(const roam::StepReport&, double)>;
 
   // The body.

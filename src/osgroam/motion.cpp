@@ -125,7 +125,7 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
   stuck = false;
   if (!space) return;
   guarded([&] {
-    call(update, roam::Body::capsule(settings.radius, settings.height), centre);
+    call(update, roam::Body::capsule(settings.radius, settings.height), centre, roam::Vec3(0.0));
     if (!space || walker) return;  // it has exchanged the space, and the body with it
     walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
     if (walker->held()) place_safely(*walker, centre);
@@ -139,7 +139,7 @@ void Manipulator::State::put(const roam::Vec3& centre) {
     return;
   }
   guarded([&] {
-    call(update, roam::Body::capsule(settings.radius, settings.height), centre);
+    call(update, roam::Body::capsule(settings.radius, settings.height), centre, roam::Vec3(0.0));
     if (!walker) return;  // it has taken the space away
     place_safely(*walker, centre);
     tell_placed();
@@ -190,8 +190,9 @@ void Manipulator::State::frame(double time) {
   last_time = time;
   guarded([&] {
     if (walker && !stuck) {
-      const roam::Vec3 place = walker->position();  // a walker that is exchanged takes its own with it
-      call(update, walker->body(), place);
+      // A walker that is exchanged takes its own with it.
+      const roam::Vec3 place = walker->position(), velocity = walker->velocity();
+      call(update, walker->body(), place, velocity);
     }
     double at = begin;
     for (const Keyboard::Change& change : changes) {

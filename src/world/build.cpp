@@ -45,25 +45,6 @@ class Progress {
 /// Of the whole build, by time: sorting the triangles along the curve; the tiles are the rest.
 constexpr double kPartitionShare = 0.2;
 
-/// The grid of the tree over the tiles: 2^29 steps across, so that differences of coordinates fit 31 bits even for
-/// queries that start outside, in reach.
-index::Grid top_grid(const Box& box) {
-  const double extent = largest(box.size() + Vec3(8.0 * World::reach_limit));
-  index::Grid grid;
-  grid.step = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
-  for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
-  return grid;
-}
-
-index::StepBox step_box(const index::Grid& grid, const Box& box) {
-  index::StepBox out;
-  for (int k = 0; k < 3; ++k) {
-    out.lower[k] = static_cast<std::int32_t>(std::floor((box.lower[k] - grid.origin[k]) / grid.step));
-    out.upper[k] = static_cast<std::int32_t>(std::ceil((box.upper[k] - grid.origin[k]) / grid.step));
-  }
-  return out;
-}
-
 /// The box of both the source triangles and the stored ones.
 Box grown(const BuiltTile& tile) {
   return {tile.bounds.lower - double(tile.tile.error), tile.bounds.upper + double(tile.tile.error)};
@@ -88,10 +69,10 @@ std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partiti
 void assemble(WorldData& data, std::vector<BuiltTile>& built) {
   data.reach = {};
   for (const BuiltTile& t : built) data.reach.include(grown(t));
-  data.grid = top_grid(data.reach);
+  data.grid = index::Grid::over(data.reach);
 
   std::vector<index::StepBox> boxes(built.size());
-  for (std::size_t i = 0; i < built.size(); ++i) boxes[i] = step_box(data.grid, grown(built[i]));
+  for (std::size_t i = 0; i < built.size(); ++i) boxes[i] = data.grid.steps(grown(built[i]));
   index::BinaryTreeOptions options;
   options.items_per_test = 1;
   options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
@@ -106,7 +87,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
     source[i] = &t;
     t.tile.nodes = static_cast<std::uint32_t>(blocks);
     t.tile.leaves = static_cast<std::uint32_t>(blocks + t.nodes.size());
-    t.tile.fine_leaves = static_cast<std::uint32_t>(fine);
+    t.tile.fine_leaves = fine * sizeof(index::FineLeaf);
     t.tile.ids = ids;
     data.tiles.items[i] = t.tile;
     blocks += t.nodes.size() + t.leaves.size();
@@ -123,7 +104,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
     std::memcpy(&data.blocks.items[t.nodes], moved.nodes.data(), moved.nodes.size() * sizeof(index::Node));
     std::memcpy(&data.blocks.items[t.leaves], moved.leaves.data(), moved.leaves.size() * sizeof(index::Leaf));
     if (t.fine) {
-      std::memcpy(&data.fine.items[t.fine_leaves], moved.fine_leaves.data(),
+      std::memcpy(reinterpret_cast<std::byte*>(data.fine.items.get()) + t.fine_leaves, moved.fine_leaves.data(),
                   moved.fine_leaves.size() * sizeof(index::FineLeaf));
     }
     std::memcpy(&data.ids.items[t.ids], moved.ids.data(), moved.ids.size());

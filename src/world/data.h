@@ -38,7 +38,13 @@ struct WorldData {
   std::vector<std::string> names;    ///< of the meshes
 
   [[nodiscard]] index::Index view() const {
-    return {blocks.items.get(), tiles.items.get(), fine.items.get(), ids.items.get(), grid};
+    return {.top = blocks.items.get(),
+            .tiles = tiles.items.get(),
+            .blocks = blocks.items.get(),
+            .fine = reinterpret_cast<const std::byte*>(fine.items.get()),
+            .ids = ids.items.get(),
+            .grid = grid,
+            .absent = nullptr};
   }
 };
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
-#include "index/margin.h"
 #include "index/tile_builder.h"
 #include "math/largest.h"
 #include "roam/error.h"
+#include "world/scene_queries.h"
 
 namespace roam {
 namespace query {
@@ -25,41 +26,6 @@ void check_length(double value, double limit, const char* name) {
   }
 }
 
-/// The way cut into pieces that are short enough for the frame of one traversal.
-class Pieces {
- public:
-  explicit Pieces(const Way& way)
-      : way_(way),
-        span_(way.end - way.begin),
-        count_(std::max(1, static_cast<int>(std::ceil(span_ * largest(way.motion) / index::kLongestPiece)))) {
-    // Starts of later pieces are rounded: three roundings of coordinates no larger than this. Where the pieces cover
-    // only a part of the way, ten.
-    const double reach = largest(way.from) + largest(way.motion);
-    if (span_ != 1.0) {
-      way_.body.radius += 0x1p-48 * reach;
-    } else if (count_ > 1) {
-      way_.body.radius += 0x1p-50 * reach;
-    }
-  }
-
-  [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] index::Piece operator[](int i) const {
-    if (count_ == 1 && span_ == 1.0) return {way_.body, way_.from, way_.motion};
-    return {way_.body, way_.from + way_.motion * (way_.begin + span_ * (double(i) / count_)),
-            way_.motion * span_ / double(count_)};
-  }
-  /// The time of the whole motion, rounded down.
-  [[nodiscard]] double time(int i, double piece_time) const {
-    if (span_ != 1.0) return std::max(0.0, (way_.begin + span_ * ((i + piece_time) / count_)) * (1.0 - 0x1p-49));
-    return count_ == 1 ? piece_time : std::max(0.0, (i + piece_time) / count_ * (1.0 - 0x1p-51));
-  }
-
- private:
-  Way way_;
-  double span_;
-  int count_;
-};
-
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
 /// whole steps of the grids would not fit an integer.
 bool meets(const Box& box, const index::Piece& piece, double reach) {
@@ -74,27 +40,34 @@ bool meets(const Box& box, const index::Piece& piece, double reach) {
   return true;
 }
 
-TriangleId triangle_id(const index::Index& index, const index::Place& place) {
-  const index::Tile& tile = index.tiles[place.tile];
-  return index::read_id(index.ids + tile.ids, index.blocks[place.leaf].leaf, static_cast<int>(place.triangle));
-}
-
-/// Where a body on its way comes nearest to a stored triangle; `distance` holds for the source triangle.
-Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place) {
-  const auto triangle = index::local_triangle(index, place, piece.start);
-  Contact c;
-  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
-                                   ? certified::proximity(piece.body, triangle)
-                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
-  c.point += piece.start;
-  c.distance -= index::stored_error(index.tiles[place.tile]);
-  c.triangle = triangle_id(index, place);
-  return c;
-}
-
 bool nearer(const Contact& a, const Contact& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
 }
+
+/// One world, as impact_of and collect_of ask it.
+class WorldScene {
+ public:
+  WorldScene(const WorldData& world, TriangleId base) : world_(world), index_(world.view()), base_(base) {}
+
+  std::optional<double> first(const index::Piece& piece) {
+    if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
+    const index::Impact impact = index::first_impact(index_, piece);
+    place_ = impact.place;
+    return impact.hit ? std::optional(impact.time) : std::nullopt;
+  }
+  [[nodiscard]] Contact touched(const index::Piece& at_rest) const {
+    return contact_at(index_, at_rest, place_, base_);
+  }
+  void near(const index::Piece& piece, Collector& collector) const {
+    if (meets(world_.reach, piece, collector.reach())) visit_near(index_, piece, base_, collector);
+  }
+
+ private:
+  const WorldData& world_;
+  index::Index index_;
+  TriangleId base_;
+  index::Place place_;
+};
 
 /// What a traversal needs to hand a triangle on to the collector.
 struct Visitor {
@@ -105,9 +78,7 @@ struct Visitor {
 
   static double visit(void* self, const index::Place& place) {
     const Visitor& v = *static_cast<Visitor*>(self);
-    Contact c = contact_at(v.index, v.piece, place);
-    c.triangle += v.base;
-    return v.collector.offer(c);
+    return v.collector.offer(contact_at(v.index, v.piece, place, v.base));
   }
 };
 
@@ -154,44 +125,33 @@ bool Collector::known(const Contact& c) {
   return true;
 }
 
+Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place, TriangleId base) {
+  const index::Tile& tile = index.tiles[place.tile];
+  const index::Leaf& leaf = index.blocks[place.leaf].leaf;
+  const auto triangle = index::local_triangle(index, place, piece.start);
+  Contact c;
+  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
+                                   ? certified::proximity(piece.body, triangle)
+                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
+  c.point += piece.start;
+  c.distance -= index::stored_error(tile);
+  c.triangle = base + (index.ids ? index::read_id(index.ids + tile.ids, leaf, static_cast<int>(place.triangle))
+                                 : (TriangleId{place.tile} << index::kTileTriangleBits | (leaf.ids + place.triangle)));
+  return c;
+}
+
+void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
+  Visitor visitor{index, piece, base, collector};
+  index::visit_near(index, piece, collector.reach(), &Visitor::visit, &visitor);
+}
+
 void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector) {
-  const index::Index index = world.view();
-  const Pieces pieces(way);
-  for (int i = 0; i < pieces.count(); ++i) {
-    const index::Piece piece = pieces[i];
-    if (!meets(world.reach, piece, collector.reach())) continue;
-    Visitor visitor{index, piece, base, collector};
-    visit_near(index, piece, collector.reach(), &Visitor::visit, &visitor);
-  }
+  collect_of(WorldScene(world, base), way, collector);
 }
 
 Impact first_impact(const WorldData& world, const Way& way) {
-  const index::Index index = world.view();
-  const Pieces pieces(way);
-  Impact result;
-  for (int i = 0; i < pieces.count(); ++i) {
-    const index::Piece piece = pieces[i];
-    if (!meets(world.reach, piece, 0.0)) continue;
-    const index::Impact impact = first_impact(index, piece);
-    if (!impact.hit) continue;
-    result.hit = true;
-    result.time = pieces.time(i, impact.time);
-    const Way at_rest{way.body, way.from + way.motion * result.time, Vec3(0.0)};
-    Contact touched = contact_at(index, {at_rest.body, at_rest.from, Vec3(0.0)}, impact.place);
-    if (result.time == 0.0) {  // touching or embedded: name the deepest
-      Collector deepest(std::max(0.0, touched.distance), {&touched, 1}, false);
-      collect(world, at_rest, 0, deepest);
-    } else {
-      touched.distance = std::max(0.0, touched.distance);  // `time` is certified free: only rounding can say less
-    }
-    result.point = touched.point;
-    result.normal = touched.normal;
-    result.feature = touched.feature;
-    result.triangle = touched.triangle;
-    result.distance = touched.distance;
-    return result;
-  }
-  return result;
+  WorldScene scene(world, 0);
+  return impact_of(scene, way);
 }
 
 Clearance clearance_of(const Contact* nearest, double reach) {

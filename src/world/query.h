@@ -48,6 +48,14 @@ class Collector {
   std::size_t count_ = 0;
 };
 
+/// Where a body on its way comes nearest to a stored triangle; `distance` holds for the source triangle. Its number is
+/// raised by `base`.
+[[nodiscard]] Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place,
+                                 TriangleId base);
+
+/// Offers the collector every triangle of the index within its reach of the piece, its number raised by `base`.
+void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector);
+
 /// The first impact with the world on the way; `time` is that of the whole motion.
 [[nodiscard]] Impact first_impact(const WorldData& world, const Way& way);
 

@@ -1,0 +1,63 @@
+#include "store/pager/governor.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "store/pager/paged_scene.h"
+#include "world/scene_queries.h"
+
+namespace roam::paging {
+namespace {
+
+/// Metres per second. Nobody need stand still, for nothing unknown lets anybody through.
+constexpr double least_limit = 0.5;
+
+/// Metres. How far it looks at least and at most.
+constexpr double least_reach = 16.0, greatest_reach = 500.0;
+
+/// Seconds between two updates, at a guess: what comes waits for one, and what goes for it for another.
+constexpr double two_updates = 2.0 / 60.0;
+
+/// Part of what was found by which a body may move before it is looked again.
+constexpr double trusted_part = 0.25;
+
+/// The gap between the body's surface and the nearest thing that is still to come, or `reach`.
+double gap(const Residents& residents, const Traveller& t, double reach) {
+  Contact nearest;
+  query::Collector collector(reach, {&nearest, 1}, false);
+  query::collect_of(PagedScene(residents, PagedScene::What::coming), {t.body(), t.place(), Vec3(0.0)}, collector);
+  return collector.count() > 0 ? std::max(0.0, nearest.distance) : reach;
+}
+
+}  // namespace
+
+void Governor::look(const Residents& residents, const Traveller& traveller, double latency, bool changed,
+                    bool complete) {
+  latency_ = latency;
+  if (complete) {
+    ready_ = limit_ = std::numeric_limits<double>::infinity();
+    radius_ = -1.0;
+    return;
+  }
+  const double reach = std::clamp(horizon_ * traveller.speed(), least_reach, greatest_reach);
+  const double moved = glm::length(traveller.place() - place_);
+  const bool same_body = traveller.body().radius == radius_ && traveller.body().half_height == half_height_;
+  if (changed || !same_body || moved > trusted_part * found_ || reach > 2.0 * reach_) {
+    place_ = traveller.place();
+    radius_ = traveller.body().radius;
+    half_height_ = traveller.body().half_height;
+    reach_ = reach;
+    found_ = gap(residents, traveller, reach);
+    ready_ = found_;
+  } else {
+    ready_ = found_ - moved;
+  }
+  limit_ = std::max(least_limit, ready_ / (latency_ + two_updates));
+}
+
+bool Governor::anything_coming(const Residents& residents, const Traveller& traveller, double reach) {
+  return gap(residents, traveller, reach) < reach;
+}
+
+}  // namespace roam::paging

@@ -1,0 +1,137 @@
+#include "store/pager/loader.h"
+
+#include <new>
+
+#include "store/files.h"
+
+namespace roam::paging {
+namespace {
+
+/// How long a thread that has nothing to do sleeps: as long as a body that begins to move may wait for it.
+constexpr std::chrono::milliseconds nap{2};
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+}  // namespace
+
+struct Loaders::Tools {
+  store::TileDecoder decoder;
+  alignas(128) std::byte coded[store::kTileBytes];
+};
+
+Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover,
+                 Names& names, int count)
+    : store_(std::move(store)), arena_(arena), handover_(handover), names_(names), planner_(planner) {
+  for (int i = 0; i < count; ++i) tools_.push_back(std::make_unique<Tools>());
+  for (int i = 0; i < count; ++i) threads_.emplace_back([this, i] { run(i); });
+}
+
+Loaders::~Loaders() {
+  {
+    const std::lock_guard lock(sleeping_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  for (std::thread& t : threads_) t.join();
+}
+
+void Loaders::mark(int number, Clock::time_point since) {
+  const std::lock_guard lock(handover_.mutex);
+  handover_.reading_since[static_cast<std::size_t>(number)] = since;
+}
+
+void Loaders::run(int number) {
+  for (;;) {
+    names_.serve([this](TriangleId triangle) { return name(triangle); });
+    Work work;
+    bool found = false;
+    {
+      const std::lock_guard lock(planning_);
+      found = planner_.next(work);
+    }
+    if (found) {
+      mark(number, Clock::now());
+      const Outcome outcome = load(work, *tools_[static_cast<std::size_t>(number)]);
+      mark(number, {});
+      const std::lock_guard lock(planning_);
+      planner_.done(work, outcome);
+    }
+    std::unique_lock lock(sleeping_);
+    if (stop_ || (!found && wake_.wait_for(lock, nap, [this] { return stop_; }))) return;
+  }
+}
+
+Outcome Loaders::load(const Work& work, Tools& tools) const {
+  Outcome outcome;
+  outcome.why = work.thing.is_page() ? load_page(work, outcome) : load_tile(work, tools, outcome);
+  return outcome;
+}
+
+const char* Loaders::read(const Work& work, std::span<std::byte> out, Outcome& outcome) const {
+  const Store::State& s = store_->state();
+  const Store::State::Page& page = s.pages[work.thing.page];
+  const std::uint64_t offset = work.entry ? work.entry->offset : page.ref.offset;
+  const std::uint64_t hash = work.entry ? work.entry->hash : page.ref.hash;
+  const auto begin = Clock::now();
+  const char* const problem = s.bytes->read(s.packs[page.shard], offset, out);
+  outcome.read_s = seconds_since(begin);
+  if (problem) return problem;
+  outcome.bytes = out.size();
+  return store::xxh3(out) == hash ? nullptr : "its checksum is wrong";
+}
+
+const char* Loaders::load_tile(const Work& work, Tools& tools, Outcome& outcome) const {
+  if (work.entry->bytes > sizeof tools.coded) return "it has more bytes than a tile may have";
+  const std::span<std::byte> coded(tools.coded, work.entry->bytes);
+  if (const char* problem = read(work, coded, outcome)) return problem;
+  const auto begin = Clock::now();
+  const store::TileShape shape = shape_of(*work.entry);
+  const char* const problem = tools.decoder.decode(coded, shape, {arena_ + work.unit * unit_bytes, shape.bytes()});
+  outcome.decode_s = seconds_since(begin);
+  return problem;
+}
+
+const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
+  const Store::State& s = store_->state();
+  const Store::State::Page& page = s.pages[work.thing.page];
+  std::byte* const memory = arena_ + work.unit * unit_bytes;
+  const std::span<std::byte> bytes(memory, page.ref.bytes);
+  if (const char* problem = read(work, bytes, outcome)) return problem;
+  const auto begin = Clock::now();
+  PageInMemory in;
+  if (const char* problem = store::view_page(bytes, s.manifest.shards[page.shard].bytes, in.view)) return problem;
+  if (in.view.tiles.size() != page.ref.tiles) return "it has more or fewer tiles than said";
+  std::byte* const tiles = memory + Planner::tiles_offset(page.ref.bytes);
+  in.tiles = reinterpret_cast<index::Tile*>(tiles);
+  for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
+    const store::TileEntry& entry = in.view.tiles[i];
+    index::Tile tile{};
+    tile.origin = {entry.origin[0], entry.origin[1], entry.origin[2]};
+    tile.step = entry.step;
+    tile.error = entry.error;
+    tile.fine_error = entry.fine_error;
+    tile.fine = entry.fine != 0;
+    tile.nodes = index::Tile::kAbsent;
+    new (tiles + i * sizeof(index::Tile)) index::Tile(tile);
+  }
+  std::byte* const states = tiles + in.view.tiles.size() * sizeof(index::Tile);
+  for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
+    new (states + i * sizeof(Planner::TileState)) Planner::TileState();
+  }
+  outcome.page = in;
+  outcome.decode_s = seconds_since(begin);
+  return nullptr;
+}
+
+/// "" where it cannot be found out: a name is no place for complaints.
+std::string Loaders::name(TriangleId triangle) {
+  try {
+    if ((triangle & unknown_bit) == 0) return store_->source(triangle).object;
+    const std::lock_guard lock(planning_);
+    return planner_.reason(unknown_thing(triangle));
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+}  // namespace roam::paging

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The loading threads: they read, check and decode what the planner says.
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "store/pager/names.h"
+#include "store/pager/planner.h"
+
+namespace roam::paging {
+
+class Loaders {
+ public:
+  /// Bytes that one thread needs.
+  static constexpr std::size_t cost = store::kTileBytes + (1 << 20);
+
+  Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover, Names& names,
+          int count);
+  /// Waits until what is being read has been read.
+  ~Loaders();
+
+ private:
+  struct Tools;
+  void run(int number);
+  [[nodiscard]] Outcome load(const Work& work, Tools& tools) const;
+  [[nodiscard]] const char* read(const Work& work, std::span<std::byte> out, Outcome& outcome) const;
+  [[nodiscard]] const char* load_tile(const Work& work, Tools& tools, Outcome& outcome) const;
+  [[nodiscard]] const char* load_page(const Work& work, Outcome& outcome) const;
+  [[nodiscard]] std::string name(TriangleId triangle);
+  void mark(int number, Clock::time_point since);
+
+  std::shared_ptr<const Store> store_;
+  std::byte* arena_;
+  Handover& handover_;
+  Names& names_;
+  std::mutex planning_;
+  Planner& planner_;  ///< under `planning_`
+  std::mutex sleeping_;
+  std::condition_variable wake_;
+  bool stop_ = false;  ///< under `sleeping_`
+  std::vector<std::unique_ptr<Tools>> tools_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace roam::paging

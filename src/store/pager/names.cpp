@@ -1,0 +1,44 @@
+#include "store/pager/names.h"
+
+#include <algorithm>
+
+#include "store/pager/residents.h"
+
+namespace roam::paging {
+
+Names::Entry* Names::entry_of(TriangleId triangle) {
+  const auto at = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const Entry& e) { return e.asked > 0 && e.triangle == triangle; });
+  return at == entries_.end() ? nullptr : &*at;
+}
+
+std::string Names::ask(TriangleId triangle) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return "";
+  Entry* entry = entry_of(triangle);
+  if (!entry) {
+    entry = &*std::min_element(entries_.begin(), entries_.end(),
+                               [](const Entry& a, const Entry& b) { return a.asked < b.asked; });
+    *entry = {triangle, {}, 0, true};
+  }
+  entry->asked = ++count_;
+  // Why something is unknown changes.
+  if ((triangle & unknown_bit) != 0) entry->wanted = true;
+  return entry->name;
+}
+
+void Names::serve(const std::function<std::string(TriangleId)>& find) {
+  TriangleId triangle = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto at = std::find_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.wanted; });
+    if (at == entries_.end()) return;
+    at->wanted = false;
+    triangle = at->triangle;
+  }
+  std::string name = find(triangle);
+  const std::lock_guard lock(mutex_);
+  if (Entry* entry = entry_of(triangle)) entry->name = std::move(name);
+}
+
+}  // namespace roam::paging

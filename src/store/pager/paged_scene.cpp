@@ -1,0 +1,101 @@
+#include "store/pager/paged_scene.h"
+
+#include "world/unknown.h"
+
+namespace roam::paging {
+namespace {
+
+static_assert(index::kTileTriangleBits == store::triangle_bits);
+
+/// What a traversal of one page asks of the tiles that are not there.
+struct Asking {
+  const Residents& residents;
+  const index::Piece& piece;
+  query::Collector* collector = nullptr;
+  bool only_coming = false;
+  std::uint32_t page = 0;
+  Cells met;
+
+  [[nodiscard]] const store::TileEntry& entry(std::uint32_t tile) const {
+    return residents.page(page).in.view.tiles[tile];
+  }
+  [[nodiscard]] index::Absent absent() {
+    return {.sweep = &sweep, .near = &near, .context = this, .margin = Pager::margin, .only = only_coming};
+  }
+
+  static double sweep(void* self, std::uint32_t tile, double until) {
+    Asking& a = *static_cast<Asking*>(self);
+    const MetCells met = sweep_cells(a.entry(tile), a.piece, until);
+    if (met.time < until) a.met = met.cells;
+    return met.time;
+  }
+  static double near(void* self, std::uint32_t tile) {
+    Asking& a = *static_cast<Asking*>(self);
+    const Thing thing{a.page, tile};
+    if (!a.only_coming || !a.residents.has_failed(thing)) {
+      near_cells(a.entry(tile), a.piece, unknown_base(thing), *a.collector);
+    }
+    return a.collector->reach();
+  }
+};
+
+constexpr TriangleId page_base(std::uint32_t page) { return store::stored_id(page, 0, 0); }
+
+}  // namespace
+
+std::optional<double> PagedScene::first(const index::Piece& piece) {
+  Asking asking{residents_, piece, nullptr, false, 0, {}};
+  const index::Absent absent = asking.absent();
+  double until = 1.0;
+  bool hit = false;
+  residents_.tree().along(way_around(piece, 0.0), until, [&](std::uint32_t number, const Interval&) {
+    const Residents::Page& page = residents_.page(number);
+    if (page.in.tiles == nullptr) {
+      const Impact impact = unknown::sweep(page.box, Pager::margin, piece.body, piece.start, piece.motion);
+      if (!impact.hit || impact.time >= until) return;
+      until = impact.time;
+      known_ = false;
+      box_ = page.box;
+      base_ = unknown_base({number, Thing::whole});
+    } else {
+      asking.page = number;
+      const index::Impact impact = index::first_impact(residents_.view(page, absent), piece, until);
+      if (!impact.hit) return;
+      until = impact.time;
+      known_ = !page.in.tiles[impact.place.tile].absent();
+      page_ = number;
+      place_ = impact.place;
+      if (!known_) {
+        box_ = asking.met.box;
+        base_ = unknown_base({number, impact.place.tile}) + asking.met.first * unknown::sides;
+      }
+    }
+    hit = true;
+  });
+  return hit ? std::optional(until) : std::nullopt;
+}
+
+Contact PagedScene::touched(const index::Piece& at_rest) const {
+  if (!known_) return near_box(box_, at_rest, base_);
+  const index::Absent none{};
+  return query::contact_at(residents_.view(residents_.page(page_), none), at_rest, place_, page_base(page_));
+}
+
+void PagedScene::near(const index::Piece& piece, query::Collector& collector) const {
+  const bool only_coming = what_ == What::coming;
+  Asking asking{residents_, piece, &collector, only_coming, 0, {}};
+  const index::Absent absent = asking.absent();
+  Sweep look = way_around(piece, collector.reach());
+  residents_.tree().near(look, [&](std::uint32_t number, const Interval&) {
+    const Residents::Page& page = residents_.page(number);
+    if (page.in.tiles != nullptr) {
+      asking.page = number;
+      query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
+    } else if (!only_coming || !page.failed) {
+      collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})));
+    }
+    look = way_around(piece, collector.reach());
+  });
+}
+
+}  // namespace roam::paging

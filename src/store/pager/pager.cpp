@@ -1,0 +1,283 @@
+#include "roam/pager.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <thread>
+
+#include "math/largest.h"
+#include "store/pager/governor.h"
+#include "store/pager/loader.h"
+#include "store/pager/paged_scene.h"
+#include "store/tile_reader.h"
+#include "world/scene_queries.h"
+
+namespace roam {
+namespace {
+
+using namespace paging;
+
+/// Changes that one update takes into use: some 50 ns each.
+constexpr int most_changes = 64;
+
+/// Bytes for everything whose size no store and no option changes.
+constexpr std::uint64_t fixed_cost = 512 << 10;
+
+struct Plan {
+  std::uint64_t memory = 0;
+  std::uint32_t units = 0;
+};
+
+/// How the memory is divided.
+Plan divide(const Store::State& store, const PagerOptions& options) {
+  if (options.memory < Pager::least_memory) {
+    throw Error(fmt::format("a pager with {} bytes of memory: it needs {} MiB at least", options.memory,
+                            Pager::least_memory >> 20));
+  }
+  if (options.loaders < 1 || options.loaders > static_cast<int>(Handover::most_loaders)) {
+    throw Error(fmt::format("a pager with {} loading threads: 1 to 16 are possible", options.loaders));
+  }
+  if (!(options.horizon > 0.0 && options.horizon <= 3600.0)) {
+    throw Error(
+        fmt::format("a pager that looks {} s ahead: more than 0 and at most 3600 are possible", options.horizon));
+  }
+  const std::uint64_t threads = static_cast<std::uint64_t>(options.loaders) * Loaders::cost;
+  const std::uint64_t tables = store.pages.size() * (Residents::page_cost + Planner::page_cost);
+  // The largest pages and tiles that may have to be there together.
+  std::uint64_t page = 0;
+  for (const Store::State::Page& p : store.pages) {
+    page = std::max<std::uint64_t>(page, Planner::page_bytes(p.ref.bytes, p.ref.tiles) + unit_bytes);
+  }
+  const std::uint64_t least = std::max(2 * tables, tables + 4 * page + 8 * store::kTileBytes) + threads + fixed_cost;
+  if (options.memory < least) {
+    throw Error(
+        fmt::format("{}: {} MiB of memory are not enough for its index and {} loading threads; give the pager "
+                    "{} MiB",
+                    store.name, options.memory >> 20, options.loaders, (least >> 20) + 1));
+  }
+  const std::uint64_t rest = options.memory - threads - tables - fixed_cost;
+  Plan plan;
+  plan.units = static_cast<std::uint32_t>(std::min<std::uint64_t>(rest / (unit_bytes + Units::unit_cost),
+                                                                  UINT32_MAX / (unit_bytes / sizeof(index::Block))));
+  plan.memory = threads + tables + fixed_cost + plan.units * (unit_bytes + Units::unit_cost);
+  return plan;
+}
+
+/// Memory that is there: every byte of it has been written to.
+class Memory {
+ public:
+  explicit Memory(std::size_t bytes) : bytes_(static_cast<std::byte*>(::operator new(bytes, alignment))) {
+    std::memset(bytes_, 0, bytes);
+  }
+  ~Memory() { ::operator delete(bytes_, alignment); }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  [[nodiscard]] std::byte* get() const { return bytes_; }
+
+ private:
+  static constexpr std::align_val_t alignment{4096};
+  std::byte* bytes_;
+};
+
+}  // namespace
+
+struct Pager::State {
+  State(std::shared_ptr<const Store> of, const PagerOptions& options)
+      : store(std::move(of)),
+        plan(divide(store->state(), options)),
+        arena(plan.units * unit_bytes),
+        residents(store->state(), arena.get()),
+        planner(store->state(), arena.get(), plan.units, options.horizon, handover),
+        governor(options.horizon),
+        loaders(store, arena.get(), planner, handover, names, options.loaders) {
+    handover.stats.memory = plan.memory;
+  }
+
+  std::shared_ptr<const Store> store;
+  Plan plan;
+  Memory arena;
+  mutable Handover handover;
+  Names names;
+
+  // Of the thread that moves the body.
+  Residents residents;
+  std::uint64_t revision = 0;
+  std::uint64_t tiles = 0, pages = 0, triangles = 0, used = 0, loads = 0, evictions = 0;
+
+  Planner planner;  ///< of the loading threads
+  Governor governor;
+  Loaders loaders;  ///< last: they end first
+
+  void count(const Thing& thing, bool comes);
+  [[nodiscard]] bool take(const Message& message, const Traveller& traveller);
+  [[nodiscard]] bool exchange(const Traveller& traveller, double& latency);
+};
+
+/// Keeps the counters when something comes into use, or goes.
+void Pager::State::count(const Thing& thing, bool comes) {
+  const std::uint64_t one = comes ? 1 : ~std::uint64_t{0};
+  ++(comes ? loads : evictions);
+  if (thing.is_page()) {
+    const store::PageRef& ref = store->state().pages[thing.page].ref;
+    pages += one;
+    used += one * Planner::page_bytes(ref.bytes, ref.tiles);
+  } else {
+    const store::TileEntry& entry = residents.page(thing.page).in.view.tiles[thing.tile];
+    tiles += one;
+    triangles += one * entry.triangles;
+    used += one * shape_of(entry).bytes();
+  }
+}
+
+/// Does what a message says; whether that changed anything.
+bool Pager::State::take(const Message& message, const Traveller& traveller) {
+  const Thing& thing = message.thing;
+  switch (message.kind) {
+    case Message::Kind::come:
+      if (thing.is_page()) {
+        residents.put_page(thing.page, message.page);
+      } else {
+        residents.put_tile(thing, message.unit);
+      }
+      count(thing, true);
+      return true;
+    case Message::Kind::failed:
+      residents.fail(thing);
+      return false;
+    case Message::Kind::go:
+      break;
+  }
+  const bool kept = traveller.holds(residents.box(thing));
+  handover.gone.push({thing, kept});
+  if (kept) return false;
+  if (thing.is_page()) {
+    const PageInMemory& in = residents.page(thing.page).in;
+    for (std::uint32_t i = 0; i < in.view.tiles.size(); ++i) {
+      if (!in.tiles[i].absent()) count({thing.page, i}, false);
+    }
+  }
+  count(thing, false);
+  residents.take(thing);
+  return true;
+}
+
+/// What the loading threads brought is taken into use, and they are told of the body: now, or next time.
+bool Pager::State::exchange(const Traveller& traveller, double& latency) {
+  const std::unique_lock lock(handover.mutex, std::try_to_lock);
+  if (!lock) return false;
+  handover.traveller = traveller;
+  ++handover.told;
+  bool changed = false;
+  for (int i = 0; i < most_changes && !handover.messages.empty() && handover.gone.room() > 0; ++i) {
+    changed = take(handover.messages.pop(), traveller) || changed;
+  }
+  latency = handover.latency;
+  const auto now = Clock::now();
+  for (const Clock::time_point since : handover.reading_since) {
+    if (since != Clock::time_point{}) latency = std::max(latency, std::chrono::duration<double>(now - since).count());
+  }
+  PagerStats& s = handover.stats;
+  s.tiles = tiles;
+  s.pages = pages;
+  s.triangles = triangles;
+  s.used = used;
+  s.loads = loads;
+  s.evictions = evictions;
+  s.ready_m = governor.ready();
+  return changed;
+}
+
+Pager::Pager(std::shared_ptr<const Store> store, const PagerOptions& options)
+    : state_(std::make_unique<State>(std::move(store), options)) {}
+Pager::~Pager() = default;
+
+bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  query::check(body, place, Vec3(0.0));
+  if (!std::isfinite(velocity.x + velocity.y + velocity.z)) {
+    throw Error("cannot update a pager: the velocity is not finite");
+  }
+  State& s = *state_;
+  const Traveller traveller(body, place, velocity);
+  double latency = s.governor.latency();
+  const bool changed = s.exchange(traveller, latency);
+  if (changed) ++s.revision;
+  const bool complete = s.tiles == s.store->info().tiles;
+  s.governor.look(s.residents, traveller, latency, changed, complete);
+  return changed;
+}
+
+bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead) {
+  const auto begin = Clock::now();
+  const auto limit = std::chrono::duration<double>(seconds);
+  State& s = *state_;
+  for (;;) {
+    (void)update(body, place, velocity);
+    const Traveller traveller(body, place, velocity);
+    const double reach = std::min(reach_limit, traveller.pace() * ahead);
+    if (!s.governor.anything_coming(s.residents, traveller, reach)) return true;
+    if (Clock::now() - begin >= limit) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+}
+
+Impact Pager::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  query::check(body, from, motion);
+  PagedScene scene(state_->residents);
+  return query::impact_of(scene, {body, from, motion});
+}
+
+std::size_t Pager::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                            std::span<Contact> contacts) const {
+  query::check(body, from, motion);
+  query::check_reach(reach);
+  if (contacts.empty()) return 0;
+  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
+  query::collect_of(PagedScene(state_->residents), {body, from, motion}, collector);
+  collector.sort();
+  return collector.count();
+}
+
+Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  query::check(body, from, motion);
+  query::check_reach(reach);
+  Contact nearest;
+  query::Collector collector(reach, {&nearest, 1}, true);
+  const PagedScene scene(state_->residents);
+  // Nearest first at the start: on the way, only what comes nearer still is of interest.
+  query::collect_of(scene, {body, from, Vec3(0.0)}, collector);
+  if (motion != Vec3(0.0)) query::collect_of(scene, {body, from, motion}, collector);
+  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+}
+
+Box Pager::bounds() const { return state_->store->info().bounds; }
+
+double Pager::largest_error() const { return state_->store->info().largest_error_m; }
+
+std::uint64_t Pager::revision() const { return state_->revision; }
+
+double Pager::speed_limit() const { return state_->governor.limit(); }
+
+std::string Pager::object_name(TriangleId triangle) const { return state_->names.ask(triangle); }
+
+const Store& Pager::store() const { return *state_->store; }
+
+PagerStats Pager::stats() const {
+  Handover& h = state_->handover;
+  std::unique_lock lock(h.mutex);
+  PagerStats stats = h.stats;
+  const auto failure = h.last_failure;
+  lock.unlock();
+  if (failure.why) {
+    const std::string what = failure.thing.is_page()
+                                 ? store::name_of(failure.thing.page, failure.box)
+                                 : store::name_of(failure.thing.page, failure.thing.tile, failure.box);
+    stats.last_failure = fmt::format("{} cannot be used: {}", what, failure.why);
+  }
+  return stats;
+}
+
+}  // namespace roam

@@ -1,0 +1,122 @@
+#pragma once
+/// \file
+/// What is to come into memory, where, and what goes for it. Belongs to the loading threads, one at a time.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "store/opened.h"
+#include "store/pager/handover.h"
+#include "store/pager/units.h"
+
+namespace roam::paging {
+
+/// One thing to be read.
+struct Work {
+  Thing thing;
+  std::uint32_t unit = 0;
+  const store::TileEntry* entry = nullptr;  ///< of a tile
+};
+
+/// What became of it.
+struct Outcome {
+  const char* why = nullptr;  ///< it failed; lives for ever
+  PageInMemory page;
+  double read_s = 0.0, decode_s = 0.0;
+  std::uint64_t bytes = 0;
+};
+
+class Planner {
+ public:
+  Planner(const Store::State& store, std::byte* arena, std::uint32_t units, double horizon, Handover& handover);
+
+  /// Takes the answers of update() and chooses what is to be read next. False where there is nothing to do now.
+  bool next(Work& work);
+  /// What was read is handed over; what failed is tried again later.
+  void done(const Work& work, const Outcome& outcome);
+  /// Why a thing is unknown, for people.
+  [[nodiscard]] std::string reason(const Thing& thing) const;
+
+  /// Of a tile in a page that is in memory, after the page.
+  struct TileState {
+    const char* why = nullptr;
+    Clock::time_point again{};
+    std::uint32_t unit = 0;
+    std::uint8_t attempts = 0;
+    bool requested = false;
+    bool here = false;     ///< in memory
+    bool leaving = false;  ///< and told to go
+  };
+  /// Bytes that a page takes in memory, and where the states of its tiles begin.
+  [[nodiscard]] static std::size_t page_bytes(std::uint32_t coded, std::uint32_t tiles);
+  [[nodiscard]] static std::size_t tiles_offset(std::uint32_t coded);
+  static constexpr std::size_t page_cost = 128;
+
+ private:
+  struct PageState {
+    TileState self;
+    const store::TileEntry* entries = nullptr;  ///< null: not in memory
+    TileState* tiles = nullptr;
+    std::uint32_t requests = 0;  ///< for tiles of it
+  };
+  struct Request {
+    enum class State : std::uint8_t { none, clearing, ready, reading, cancelled };
+    State state = State::none;
+    Thing thing;
+    std::uint32_t unit = 0, units = 0;
+    std::uint32_t leaving = 0;  ///< things that have not gone yet
+    double key = 0.0;
+  };
+  struct Candidate {
+    Thing thing;
+    double key = 0.0;
+  };
+  static constexpr std::size_t most_requests = 64;
+  static constexpr std::size_t most_candidates = 32;
+  /// What nobody wants yet comes into memory while more than this part of it is free.
+  static constexpr std::uint32_t reserve_part = 8;
+
+  void settle();
+  void settle(const Gone& gone);
+  void forget(const Thing& thing);
+  void end(Request& request);
+  [[nodiscard]] Request* request_over(const Run& run);
+  [[nodiscard]] bool stale(const Traveller& now, Clock::time_point time) const;
+  void plan(const Traveller& traveller, Clock::time_point time);
+  void look_again_at_requests(const Traveller& traveller);
+  void consider_all(const Traveller& traveller, Clock::time_point time);
+  void consider(const Thing& thing, const TileState& state, double key, Clock::time_point time);
+  [[nodiscard]] bool place(const Candidate& candidate, const Traveller& traveller);
+  [[nodiscard]] Run clear(const Candidate& candidate, std::uint32_t units, const Traveller& traveller,
+                          Request& request);
+  void appraise(const Traveller& traveller);
+  [[nodiscard]] Run run_of(const Thing& thing) const;
+  [[nodiscard]] std::uint32_t units_of(const Thing& thing) const;
+  [[nodiscard]] TileState& state_of(const Thing& thing);
+  [[nodiscard]] const TileState& state_of(const Thing& thing) const;
+  [[nodiscard]] Box box(const Thing& thing) const;
+  [[nodiscard]] bool filling() const { return units_.free() > units_.size() / reserve_part; }
+  void note_failure(const Thing& thing, const char* why);
+
+  const Store::State& store_;
+  std::byte* arena_;
+  double horizon_;
+  Handover& handover_;
+  Units units_;
+  std::vector<PageState> pages_;
+  std::array<Request, most_requests> requests_;
+  std::array<Candidate, most_candidates> candidates_;
+  std::size_t candidate_count_ = 0;
+  std::uint64_t wanted_ = 0, failed_ = 0;
+  bool appraised_ = false;  ///< in this plan
+  // Of the last plan.
+  Traveller planned_for_;
+  bool changed_ = true;  ///< something came, went or failed since
+  bool more_ = false;    ///< there were more candidates than it could hold
+  Clock::time_point retry_at_ = Clock::time_point::max();
+};
+
+}  // namespace roam::paging

@@ -1,0 +1,206 @@
+// What cannot be read is solid and named, the rest goes on, and everything comes in the end.
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <glm/geometric.hpp>
+
+#include "clutter.h"
+#include "pager_made.h"
+#include "roam/generate.h"
+#include "walker_judged.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Body;
+using roam::Pager;
+
+/// A floor of tiles with boxes on it, 60 m by 60 m.
+Mesh yard_mesh(std::uint64_t seed) {
+  Random random(seed);
+  Mesh m;
+  m.name = "yard";
+  for (int i = 0; i < 60; ++i) {
+    for (int j = 0; j < 60; ++j) add_floor(m, i, j, i + 1.0, j + 1.0, 0.0);
+  }
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 at(random.between(1.0, 59.0), random.between(1.0, 59.0), 0.0);
+    add_box(m, at, at + Vec3(random.between(0.1, 1.0), random.between(0.1, 1.0), random.between(0.2, 3.0)));
+  }
+  return m;
+}
+
+struct Yard {
+  explicit Yard(const char* name, std::uint64_t seed = 1) : folder(name), mesh(yard_mesh(seed)), judge(mesh) {
+    made::store(folder.path(), {&mesh, 1}, {.page_tiles = 8, .tile_triangles = 100});
+    bytes = std::make_shared<made::TroubledBytes>(folder.path());
+    store = roam::Store::open(bytes, "yard");
+  }
+  made::Folder folder;
+  Mesh mesh;
+  Judge judge;
+  std::shared_ptr<made::TroubledBytes> bytes;
+  std::shared_ptr<const roam::Store> store;
+};
+
+constexpr Vec3 middle(30.5, 30.5, 1.5);
+
+/// Walks about in all directions; every step is judged by all triangles.
+void wander(Yard& yard, Pager& pager, Mode mode, double speed, int steps, std::uint64_t seed, double& length) {
+  Random random(seed);
+  Walker w(pager, {}, mode, middle);
+  double heading = 0.0;
+  Vec3 before = w.position();
+  for (int i = 0; i < steps; ++i) {
+    if (w.report().blocked || random.chance(0.02)) heading = random.between(0.0, 6.28);
+    const Vec3 p = w.position();
+    if (p.x < 5.0 || p.y < 5.0 || p.x > 55.0 || p.y > 55.0) heading = std::atan2(30.0 - p.y, 30.0 - p.x);
+    w.step({.velocity = {speed * std::cos(heading), speed * std::sin(heading), mode == Mode::fly ? 1.2 - p.z : 0.0}},
+           frame);
+    if (!w.report().held) {
+      ASSERT_GE(margin(yard.judge, w.report(), w.settings().radius), 0.0) << i;
+    }
+    length += glm::length(w.position() - before);
+    before = w.position();
+    (void)pager.update(w.body(), w.position(), w.velocity());
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
+TEST(PagerFailures, WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits) {
+  Yard yard("pager_hold");
+  yard.bytes->hold();
+  auto pager = std::make_unique<Pager>(yard.store);
+  const Body body{0.3, 0.6};
+  ASSERT_TRUE(made::update_until(*pager, body, middle, [&] { return yard.bytes->waiting() > 0; }));
+  EXPECT_FALSE(pager->wait(body, middle, Vec3(0.0), 0.05));
+  Walker w(*pager, {}, Mode::walk, middle);
+  EXPECT_TRUE(w.held() && w.report().met_unknown);
+  for (int i = 0; i < 100; ++i) {
+    (void)pager->update(w.body(), w.position(), w.velocity());
+    w.step({.velocity = {1.4, 0.0, 0.0}}, frame);
+    ASSERT_EQ(w.position(), middle);
+  }
+  EXPECT_LT(pager->speed_limit(), 1.0);
+  EXPECT_EQ(pager->stats().tiles, 0u);
+  // Ending it waits for the read that is under way, and for no more.
+  std::future<void> ended = std::async(std::launch::async, [&] { pager.reset(); });
+  EXPECT_EQ(ended.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
+  yard.bytes->let_go();
+  EXPECT_EQ(ended.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+}
+
+TEST(PagerFailures, ABodyThatWasHeldGoesOnWhenItsSurroundingsCome) {
+  Yard yard("pager_release");
+  yard.bytes->hold();
+  Pager pager(yard.store);
+  Walker w(pager, {}, Mode::walk, middle);
+  (void)pager.update(w.body(), w.position(), w.velocity());
+  EXPECT_TRUE(w.held());
+  yard.bytes->let_go();
+  EXPECT_TRUE(pager.wait(w.body(), w.position(), Vec3(0.0), 30.0));
+  w.step({}, frame);
+  EXPECT_FALSE(w.held());
+  EXPECT_GE(margin(yard.judge, w.report(), w.settings().radius), 0.0);
+}
+
+TEST(PagerFailures, WhatFailsIsTriedAgainUntilItComes) {
+  Yard yard("pager_retry");
+  yard.bytes->errors = 300;
+  yard.bytes->short_reads = 150;
+  yard.bytes->flips = 150;
+  Pager pager(yard.store, {.loaders = 3});
+  ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
+  const auto stats = pager.stats();
+  EXPECT_GT(stats.failures, 20u);
+  EXPECT_EQ(stats.failed, 0u);
+  EXPECT_FALSE(stats.last_failure.empty());
+  EXPECT_EQ(pager.clearance({0.3, 0.0}, middle, 1.0).unknown, false);
+}
+
+TEST(PagerFailures, WhatNeverComesIsSolidAndNamedAndTheRestGoesOn) {
+  Yard yard("pager_named");
+  Pager pager(yard.store, {.memory = Pager::least_memory});
+  // Every page comes, and then nothing more.
+  ASSERT_TRUE(
+      made::update_until(pager, {0.3, 0.0}, middle, [&] { return pager.stats().pages == yard.store->info().pages; }));
+  yard.bytes->errors = 1000;
+  const std::uint64_t before = pager.stats().tiles;
+  if (before == yard.store->info().tiles) GTEST_SKIP() << "it was too quick";
+  ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, middle, [&] {
+    const auto s = pager.stats();
+    return s.tiles + s.failed == yard.store->info().tiles;
+  }));
+  EXPECT_NE(pager.stats().last_failure.find("input/output"), std::string::npos) << pager.stats().last_failure;
+  // What failed holds nobody up and is no reason to go slowly.
+  EXPECT_TRUE(pager.wait({0.3, 0.0}, middle, Vec3(0.0), 5.0, 10.0));
+  Random random(3);
+  bool told = false;
+  for (int i = 0; i < 200 && !told; ++i) {
+    const Vec3 from(random.between(0.0, 60.0), random.between(0.0, 60.0), 10.0);
+    const auto hit = pager.sweep({0.3, 0.0}, from, {0.0, 0.0, -20.0});
+    if (!hit.hit || !hit.unknown) continue;
+    std::string why;
+    told = made::update_until(pager, {0.3, 0.0}, middle, [&] {
+      why = pager.object_name(hit.triangle);
+      return why.find("input/output") != std::string::npos;
+    });
+  }
+  EXPECT_TRUE(told);
+  yard.bytes->errors = 0;
+  ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
+}
+
+TEST(PagerFailures, NobodyPassesAWallWhateverIsReadAndWhen) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const Mode mode : {Mode::walk, Mode::fly}) {
+      Yard yard("pager_trouble", seed);
+      yard.bytes->errors = 200;
+      yard.bytes->short_reads = 100;
+      yard.bytes->flips = 100;
+      yard.bytes->delay_us = seed == 1 ? 0 : 500;
+      Pager pager(yard.store, {.memory = Pager::least_memory, .loaders = static_cast<int>(seed)});
+      double length = 0.0;
+      wander(yard, pager, mode, seed == 3 ? 50.0 : 1.4, 1500, seed, length);
+      if (HasFatalFailure()) return;
+      EXPECT_GT(length, 5.0);
+    }
+  }
+}
+
+TEST(PagerFailures, AStoreThatIsReplacedIsReadToItsEnd) {
+  Yard yard("pager_replaced");
+  Pager before(yard.store);
+  const Mesh other = yard_mesh(77);
+  made::store(yard.folder.path(), {&other, 1}, {.page_tiles = 8, .tile_triangles = 100});
+  const auto replaced = roam::Store::open(yard.folder.path());
+  Pager after(replaced);
+  ASSERT_NO_FATAL_FAILURE(made::load_all(before));
+  ASSERT_NO_FATAL_FAILURE(made::load_all(after));
+  const roam::World first = build(yard.mesh), second = build(other);
+  Random random(9);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 from(random.between(0.0, 60.0), random.between(0.0, 60.0), 5.0), down(0.0, 0.0, -10.0);
+    ASSERT_NEAR(before.sweep({0.2, 0.0}, from, down).time, first.sweep({0.2, 0.0}, from, down).time, 2e-4);
+    ASSERT_NEAR(after.sweep({0.2, 0.0}, from, down).time, second.sweep({0.2, 0.0}, from, down).time, 2e-4);
+  }
+}
+
+TEST(PagerFailures, SeveralPagersReadOneStore) {
+  Yard yard("pager_several");
+  std::vector<std::unique_ptr<Pager>> pagers;
+  for (int i = 0; i < 4; ++i) pagers.push_back(std::make_unique<Pager>(yard.store, roam::PagerOptions{.loaders = 2}));
+  std::vector<std::future<double>> lengths;
+  for (int i = 0; i < 4; ++i) {
+    lengths.push_back(std::async(std::launch::async, [&, i] {
+      double length = 0.0;
+      wander(yard, *pagers[static_cast<std::size_t>(i)], Mode::walk, 5.0, 300, 20 + static_cast<std::uint64_t>(i),
+             length);
+      return length;
+    }));
+  }
+  for (auto& l : lengths) EXPECT_GT(l.get(), 1.0);
+}
+
+}  // namespace

@@ -1,0 +1,88 @@
+// A pager takes its memory when it is made. After that the thread that moves the body allocates nothing, whatever comes
+// and goes, and the process does not grow.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+
+#include "clutter.h"
+#include "pager_made.h"
+#include "roam/generate.h"
+#include "roam/walker.h"
+
+namespace {
+
+thread_local bool counting = false;
+thread_local long allocations = 0;
+
+void* take(std::size_t bytes) {
+  if (counting) ++allocations;
+  if (void* p = std::malloc(bytes > 0 ? bytes : 1)) return p;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return take(bytes); }
+void* operator new[](std::size_t bytes) { return take(bytes); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+
+namespace {
+
+using roam::Body;
+using roam::Pager;
+using roam::Vec3;
+
+/// Bytes of this process that are in memory.
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * 4096;
+}
+
+TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
+  const made::Folder folder("pager_memory");
+  const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 700'000, .seed = 2}));
+  const auto store = made::store(folder.path(), meshes, {.page_tiles = 16, .tile_triangles = 4000});
+  ASSERT_GT(store->info().resident_bytes, 7u << 20) << "nothing would have to go";
+  Pager pager(store, {.memory = Pager::least_memory});
+  const std::uint64_t memory = pager.stats().memory;
+  EXPECT_LE(memory, Pager::least_memory);
+  EXPECT_GT(memory, Pager::least_memory / 10 * 9);
+  clutter::Random random(1);
+  std::array<roam::Contact, 16> contacts;
+  std::uint64_t grown_from = 0;
+  roam::Impact impact;
+  for (int i = 0; i < 3000; ++i) {
+    const roam::Mesh& mesh = meshes[random.engine() % meshes.size()];
+    const Vec3 place = mesh.vertices[random.engine() % mesh.vertices.size()] + random.in_box(2.0);
+    const Body body{0.3, 0.6};
+    const Vec3 motion = 5.0 * random.direction(), velocity = 20.0 * random.direction();
+    const bool walks = i % 50 != 0;  // a walker's own copies of settings are no business of this test
+    counting = walks;
+    for (int k = 0; k < 4; ++k) {
+      (void)pager.update(body, place + 0.1 * k * velocity, velocity);
+      impact = pager.sweep(body, place, motion);
+      (void)pager.clearance(body, place, motion, 1.0);
+      (void)pager.contacts(body, place, motion, 0.5, contacts);
+    }
+    counting = false;
+    if (i == 500) grown_from = resident_bytes();
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
+  const auto stats = pager.stats();
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(stats.memory, memory);
+  EXPECT_LE(stats.used, memory);
+  EXPECT_GT(stats.evictions, 300u);
+  EXPECT_LT(resident_bytes(), grown_from + (512u << 10));
+}
+
+}  // namespace

@@ -1,0 +1,153 @@
+// Bodies on their way through stores that are far larger than the memory of the pager: every step is judged by brute
+// force, and nobody is ever in something unknown because something went.
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "clutter.h"
+#include "pager_made.h"
+#include "walker_judged.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Pager;
+
+/// A long corridor with bends and boxes, 1.5 m by 2.5 m at its narrowest, of many small triangles; and things far off.
+Mesh maze(std::uint64_t seed) {
+  Random random(seed);
+  Mesh m;
+  m.name = "maze";
+  const auto fine_wall = [&](double ax, double ay, double bx, double by) {
+    const int pieces = std::max(1, static_cast<int>(std::hypot(bx - ax, by - ay) / 0.5));
+    for (int i = 0; i < pieces; ++i) {
+      const double s = double(i) / pieces, t = double(i + 1) / pieces;
+      for (int k = 0; k < 6; ++k) {
+        add_wall(m, ax + s * (bx - ax), ay + s * (by - ay), ax + t * (bx - ax), ay + t * (by - ay), 0.5 * k,
+                 0.5 * (k + 1));
+      }
+    }
+  };
+  constexpr int cells = 40;
+  constexpr double width = 5.0;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const double x = width * i, y = width * j;
+      for (int k = 0; k < 10; ++k) {
+        for (int l = 0; l < 10; ++l) {
+          add_floor(m, x + 0.5 * k, y + 0.5 * l, x + 0.5 * (k + 1), y + 0.5 * (l + 1), 0.0);
+        }
+      }
+      if (random.chance(0.35)) fine_wall(x, y, x + width, y);
+      if (random.chance(0.35)) fine_wall(x, y, x, y + width);
+      if (random.chance(0.2)) {
+        const Vec3 at(x + random.between(1.0, 3.0), y + random.between(1.0, 3.0), 0.0);
+        add_box(m, at, at + Vec3(random.between(0.2, 1.0), random.between(0.2, 1.0), random.between(0.2, 2.5)));
+      }
+    }
+  }
+  const double side = cells * width;
+  fine_wall(0.0, 0.0, side, 0.0);
+  fine_wall(side, 0.0, side, side);
+  fine_wall(side, side, 0.0, side);
+  fine_wall(0.0, side, 0.0, 0.0);
+  return m;
+}
+
+struct Maze {
+  explicit Maze(const char* name, std::uint64_t seed) : folder(name), mesh(maze(seed)), judge(mesh) {
+    made::store(folder.path(), {&mesh, 1}, {.page_tiles = 12, .tile_triangles = 1500});
+    bytes = std::make_shared<made::TroubledBytes>(folder.path());
+    store = roam::Store::open(bytes, "maze");
+  }
+  made::Folder folder;
+  Mesh mesh;
+  Judge judge;
+  std::shared_ptr<made::TroubledBytes> bytes;
+  std::shared_ptr<const roam::Store> store;
+};
+
+struct Course {
+  Mode mode = Mode::walk;
+  double speed = 1.4;
+  int steps = 2000;
+  int teleport_each = 0;  ///< steps; 0: never
+  int judge_each = 6;     ///< steps
+  int us = 200;           ///< of the clock, that a step takes
+};
+
+struct Tally {
+  double length = 0.0;
+  long held = 0, slowed = 0, embedded = 0;
+};
+
+/// Free steps are judged by all triangles. Who was free does not come to be in the unknown by an update.
+Tally walk(Maze& maze, Pager& pager, const Course& course, std::uint64_t seed) {
+  Random random(seed);
+  Tally tally;
+  Walker w(pager, {}, course.mode, {42.5, 42.5, 1.0});
+  double heading = 1.0;
+  for (int i = 0; i < course.steps; ++i) {
+    if (w.report().blocked || random.chance(0.02)) heading = random.between(0.0, 2.0 * std::numbers::pi);
+    if (course.teleport_each > 0 && i % course.teleport_each == course.teleport_each - 1) {
+      w.place({random.between(2.0, 198.0), random.between(2.0, 198.0), 1.0});
+    }
+    const Vec3 before = w.position();
+    const double rise = course.mode == Mode::fly ? 1.3 - before.z : 0.0;
+    w.step({.velocity = {course.speed * std::cos(heading), course.speed * std::sin(heading), rise}}, frame);
+    tally.held += w.held() ? 1 : 0;
+    tally.slowed += w.report().has(EventKind::slowed) ? 1 : 0;
+    tally.length += glm::length(w.position() - before);
+    if (!w.held() && i % course.judge_each == 0) {
+      EXPECT_GE(margin(maze.judge, w.report(), w.settings().radius), 0.0) << i;
+      if (testing::Test::HasFailure()) return tally;
+    }
+    const bool free = pager.clearance(w.body(), w.position(), 0.01).distance > 0.0;
+    (void)pager.update(w.body(), w.position(), w.velocity());
+    if (free && !(pager.clearance(w.body(), w.position(), 0.01).distance > -1e-6)) ++tally.embedded;
+    std::this_thread::sleep_for(std::chrono::microseconds(course.us));
+  }
+  return tally;
+}
+
+TEST(PagerWalk, OnFootInLittleMemory) {
+  Maze maze("pager_on_foot", 1);
+  ASSERT_GT(maze.store->info().resident_bytes, 2u << 20);
+  Pager pager(maze.store, {.memory = Pager::least_memory});
+  const Tally tally = walk(maze, pager, {.steps = 3000}, 5);
+  EXPECT_EQ(tally.embedded, 0);
+  EXPECT_GT(tally.length, 20.0);
+}
+
+TEST(PagerWalk, AtFiftyMetresASecondInLittleMemory) {
+  for (const std::uint64_t seed : {2, 3}) {
+    Maze maze("pager_fast", seed);
+    Pager pager(maze.store, {.memory = Pager::least_memory, .loaders = static_cast<int>(seed) - 1});
+    const Tally tally =
+        walk(maze, pager, {.mode = seed == 2 ? Mode::fly : Mode::walk, .speed = 50.0, .steps = 2500, .us = 300}, seed);
+    EXPECT_EQ(tally.embedded, 0);
+    EXPECT_GT(tally.length, 200.0);
+  }
+}
+
+TEST(PagerWalk, WithSlowReadsTheBodyGoesSlowlyAndNeverThrough) {
+  Maze maze("pager_slow", 4);
+  maze.bytes->delay_us = 20'000;
+  Pager pager(maze.store, {.memory = Pager::least_memory});
+  const Tally tally = walk(maze, pager, {.speed = 50.0, .steps = 2500, .us = 500}, 4);
+  EXPECT_EQ(tally.embedded, 0);
+  EXPECT_GT(tally.slowed, 100);
+  EXPECT_GT(tally.length, 5.0);
+}
+
+TEST(PagerWalk, PutAnywhereAgainAndAgain) {
+  Maze maze("pager_teleports", 5);
+  Pager pager(maze.store, {.memory = Pager::least_memory});
+  const Tally tally = walk(maze, pager, {.speed = 5.0, .steps = 2500, .teleport_each = 60, .us = 500}, 6);
+  EXPECT_EQ(tally.embedded, 0);
+  EXPECT_GT(tally.length, 20.0);
+}
+
+}  // namespace
