@@ -51,13 +51,20 @@ enum class Apex : std::uint8_t {
 };
 inline constexpr unsigned kApexes = 5;
 
+/// What adding a triangle has come to.
+enum class Step : std::uint8_t {
+  full,    ///< nothing: the leaf has no room, or there is no such vertex
+  open,    ///< the gate is now the next one to look beyond
+  closed,  ///< the triangle has no gate that is newer than those on the stack
+};
+
 /// One leaf as it grows, triangle by triangle, and the front with it.
 template <bool fine>
 class Growth {
  public:
   explicit Growth(FrontVertex* vertices) : vertices_(vertices) {}
 
-  /// The leaf must be zero.
+  /// All of the leaf is written, but for its ids.
   void begin(std::uint32_t leaf_number, index::Leaf& leaf, index::FineLeaf* low) {
     first_place_ = leaf_number * index::kWidth;
     leaf_ = &leaf;
@@ -96,33 +103,36 @@ class Growth {
     return gate.to != kNoVertex && place(gate.from, gate.from_slot) && place(gate.to, gate.to_slot);
   }
 
-  /// Adds the triangle beyond a gate. False when the leaf has no room for its third corner.
-  bool add(const Gate& gate, Apex apex, std::uint16_t third) {
+  /// Adds the triangle beyond a gate.
+  Step add(Gate& gate, Apex apex, std::uint16_t third) {
     std::uint8_t slot = 0;
-    if (!(apex == Apex::fresh ? place_new(third, slot) : place(third, slot))) return false;
+    if (!(apex == Apex::fresh ? place_new(third, slot) : place(third, slot))) return Step::full;
     put(gate.to_slot, gate.from_slot, slot);
     FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &v = vertices_[third];
     switch (apex) {
       case Apex::next:
         leave_onward(to);
-        if (v.next == gate.from) {  // a hole is closed
+        if (v.next == gate.from) {
           v.next = from.previous = from.next = kNoVertex;
-        } else if (v.before == gate.to) {
+          return Step::closed;
+        }
+        if (v.before == gate.to) {
           const std::uint16_t previous = v.previous;
-          join(gate.from, third, gate.to, gate.from_slot, slot);
+          join(gate.from, third, gate.to);
           v.before = gate.from;
           v.previous = previous;
         } else {
-          join(gate.from, third, gate.to, gate.from_slot, slot);
+          join(gate.from, third, gate.to);
         }
-        break;
+        gate.to = third;
+        gate.to_slot = slot;
+        return Step::open;
       case Apex::previous:
         leave_backward(from);
         if (v.after == gate.from) {  // the pass that changes is the one with `next`
           v.after = v.next;
           std::swap(v.previous, v.before);
         }
-        join(third, gate.to, gate.from, slot, gate.to_slot);
         break;
       case Apex::other:
         if (v.next != kNoVertex) {
@@ -131,17 +141,20 @@ class Growth {
         }
         [[fallthrough]];
       default:
-        join(gate.from, third, gate.to, gate.from_slot, slot);
-        join(third, gate.to, gate.from, slot, gate.to_slot);
+        join(gate.from, third, gate.to);
+        push(gate.from_slot, slot);
     }
-    return true;
+    join(third, gate.to, gate.from);
+    gate.from = third;
+    gate.from_slot = slot;
+    return Step::open;
   }
 
-  /// Adds a triangle that lies beyond no gate. False when the leaf has no room for its corners.
-  bool add(const std::array<std::uint16_t, 3>& corners) {
+  /// Adds a triangle that lies beyond no gate.
+  Step add(const std::array<std::uint16_t, 3>& corners) {
     std::array<std::uint8_t, 3> slots{};
     for (int c = 0; c < 3; ++c) {
-      if (!place(corners[c], slots[c])) return false;
+      if (!place(corners[c], slots[c])) return Step::full;
     }
     put(slots[0], slots[1], slots[2]);
     for (int c = 0; c < 3; ++c) {
@@ -152,10 +165,11 @@ class Growth {
         other.next = kNoVertex;
         vertices_[corners[c]].previous = kNoVertex;
       } else {
-        join(corners[c], corners[to], corners[(c + 2) % 3], slots[c], slots[to]);
+        join(corners[c], corners[to], corners[(c + 2) % 3]);
+        push(slots[c], slots[to]);
       }
     }
-    return true;
+    return Step::closed;
   }
 
   /// Fills what the leaf has no triangles and no vertices for.
@@ -171,6 +185,7 @@ class Growth {
       }
     }
     leaf_->triangle_count = static_cast<std::uint8_t>(triangles_);
+    leaf_->unused[0] = leaf_->unused[1] = 0;
   }
 
  private:
@@ -213,10 +228,12 @@ class Growth {
     v.after = v.before = kNoVertex;
   }
 
-  void join(std::uint16_t from, std::uint16_t to, std::uint16_t third, std::uint8_t from_slot, std::uint8_t to_slot) {
+  void join(std::uint16_t from, std::uint16_t to, std::uint16_t third) {
     vertices_[from].next = to;
     vertices_[from].across = third;
     vertices_[to].previous = from;
+  }
+  void push(std::uint8_t from_slot, std::uint8_t to_slot) {
     open_[gates_++] = static_cast<std::uint8_t>(from_slot | to_slot << 4U);
   }
 

@@ -1,27 +1,97 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
 
 #include "roam/error.h"
+#include "store/codec/frame.h"
+#include "store/codec/magnitude.h"
 #include "store/codec/tile_codec.h"
 
 namespace roam::store {
+namespace {
+
+/// The letter of a number that is said in full: the part is another, or the difference takes more than 32 bits.
+constexpr std::uint32_t kJump = 255;
+
+enum Stream : std::uint8_t { kParts, kLetters, kJumps, kBits, kStreams };
+
+constexpr std::size_t kPartBytes = 8;
+
+[[noreturn]] void refuse() { throw Error("the source numbers of a tile are damaged: repair the store"); }
+
+}  // namespace
 
 std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers) {
-  std::vector<std::byte> coded(ZSTD_compressBound(numbers.size_bytes()));
-  const std::size_t size = ZSTD_compress(coded.data(), coded.size(), numbers.data(), numbers.size_bytes(), 3);
-  if (ZSTD_isError(size) != 0) throw Error("cannot compress source numbers: " + std::string(ZSTD_getErrorName(size)));
-  coded.resize(size);
+  std::array<std::vector<std::byte>, kStreams> streams;
+  std::vector<std::uint64_t> parts;
+  BitWriter bits;
+  SourceNumber last;
+  for (const SourceNumber& n : numbers) {
+    const auto difference = static_cast<std::int64_t>(n.number - last.number);
+    if (!parts.empty() && n.part == last.part && difference == static_cast<std::int32_t>(difference)) {
+      const std::uint32_t z = zigzag(static_cast<std::uint32_t>(difference));
+      const std::uint32_t c = class_of(z);
+      streams[kLetters].push_back(std::byte(c));
+      bits.put(z - base_of(c), bits_of(c));
+    } else {
+      std::size_t part = static_cast<std::size_t>(std::find(parts.begin(), parts.end(), n.part) - parts.begin());
+      if (part == parts.size()) {
+        parts.push_back(n.part);
+        for (std::size_t b = 0; b < kPartBytes; ++b) streams[kParts].push_back(std::byte(n.part >> (8 * b) & 255U));
+      }
+      streams[kLetters].push_back(std::byte(kJump));
+      append_number(streams[kJumps], part);
+      append_number(streams[kJumps], n.number);
+    }
+    last = n;
+  }
+  streams[kBits] = bits.finish();
+  std::vector<std::byte> coded;
+  for (const Stream s : {kParts, kJumps, kBits}) append_number(coded, streams[s].size());
+  append_frame(coded, streams);
   return coded;
 }
 
 std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::uint32_t triangles) {
-  std::vector<SourceNumber> numbers(triangles);
-  const std::size_t bytes = numbers.size() * sizeof(SourceNumber);
-  if (ZSTD_decompress(numbers.data(), bytes, coded.data(), coded.size()) != bytes) {
-    throw Error("the source numbers of a tile are damaged");
+  std::uint64_t part_bytes = 0, jump_bytes = 0, bit_bytes = 0;
+  for (std::uint64_t* n : {&part_bytes, &jump_bytes, &bit_bytes}) {
+    if (!read_number(coded, 28, *n)) refuse();
   }
+  // No tile's numbers take more; so nobody makes this allocate without measure.
+  const std::uint64_t most = 64 * (std::uint64_t{triangles} + 1);
+  const std::uint64_t size = part_bytes + triangles + jump_bytes + bit_bytes;
+  if (size > most || part_bytes % kPartBytes != 0 || !is_one_frame(coded)) refuse();
+  std::vector<std::byte> raw(size + 2 * sizeof(std::uint64_t));  // bits are read in words
+  if (ZSTD_decompress(raw.data(), size, coded.data(), coded.size()) != size) refuse();
+  const std::byte *parts = raw.data(), *letters = parts + part_bytes;
+  std::span<const std::byte> jumps(letters + triangles, jump_bytes);
+  BitReader bits(jumps.data() + jump_bytes, bit_bytes);
+
+  std::vector<SourceNumber> numbers(triangles);
+  SourceNumber last;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const auto letter = std::to_integer<std::uint32_t>(letters[i]);
+    if (letter == kJump) {
+      std::uint64_t part = 0;
+      if (!read_number(jumps, 28, part) || part >= part_bytes / kPartBytes || !read_number(jumps, 64, last.number)) {
+        refuse();
+      }
+      last.part = 0;
+      for (std::size_t b = 0; b < kPartBytes; ++b) {
+        last.part |= std::to_integer<std::uint64_t>(parts[part * kPartBytes + b]) << (8 * b);
+      }
+    } else {
+      if (letter >= kClasses || i == 0) refuse();
+      const std::uint32_t mask = (1U << bits_of(letter)) - 1;
+      const std::uint32_t z = base_of(letter) + (static_cast<std::uint32_t>(bits.peek()) & mask);
+      bits.skip(bits_of(letter));
+      if (!bits.within()) refuse();
+      last.number += static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(unzigzag(z))});
+    }
+    numbers[i] = last;
+  }
+  if (!jumps.empty() || !bits.finished()) refuse();
   return numbers;
 }
 

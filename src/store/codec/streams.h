@@ -10,7 +10,7 @@
 
 namespace roam::store {
 
-/// The streams of letters, a byte each, in their order in the frame.
+/// The streams, of letters of a byte each but for the last three, in their order in the frame.
 enum Stream : std::uint8_t {
   kTree,    ///< a letter a node: its counts
   kCounts,  ///< a letter a leaf: triangles - 1
@@ -23,7 +23,9 @@ enum Stream : std::uint8_t {
   kFreeX,  ///< the same from the vertex named before
   kFreeY,
   kFreeZ,
-  kBits,  ///< what follows the classes
+  kNameBits,  ///< what follows the classes of ages
+  kGateBits,  ///< what follows the classes of a vertex beyond a gate: x, y, z
+  kFreeBits,
   kStreams
 };
 
@@ -34,7 +36,9 @@ struct StreamSizes {
   std::uint32_t names = 0;
   std::uint32_t gate_vertices = 0;
   std::uint32_t free_vertices = 0;
-  std::uint32_t bits = 0;  ///< bytes
+  std::uint32_t name_bits = 0;  ///< bytes
+  std::uint32_t gate_bits = 0;
+  std::uint32_t free_bits = 0;
 };
 
 /// Letters of kSeeds: a triangle beyond a gate of an earlier leaf, by its Apex - 1; from kFreeSeed the corners of a

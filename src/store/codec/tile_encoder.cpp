@@ -1,10 +1,8 @@
-#include <zstd.h>
-
 #include <algorithm>
-#include <cassert>
 #include <memory>
 
 #include "roam/error.h"
+#include "store/codec/frame.h"
 #include "store/codec/front.h"
 #include "store/codec/magnitude.h"
 #include "store/codec/streams.h"
@@ -77,10 +75,10 @@ class TileEncoder {
     ++apexes_;
   }
 
-  void put_magnitude(int stream, std::uint32_t first_letter, std::uint32_t number) {
+  void put_magnitude(int stream, std::uint32_t first_letter, std::uint32_t number, BitWriter& bits) {
     const std::uint32_t c = class_of(number);
     put(stream, first_letter + c);
-    bits_.put(number - base_of(c), bits_of(c));
+    bits.put(number - base_of(c), bits_of(c));
   }
 
   void read(std::uint32_t i, Source& s) {
@@ -119,22 +117,24 @@ class TileEncoder {
     growth_.begin(i, leaf, fine ? &tile_.fine_leaves[i] : nullptr);
     put(kCounts, static_cast<std::uint32_t>(s.triangles) - 1);
     std::array<std::uint8_t, kWidth> order{};
+    Gate gate{};
+    Step step = Step::closed;
     while (growth_.triangles() < static_cast<unsigned>(s.triangles)) {
-      Gate gate{};
       int t = 0;
-      if (growth_.pop(gate)) {
+      if (step == Step::open || growth_.pop(gate)) {
         const unsigned to = s.slot[gate.to_slot], from = s.slot[gate.from_slot];
         t = s.beyond[to][from];
         if (t == kWidth || (s.undone >> t & 1U) == 0) {
           put_apex(Apex::none);
+          step = Step::closed;
           continue;
         }
         const unsigned third = s.third(t, to, from);
         const Apex how = apex(s, third, gate.from, gate.to);
         put_apex(how);
-        add(s, third, gate, how);
+        step = add(s, third, gate, how);
       } else {
-        t = seed(s);
+        t = seed(s, gate, step);
       }
       order[growth_.triangles() - 1] = static_cast<std::uint8_t>(t);
       s.undone &= ~(1U << t);
@@ -154,7 +154,7 @@ class TileEncoder {
   }
 
   /// Adds the triangle beyond a gate; `third` is the source's slot of its third corner.
-  void add(Source& s, unsigned third, const Gate& gate, Apex how) {
+  Step add(Source& s, unsigned third, Gate& gate, Apex how) {
     if (how == Apex::fresh) {
       const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
       Place near;
@@ -163,12 +163,13 @@ class TileEncoder {
     } else if (how == Apex::other) {
       put_name(s.numbers[third]);
     }
-    growth_.add(gate, how, s.numbers[third]);
+    const Step step = growth_.add(gate, how, s.numbers[third]);
     s.slot[growth_.slot_of(s.numbers[third])] = static_cast<std::uint8_t>(third);
+    return step;
   }
 
   /// A triangle that no gate of the leaf leads to. Returns which.
-  int seed(Source& s) {
+  int seed(Source& s, Gate& gate, Step& step) {
     int best = kWidth, first = 0, age = INT32_MAX;
     for (int t = 0; t < s.triangles; ++t) {
       if ((s.undone >> t & 1U) == 0) continue;
@@ -186,11 +187,10 @@ class TileEncoder {
       const Apex how = apex(s, third, s.numbers[from], s.numbers[to]);
       put(kSeeds, static_cast<std::uint32_t>(how) - 1);
       put_name(s.numbers[from]);
-      Gate gate{};
       growth_.enter(s.numbers[from], gate);
       s.slot[gate.from_slot] = static_cast<std::uint8_t>(from);
       s.slot[gate.to_slot] = static_cast<std::uint8_t>(to);
-      add(s, third, gate, how);
+      step = add(s, third, gate, how);
       return best;
     }
     // None touches the front: the one with most known corners, those first.
@@ -206,6 +206,7 @@ class TileEncoder {
       }
     }
     put_free(s, best, first);
+    step = Step::closed;
     return best;
   }
 
@@ -246,7 +247,7 @@ class TileEncoder {
     for (int k = 0; k < 3; ++k) {
       std::uint32_t difference = at[k] - near[k];
       if (!fine) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
-      put_magnitude(stream + k, 0, zigzag(difference));
+      put_magnitude(stream + k, 0, zigzag(difference), stream == kGateX ? gate_bits_ : free_bits_);
     }
     // Before it counts as seen: the table finds the free slot of its place.
     std::uint16_t& number = table_.find(at, vertices_.get());
@@ -259,7 +260,7 @@ class TileEncoder {
     if (const unsigned slot = growth_.slot_of(vertex); slot < kWidth) {
       put(kNames, slot);
     } else {
-      put_magnitude(kNames, kAgeName, static_cast<std::uint32_t>(count_ - 1 - vertex));
+      put_magnitude(kNames, kAgeName, static_cast<std::uint32_t>(count_ - 1 - vertex), name_bits_);
     }
   }
 
@@ -272,33 +273,16 @@ class TileEncoder {
   }
 
   std::vector<std::byte> pack() {
-    streams_[kBits] = bits_.finish();
+    streams_[kNameBits] = name_bits_.finish();
+    streams_[kGateBits] = gate_bits_.finish();
+    streams_[kFreeBits] = free_bits_.finish();
     std::vector<std::byte> coded;
-    std::size_t total = 0;
-    for (const auto& stream : streams_) total += stream.size();
-    for (const int s : {kGates, kSeeds, kNames, kGateX, kFreeX, kBits}) {
-      std::size_t size = streams_[s].size();
-      for (; size > 127; size >>= 7U) coded.push_back(std::byte((size & 127U) | 128U));
-      coded.push_back(std::byte(size));
+    for (const int s : {kGates, kSeeds, kNames, kGateX, kFreeX, kNameBits, kGateBits, kFreeBits}) {
+      append_number(coded, streams_[s].size());
     }
-    const std::size_t begin = coded.size();
-    coded.resize(begin + ZSTD_compressBound(total) + 64 * kStreams);
-    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd(ZSTD_createCCtx(), ZSTD_freeCCtx);
-    ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kLevel);
-    ZSTD_CCtx_setPledgedSrcSize(zstd.get(), total);
-    ZSTD_outBuffer out{coded.data() + begin, coded.size() - begin, 0};
-    for (int s = 0; s < kStreams; ++s) {
-      // A block of its own for each stream, so that each has its own code.
-      ZSTD_inBuffer in{streams_[s].data(), streams_[s].size(), 0};
-      const std::size_t left =
-          ZSTD_compressStream2(zstd.get(), &out, &in, s + 1 < kStreams ? ZSTD_e_flush : ZSTD_e_end);
-      if (left != 0) throw Error(std::string("cannot compress a tile: ") + ZSTD_getErrorName(left));
-    }
-    coded.resize(begin + out.pos);
+    append_frame(coded, streams_);
     return coded;
   }
-
-  static constexpr int kLevel = 1;
 
   index::BuiltTile& tile_;
   std::unique_ptr<FrontVertex[]> vertices_;
@@ -307,14 +291,16 @@ class TileEncoder {
   int count_ = 0;  ///< of vertices
   std::size_t apexes_ = 0;
   Place last_{};
-  BitWriter bits_;
+  BitWriter name_bits_, gate_bits_, free_bits_;
   std::array<std::vector<std::byte>, kStreams> streams_;
 };
 
 }  // namespace
 
 std::vector<std::byte> encode_tile(index::BuiltTile& tile) {
-  assert(shape_of(tile).bytes() <= kTileBytes);
+  if (shape_of(tile).bytes() > kTileBytes) {
+    throw Error("a tile takes more memory than a store allows: it must be divided before it is encoded");
+  }
   return tile.tile.fine ? TileEncoder<true>(tile).run() : TileEncoder<false>(tile).run();
 }
 
