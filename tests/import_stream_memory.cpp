@@ -204,5 +204,34 @@ TEST(ImportStreamMemory, KeepsWhatDoesNotFitInTheFolderForTemporaryFiles) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(ImportStreamMemory, RefusesWhatAForeignReaderCannotHold) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t triangles = 400'000;
+  const fs::path file = folder.path() / "strip.off";
+  {
+    Out out(file);
+    out.text("OFF\n" + std::to_string(triangles + 2) + " " + std::to_string(triangles) + " 0\n");
+    for (std::uint64_t i = 0; i < triangles + 2; ++i) {
+      out.text(std::to_string(i / 2) + " " + std::to_string(i % 2) + " 0\n");
+    }
+    for (std::uint64_t i = 0; i < triangles; ++i) {
+      out.text("3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n");
+    }
+  }
+  std::uint64_t streamed = 0;
+  const auto sink = [&](const Mesh& piece, bool) { streamed += piece.triangles.size(); };
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // under which readers have no limit
+  try {
+    stream_scene(std::span(&file, 1), {.memory_limit = least_limit}, sink);
+    ADD_FAILURE() << "it fitted";
+  } catch (const Error& error) {
+    EXPECT_TRUE(contains(error.what(), "needs more than the 0.0625 GiB of memory")) << error.what();
+  }
+#endif
+  streamed = 0;
+  stream_scene(std::span(&file, 1), {.memory_limit = 8 * least_limit}, sink);
+  EXPECT_EQ(streamed, triangles);
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -134,27 +134,37 @@ inline constexpr std::uint64_t piece_triangles = 65'536;
 /// The same triangles as import_scene, in the same order, in bounded memory: this process and its reader together take
 /// no more than options.memory_limit (>= 64 MiB), however large an OBJ, PLY or STL file, or a folder of tiles, is.
 /// What does not fit the reader's memory it keeps in unnamed files in the folder for temporary files (TMPDIR, else
-/// /tmp). Formats that only foreign readers read (glTF, Collada, FBX, IFC, single files of OpenSceneGraph) must fit,
-/// and throw roam::Error as import_scene does where they do not.
+/// /tmp); roam::Error says when there is no room. Formats that only foreign readers read (glTF, Collada, FBX, IFC,
+/// single files of OpenSceneGraph) must fit, and throw roam::Error as import_scene does where they do not.
+///
+/// Where a piece ends depends on the triangles alone, so that the pieces are the same for any memory and on any
+/// machine. The report is that of import_scene but for `vertices`, which counts those of the pieces: what two pieces
+/// share, each has. Throws what import_scene throws; pieces that came before stay good.
 ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
                           const PieceSink& sink);
 
 /// A part of a scene that can be read on its own: a file, or one tile (Data/Tile_x/Tile_x.osgb and its pages) of a
 /// folder of photogrammetry. The parts of a scene, one after the other, are the scene.
 struct ScenePart {
-  std::string name;                            ///< unique among the parts, the same wherever the scene's folders lie
-  std::filesystem::path path;                  ///< as it was passed to scene_parts
-  std::string tile;                            ///< name of the tile in the folder; empty for a file
-  std::optional<Georeference> frame{};         ///< of the first folder, into which this part is placed
-  std::vector<std::filesystem::path> files{};  ///< what the part is read from, as far as one can tell without reading
-  std::uint64_t bytes = 0;                     ///< of these files
+  std::string name;                     ///< unique among the parts, the same wherever the scene's folders lie
+  std::filesystem::path path;           ///< as it was passed to scene_parts
+  std::string tile;                     ///< name of the tile in the folder; empty for a file
+  std::optional<Georeference> frame{};  ///< of the first folder, into which this part is placed
+  /// What the part is read from, as far as one can tell without reading: absolute, sorted; of a tile all files of its
+  /// own folder and last metadata.xml, which says where it lies; empty where the tile is missing.
+  std::vector<std::filesystem::path> files{};
+  std::uint64_t bytes = 0;  ///< of these files
 };
 
-/// The parts of a scene, in order. Throws as import_scene does for paths that are missing or of no known format.
+/// The parts of a scene, in order: the paths', and within a folder first the tiles whose root is missing, which have no
+/// files, then the others by name. Opens no scene file but reads folders and their metadata.xml. Throws as import_scene
+/// does for paths that are missing or of no known format, and for folders in different reference systems.
 [[nodiscard]] std::vector<ScenePart> scene_parts(std::span<const std::filesystem::path> paths,
                                                  const ImportOptions& options = {});
 
-/// Reads one part.
+/// Reads one part, with a reader of its own. A tile that is missing, or has no triangle, gives no piece and is no
+/// error; the report counts the missing page. Of a tile it is not said which patterns of ImportOptions::ignore match
+/// nothing.
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink);
 
 /// Tells the library where the package that the program was built with keeps its reader. Called by this header itself

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -43,24 +44,30 @@ namespace {
 /// Address space that the program's own code, its libraries and their plugins take before a file is opened.
 [[maybe_unused]] constexpr rlim_t own_address_space = rlim_t{1} << 30;
 
+/// Of the memory for reading in pieces, what is not data of this process: its code and that of its libraries, and the
+/// receiver's window and piece.
+[[maybe_unused]] constexpr std::uint64_t memory_beside_data = 28u << 20;
+
 void limit(int resource, rlim_t value, rlim_t soft) {
   const struct rlimit both { soft, value };
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 void limit(int resource, rlim_t value) { limit(resource, value, value); }
 
-/// Bytes that the vertices of a file may take outside the memory: its shortest vertex has three bytes, and is kept as
-/// three doubles. Folders hold no file that has so many.
-rlim_t temporary_bytes(const std::string& path) {
+/// Bytes that vertices may take outside the memory. The shortest vertex of a file has three bytes, and is kept as three
+/// doubles; foreign readers pack more tightly, but hold in memory what they read, in floats at least.
+rlim_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
   std::error_code none;
   const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
-  return none ? 0 : 8 * static_cast<rlim_t>(bytes) + sizeof(Vec3) * PagedVertices::block_size;
+  return 8 * static_cast<rlim_t>(none ? 0 : bytes) + 2 * static_cast<rlim_t>(memory_limit);
 }
 
 /// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
-void confine([[maybe_unused]] std::uint64_t memory_limit, rlim_t temporary_bytes) {
+void confine([[maybe_unused]] std::uint64_t memory_limit, [[maybe_unused]] bool pieces, rlim_t temporary_bytes) {
 #ifndef ROAM_SHADOW_MEMORY
   limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
+  // Foreign readers hold a whole file; where that must fit, all that can be written counts.
+  if (pieces) limit(RLIMIT_DATA, static_cast<rlim_t>(memory_limit - std::min(memory_limit, memory_beside_data)));
 #endif
   limit(RLIMIT_CORE, 0);
   // PagedVertices lifts it for its own file.
@@ -136,7 +143,8 @@ int run(const std::vector<std::string>& arguments) {
     std::fputs("roam-reader opens scene files for roam, which starts it; there is nothing to run by hand.\n", stderr);
     return 2;
   }
-  confine(request.settings.memory_limit, request.pieces ? temporary_bytes(request.path) : 0);
+  confine(request.settings.memory_limit, request.pieces,
+          request.pieces ? temporary_bytes(request.path, request.settings.memory_limit) : 0);
 
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello, PayloadWriter().add(stream_version));

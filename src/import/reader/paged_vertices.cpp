@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -38,6 +39,8 @@ int open_unnamed_file() {
   getrlimit(RLIMIT_FSIZE, &size);
   size.rlim_cur = size.rlim_max;
   setrlimit(RLIMIT_FSIZE, &size);
+  // Beyond that, writing fails and is told, instead of ending the process.
+  signal(SIGXFSZ, SIG_IGN);
   const std::string folder = temporary_folder();
 #ifdef O_TMPFILE
   if (const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;

@@ -11,6 +11,13 @@ namespace {
 /// What both processes take besides vertices: their code, the libraries of foreign readers, the window of the file, the
 /// piece in the making here and there, and the frames on their way.
 constexpr std::uint64_t own_memory = 52u << 20;
+/// What keeping count of them takes is far less than this share of the vertices.
+constexpr std::uint64_t share_for_tables = 64;
+
+std::uint64_t vertex_memory(std::uint64_t memory_limit) {
+  const std::uint64_t taken = own_memory + memory_limit / share_for_tables;
+  return memory_limit - std::min(memory_limit, taken);
+}
 
 constexpr std::size_t vertices_per_frame = 1u << 16;
 static_assert(vertices_per_frame * sizeof(Vec3) <= payload_limit);
@@ -18,7 +25,7 @@ static_assert(vertices_per_frame * sizeof(Vec3) <= payload_limit);
 }  // namespace
 
 PieceCutter::PieceCutter(FrameWriter& frames, std::uint64_t memory_limit)
-    : frames_(frames), vertices_(memory_limit - std::min(memory_limit, own_memory)), entries_(1u << entry_bits) {
+    : frames_(frames), vertices_(vertex_memory(memory_limit)), entries_(1u << entry_bits) {
   static_assert(piece_limit == roam::piece_triangles);
   static_assert(piece_limit * 3 * sizeof(std::uint32_t) <= payload_limit);
   static_assert(2 * 3 * piece_limit <= 1u << entry_bits);
