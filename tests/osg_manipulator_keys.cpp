@@ -219,6 +219,16 @@ TEST(ManipulatorKeys, EveryFrameIsCutIntoShortSteps) {
   }
 }
 
+TEST(ManipulatorKeys, AFrameOfOneStepIsOneStepHoweverLateTheClockIs) {
+  Standing r;
+  r.time = 10'000.0;
+  r.frame(0.0);
+  for (int i = 0; i < 2000; ++i) {
+    r.frame(osgRoam::Manipulator::longest_step);
+    ASSERT_EQ(r->steps(), 1) << i;
+  }
+}
+
 TEST(ManipulatorKeys, TellsItsOwnTimeApartFromWhatOthersTake) {
   Standing r;
   constexpr std::int64_t rest = 50'000'000;  // ns

@@ -23,7 +23,8 @@
 ///
 /// The body moves on FRAME events, by the time between two of them, and never by key repeat: for how long each key was
 /// down counts, not how many frames there were. Frames longer than longest_frame are cut short, and every frame is cut
-/// into steps of at most longest_step. Time that stands still or runs backwards moves nothing.
+/// into steps of at most longest_step, to within the rounding of the clock. Time that stands still or runs backwards
+/// moves nothing.
 ///
 /// Keys are those of controls(). The mouse looks while a button is dragged, or, with setMouseGrab(), whenever it moves;
 /// the wheel changes the speed; a double click goes to what was clicked. Events that another handler has taken

@@ -18,6 +18,9 @@ namespace {
 /// Seconds: who asks for a jump just before coming to the ground means it.
 constexpr double jump_patience = 0.2;
 
+/// Of a step: how much longer a frame may seem because times since a start long ago are rounded. One day at 60 Hz.
+constexpr double clock_rounding = 1e-9;
+
 /// Seconds that are not worth a step of a pilot: rounding.
 constexpr double least_owed = 1e-6;
 
@@ -210,7 +213,7 @@ void Manipulator::State::frame(double time) {
 
 void Manipulator::State::run(double seconds, const HeldCommands& held) {
   if (!(seconds > 0.0)) return;
-  const double pieces = std::ceil(seconds / longest_step);
+  const double pieces = std::ceil(seconds / longest_step - clock_rounding);
   for (double i = 0.0; i < pieces && walker && !stuck; ++i) {
     if (pilot) {
       fly_pilot(seconds / pieces);
