@@ -18,7 +18,7 @@ struct RunOptions {
   int rounds = 5;
 
   void add_to(CLI::App& app) {
-    app.add_option("--scene", scene.scene, "gallery, terrain, or a file")->capture_default_str();
+    app.add_option("--scene", scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
     app.add_option("--triangles", scene.triangles, "of a made scene")->capture_default_str();
     app.add_option("--origin", origin_, "where the scene's centre is moved, metres: x,y,z")
         ->delimiter(',')

@@ -16,7 +16,7 @@ std::vector<Mesh> read(const std::string& file) {
   return import_scene(file).meshes;
 #else
   throw Error("cannot read '" + file +
-              "': this build has no readers; choose gallery or terrain, or configure with -DROAM_TOOLS=ON");
+              "': this build has no readers; choose gallery, terrain or city, or configure with -DROAM_TOOLS=ON");
 #endif
 }
 
@@ -45,6 +45,8 @@ Scene make_scene(const SceneChoice& choice) {
     scene.meshes = generate::collect(generate::gallery({.triangles = choice.triangles}));
   } else if (choice.scene == "terrain") {
     scene.meshes = generate::collect(generate::terrain({.triangles = choice.triangles}));
+  } else if (choice.scene == "city") {
+    scene.meshes = generate::collect(generate::city({.triangles = choice.triangles}));
   } else {
     scene.meshes = read(choice.scene);
   }

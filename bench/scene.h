@@ -13,7 +13,7 @@ namespace roam::bench {
 
 /// Which scene to make or load.
 struct SceneChoice {
-  std::string scene = "gallery";     ///< "gallery", "terrain", or a file (a build with ROAM_TOOLS reads files)
+  std::string scene = "gallery";     ///< "gallery", "terrain", "city", or a file (a build with ROAM_TOOLS reads files)
   std::uint64_t triangles = 500000;  ///< about how many a made scene gets; a file keeps its own
   Vec3 origin{0.0};                  ///< metres: where the centre of the scene's box is moved
 };
