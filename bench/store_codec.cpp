@@ -17,6 +17,7 @@
 namespace {
 
 using namespace store_codec;
+using roam::store::shape_of;
 
 /// Processor seconds of this thread: other programs do not count.
 double now() {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "store/codec/front.h"
 #include "store/codec/tree_shape.h"
 
 namespace roam::store {
