@@ -168,6 +168,33 @@ TEST(ImportStreamMemory, IsBoundedForStl) {
   expect_bound_kept(expect_strip(write_stl(folder.path() / "strip.stl", triangles), triangles, true));
 }
 
+TEST(ImportStreamMemory, IsBoundedForFoldersOfTiles) {
+  ROAM_NEEDS_TEST_DATA();
+  // A real tile and its pages under many names: at once they would take several times the memory.
+  const fs::path real = test_data() / "pit_osgb/Data/Tile_+000_+000";
+  const TemporaryFolder folder;
+  constexpr int tiles = 24;
+  for (int i = 0; i < tiles; ++i) {
+    const std::string name = "Tile_" + std::to_string(i);
+    const fs::path copy = folder.path() / "Data" / name;
+    fs::create_directories(copy);
+    for (const auto& entry : fs::directory_iterator(real)) {
+      const bool root = entry.path().stem() == real.filename();
+      fs::create_symlink(entry.path(), copy / (root ? fs::path(name + ".osgb") : entry.path().filename()));
+    }
+  }
+  Watch watch;
+  std::uint64_t triangles = 0;
+  const auto sink = [&](const Mesh& piece, bool) {
+    triangles += piece.triangles.size();
+    watch.look();
+  };
+  const ImportReport report = stream_scene(std::span(&folder.path(), 1), {.memory_limit = least_limit}, sink);
+  EXPECT_EQ(triangles, tiles * 177'950u);
+  EXPECT_EQ(report.missing_pages, 0u);
+  expect_bound_kept(watch);
+}
+
 TEST(ImportStreamMemory, NeedsNoOrderOfTheVertices) {
   const TemporaryFolder folder;
   constexpr std::uint64_t triangles = 1'000'000;
