@@ -95,24 +95,29 @@ class Builder {
   std::uint32_t divide_exactly(const BinaryNode& n) {
     const std::uint32_t count = n.end - n.begin;
     std::uint32_t* items = tree_.order.data() + n.begin;
-    using Keyed = std::pair<std::int64_t, std::uint32_t>;
-    std::array<std::array<Keyed, kExactBelow>, 3> sorted;
+    // By centre, then by item: one number sorts twice as fast as a pair.
+    constexpr int item_bits = 24;
+    constexpr std::uint64_t item_mask = (1U << item_bits) - 1;
+    std::array<std::array<std::uint64_t, kExactBelow>, 3> sorted;
     std::array<double, kExactBelow> area_left{};
     double best_cost = std::numeric_limits<double>::infinity();
     int best_axis = 0;
     std::uint32_t best_position = count / 2;
     for (int axis = 0; axis < 3; ++axis) {
       auto& keys = sorted[axis];
-      for (std::uint32_t i = 0; i < count; ++i) keys[i] = {centre(items[i], axis), items[i]};
+      const std::int64_t first = 2 * std::int64_t{n.box.lower[axis]};
+      for (std::uint32_t i = 0; i < count; ++i) {
+        keys[i] = static_cast<std::uint64_t>(centre(items[i], axis) - first) << item_bits | items[i];
+      }
       std::sort(keys.begin(), keys.begin() + count);
       StepBox box;
       for (std::uint32_t i = 0; i < count; ++i) {
-        box.include(boxes_[keys[i].second]);
+        box.include(boxes_[keys[i] & item_mask]);
         area_left[i] = box.half_area(options_.margin);
       }
       box = {};
       for (std::uint32_t i = count - 1; i > 0; --i) {
-        box.include(boxes_[keys[i].second]);
+        box.include(boxes_[keys[i] & item_mask]);
         const double cost = area_left[i - 1] * tests(i) + box.half_area(options_.margin) * tests(count - i);
         if (cost < best_cost) {
           best_cost = cost;
@@ -121,23 +126,24 @@ class Builder {
         }
       }
     }
-    for (std::uint32_t i = 0; i < count; ++i) items[i] = sorted[best_axis][i].second;
+    for (std::uint32_t i = 0; i < count; ++i) items[i] = static_cast<std::uint32_t>(sorted[best_axis][i] & item_mask);
     return n.begin + best_position;
   }
 
   [[nodiscard]] Split best_binned(const BinaryNode& n) const {
     Split best;
     std::array<std::int64_t, 3> lower{}, width{};
-    for (int k = 0; k < 3; ++k) {
-      std::int64_t lo = std::numeric_limits<std::int64_t>::max(), hi = std::numeric_limits<std::int64_t>::min();
-      for (std::uint32_t i = n.begin; i < n.end; ++i) {
+    lower.fill(std::numeric_limits<std::int64_t>::max());
+    std::array<std::int64_t, 3> upper{};
+    upper.fill(std::numeric_limits<std::int64_t>::min());
+    for (std::uint32_t i = n.begin; i < n.end; ++i) {
+      for (int k = 0; k < 3; ++k) {
         const std::int64_t c = centre(tree_.order[i], k);
-        lo = std::min(lo, c);
-        hi = std::max(hi, c);
+        lower[k] = std::min(lower[k], c);
+        upper[k] = std::max(upper[k], c);
       }
-      lower[k] = lo;
-      width[k] = (hi - lo) / kBins + 1;
     }
+    for (int k = 0; k < 3; ++k) width[k] = (upper[k] - lower[k]) / kBins + 1;
     struct Bin {
       StepBox box;
       std::uint32_t count = 0;
