@@ -173,7 +173,7 @@ TEST(ImportStreamMemory, IsBoundedForFoldersOfTiles) {
   // A real tile and its pages under many names: at once they would take several times the memory.
   const fs::path real = test_data() / "pit_osgb/Data/Tile_+000_+000";
   const TemporaryFolder folder;
-  constexpr int tiles = 24;
+  constexpr int tiles = 12;
   for (int i = 0; i < tiles; ++i) {
     const std::string name = "Tile_" + std::to_string(i);
     const fs::path copy = folder.path() / "Data" / name;
