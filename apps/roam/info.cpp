@@ -3,6 +3,7 @@
 
 #include "progress.h"
 #include "report.h"
+#include "roam/store.h"
 #include "scene_hash.h"
 #include "scene_options.h"
 #include "verbs.h"
@@ -75,7 +76,70 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   return text;
 }
 
+Json json_report(const Store& store) {
+  const StoreInfo& i = store.info();
+  const auto triangles = static_cast<double>(i.triangles);
+  return {{"scene", store.name()},
+          {"format", fmt::format("store {}", i.format)},
+          {"triangles", i.triangles},
+          {"objects", i.objects},
+          {"bounds", to_json(i.bounds)},
+          {"tiles", i.tiles},
+          {"pages", i.pages},
+          {"packs", i.packs},
+          {"bytes", i.bytes},
+          {"bytes_per_triangle", static_cast<double>(i.bytes) / triangles},
+          {"geometry_bytes_per_triangle", static_cast<double>(i.geometry_bytes) / triangles},
+          {"number_bytes_per_triangle", static_cast<double>(i.number_bytes) / triangles},
+          {"resident_bytes_per_triangle", static_cast<double>(i.resident_bytes) / triangles},
+          {"largest_error_m", i.largest_error_m},
+          {"lossless", i.lossless},
+          {"hash", i.hash},
+          {"geometry_hash", i.geometry_hash}};
+}
+
+std::string text_report(const Store& store) {
+  const StoreInfo& i = store.info();
+  const auto triangles = static_cast<double>(i.triangles);
+  const Vec3 size = i.bounds.size();
+  const auto& [low, high] = i.bounds;
+  std::string text = fmt::format("{}\n", store.name());
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<16}{}\n", what, value);
+  };
+  line("store", fmt::format("format {}, {} tiles on {} pages in {} packs", i.format, i.tiles, i.pages, i.packs));
+  line("triangles", fmt::format("{} in {} objects", i.triangles, i.objects));
+  line("size", fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z));
+  line("from", fmt::format("{:.3f} {:.3f} {:.3f}", low.x, low.y, low.z));
+  line("to", fmt::format("{:.3f} {:.3f} {:.3f}", high.x, high.y, high.z));
+  line("on disk",
+       fmt::format("{}B, {:.2f} bytes a triangle: {:.2f} of geometry, {:.2f} of source numbers",
+                   short_count(static_cast<double>(i.bytes)), static_cast<double>(i.bytes) / triangles,
+                   static_cast<double>(i.geometry_bytes) / triangles, static_cast<double>(i.number_bytes) / triangles));
+  line("in memory", fmt::format("{:.1f} bytes a triangle, of those that are resident",
+                                static_cast<double>(i.resident_bytes) / triangles));
+  line("largest error", fmt::format("{:.3g} m between a vertex and its place in the store", i.largest_error_m));
+  line("hash", i.hash);
+  return text;
+}
+
+ExitStatus store_info(const SceneOptions& options, bool json) {
+  if (options.scenes.size() > 1 || options.says_how_to_read()) {
+    throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
+  }
+  const auto store = Store::open(options.scenes.front());
+  if (json) {
+    print(json_report(*store));
+  } else {
+    print(text_report(*store));
+  }
+  return done;
+}
+
 ExitStatus info(const SceneOptions& options, bool json) {
+  for (const auto& scene : options.scenes) {
+    if (Store::is_store(scene)) return store_info(options, json);
+  }
   const LoadedScene scene = load(options, Source::keep);
   if (json) {
     print(json_report(options, scene));

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   add_sweep(program, chosen);
   add_info(program, chosen);
   add_make(program, chosen);
+  add_verify(program, chosen);
   add_build(program, chosen);
   try {
     program.parse(argc, argv);

@@ -16,10 +16,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 Scene read(const SceneOptions& options) {
-  ImportOptions import;
-  if (!options.up.empty()) import.up = parse_up_axis(options.up);
-  import.unit = parse_length_unit(options.unit);
-  import.ignore = options.ignore;
+  ImportOptions import = options.import_options();
   Progress progress("reading " + options.names(), "B");
   import.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total);
 };
@@ -44,6 +41,11 @@ void SceneOptions::add_to(CLI::App& verb) {
   verb.add_option("SCENE", scenes, "Files, or folders of photogrammetry tiles; several make one scene")
       ->required()
       ->type_name("");
+  add_reading_to(verb);
+  verb.add_flag("--lossless", lossless, "Answer hits within 1e-5 m instead of 2 mm; takes more memory");
+}
+
+void SceneOptions::add_reading_to(CLI::App& verb) {
   verb.add_option("--up", up, "Axis that points up in the file (default: z; y for glTF)")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->type_name("x|y|z");
@@ -54,11 +56,20 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->type_name("PATTERN")
       ->expected(1)
       ->take_all();
-  verb.add_flag("--lossless", lossless, "Answer hits within 1e-5 m instead of 2 mm; takes more memory");
   verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
 }
+
+ImportOptions SceneOptions::import_options() const {
+  ImportOptions import;
+  if (!up.empty()) import.up = parse_up_axis(up);
+  import.unit = parse_length_unit(unit);
+  import.ignore = ignore;
+  return import;
+}
+
+bool SceneOptions::says_how_to_read() const { return !up.empty() || unit != "m" || !ignore.empty() || lossless; }
 
 std::string SceneOptions::names() const {
   std::string text;

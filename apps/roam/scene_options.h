@@ -22,6 +22,12 @@ struct SceneOptions {
 
   /// Adds SCENE..., --up, --unit, --ignore, --lossless and --threads.
   void add_to(CLI::App& verb);
+  /// Adds --up, --unit, --ignore and --threads.
+  void add_reading_to(CLI::App& verb);
+  /// What the options mean to import_scene and the like.
+  [[nodiscard]] ImportOptions import_options() const;
+  /// Whether any option was given that says how files are to be read or indexed.
+  [[nodiscard]] bool says_how_to_read() const;
   /// The file names for people, separated by ", ".
   [[nodiscard]] std::string names() const;
 };

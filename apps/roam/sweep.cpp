@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "interrupt.h"
+#include "open_scene.h"
 #include "roam/error.h"
-#include "scene_options.h"
 #include "sweep_rows.h"
 #include "verbs.h"
 
@@ -89,20 +89,59 @@ class RowReader {
 // How far around a way that is free its gap is looked for, in metres: near first, which is cheap and mostly enough.
 constexpr double gap_reaches[] = {1.0, 10.0};
 
-/// The sweep, and for a miss how near the body came to anything: World::sweep only says that it did not touch.
-Impact sweep_and_measure(const World& world, const SweepQuery& query) {
-  Impact answer = world.sweep(query.body, query.from, query.motion);
+/// The sweep, and for a miss how near the body came to anything: Space::sweep only says that it did not touch.
+Impact sweep_and_measure(const Space& space, const SweepQuery& query) {
+  Impact answer = space.sweep(query.body, query.from, query.motion);
   if (answer.hit) return answer;
   for (const double reach : gap_reaches) {
-    const Clearance nearest = world.clearance(query.body, query.from, query.motion, reach);
+    const Clearance nearest = space.clearance(query.body, query.from, query.motion, reach);
     // The sweep has certified at least 0, whatever the grid takes off here.
     answer.distance = std::max(0.0, nearest.distance);
+    answer.unknown = nearest.unknown;
     if (nearest.found) break;
   }
   return answer;
 }
 
-Answers answer(const World& world, const Rows& rows) {
+/// Answers from what is all in memory, on any thread.
+class WholeScene {
+ public:
+  explicit WholeScene(const LoadedScene& scene) : world_(scene.world) {}
+  [[nodiscard]] Impact operator()(const SweepQuery& query) const { return sweep_and_measure(world_, query); }
+
+ private:
+  const World& world_;
+};
+
+/// Answers from a store, one thread at a time: what a query meets and is not there is brought, and the query asked
+/// again.
+class PagedScene {
+ public:
+  explicit PagedScene(OpenScene& scene) : scene_(scene) {}
+
+  [[nodiscard]] Impact operator()(const SweepQuery& query) const {
+    for (int round = 0; round < most_rounds; ++round) {
+      Impact answer = sweep_and_measure(scene_.space(), query);
+      if (!answer.unknown) {
+        if (answer.hit) answer.triangle = scene_.source(answer.triangle).scene;
+        return answer;
+      }
+      // Where it is not known yet: where a hit was, or somewhere beside the way.
+      scene_.wait_along(query.body, query.from + (answer.hit ? answer.time : 0.0) * query.motion,
+                        (answer.hit ? 1.0 - answer.time : 1.0) * query.motion);
+    }
+    throw Error(
+        "what lies along this way cannot be read, or does not fit in memory: verify the store (roam verify), or "
+        "give --memory more");
+  }
+
+ private:
+  static constexpr int most_rounds = 10'000;
+  OpenScene& scene_;
+};
+
+template <class Scene>
+Answers answer(const Scene& scene, const Rows& rows) {
   Answers answers;
   std::string_view text = rows.text;
   if (rows.first_line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
@@ -114,7 +153,7 @@ Answers answer(const World& world, const Rows& rows) {
     try {
       if (line == 1 && is_query_header(row)) continue;
       const SweepQuery query = parse_query(row);
-      append_answer(answers.text, sweep_and_measure(world, query));
+      append_answer(answers.text, scene(query));
     } catch (const Error& error) {
       answers.error = fmt::format("line {}: {}", line, error.what());
       return answers;
@@ -136,8 +175,8 @@ void write(std::string_view text) {
   }
 }
 
-ExitStatus sweep(const SceneOptions& options) {
-  const LoadedScene scene = load(options, Source::release);
+ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
+  OpenScene scene(options, store, Source::release);
   const int threads =
       options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -151,7 +190,7 @@ ExitStatus sweep(const SceneOptions& options) {
     return rows;
   };
   const auto work = [&](const Rows& rows) {
-    Answers answers = answer(scene.world, rows);
+    Answers answers = scene.store() ? answer(PagedScene(scene), rows) : answer(WholeScene(scene.loaded()), rows);
     if (answers.error) failed_row = true;
     return answers;
   };
@@ -161,7 +200,8 @@ ExitStatus sweep(const SceneOptions& options) {
   };
   tbb::parallel_pipeline(static_cast<std::size_t>(4 * threads),
                          tbb::make_filter<void, Rows>(tbb::filter_mode::serial_in_order, read) &
-                             tbb::make_filter<Rows, Answers>(tbb::filter_mode::parallel, work) &
+                             tbb::make_filter<Rows, Answers>(
+                                 scene.store() ? tbb::filter_mode::serial_in_order : tbb::filter_mode::parallel, work) &
                              tbb::make_filter<Answers, void>(tbb::filter_mode::serial_in_order, put));
   return done;
 }
@@ -172,7 +212,8 @@ constexpr const char* help =
     "  out  hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance\n"
     "The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of\n"
     "a vertical capsule's axis; 0, or left out, is a sphere. distance is a certified lower bound of the gap between\n"
-    "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m. A row that\n"
+    "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m. A row "
+    "that\n"
     "cannot be read ends the program with status 1 and a message that names its line.\n\n"
     "Examples:\n"
     "  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae\n"
@@ -183,9 +224,14 @@ constexpr const char* help =
 void add_sweep(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("sweep", "Answers sweeps of a body through a scene, from CSV to CSV");
   verb->footer(help);
-  const auto options = std::make_shared<SceneOptions>();
-  options->add_to(*verb);
-  verb->callback([options, &run] { run = [options] { return sweep(*options); }; });
+  struct Options {
+    SceneOptions scene;
+    StoreOptions store;
+  };
+  const auto options = std::make_shared<Options>();
+  options->scene.add_to(*verb);
+  options->store.add_to(*verb);
+  verb->callback([options, &run] { run = [options] { return sweep(options->scene, options->store); }; });
 }
 
 }  // namespace roam::app

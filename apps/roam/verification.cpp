@@ -48,21 +48,34 @@ bool meet(const Box& a, const Box& b) {
          a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// What a run of pieces found; runs are joined in the order of the walk, so that the result does not depend on threads.
-class Check {
- public:
-  Check(std::span<const Mesh> meshes, std::span<const TriangleId> first_ids) : meshes_(meshes), first_ids_(first_ids) {}
+void sort_and_unite(std::vector<std::uint64_t>& steps) {
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+}
 
-  void run(std::span<const Piece> pieces) {
-    const Box box = box_of_all(pieces);
+}  // namespace
+
+/// Consecutive pieces and what was found out about them; runs are joined in the order of the walk, so that the result
+/// does not depend on threads.
+class Verifier::Run {
+ public:
+  explicit Run(std::span<const Piece> pieces) : pieces_(pieces), box_(box_of_all(pieces)) {}
+
+  [[nodiscard]] std::size_t size() const { return pieces_.size(); }
+
+  void check(std::span<const Mesh> meshes, std::span<const TriangleId> first_ids) {
+    meshes_ = meshes;
+    first_ids_ = first_ids;
     std::vector<Candidate> candidates;
-    for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
-      const Mesh& mesh = meshes_[m];
+    for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+      const Mesh& mesh = meshes[m];
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (meet(box, box_of(mesh.triangle(t)))) candidates.push_back({m, t});
+        if (meet(box_, box_of(mesh.triangle(t)))) candidates.push_back({m, t});
       }
     }
-    halve(pieces, candidates);
+    halve(pieces_, candidates);
+    sort_and_unite(violations);
+    sort_and_unite(overstated);
   }
 
   std::uint64_t distances = 0;
@@ -111,70 +124,88 @@ class Check {
     }
   }
 
+  std::span<const Piece> pieces_;
+  Box box_;
+  // Of the present check.
   std::span<const Mesh> meshes_;
   std::span<const TriangleId> first_ids_;
 };
 
-/// The number of steps in runs that are each ascending and follow each other.
-std::uint64_t count_steps(const std::vector<Check>& runs, std::vector<std::uint64_t> Check::*steps) {
-  std::uint64_t count = 0;
-  std::optional<std::uint64_t> last;
-  for (const Check& run : runs) {
-    for (const std::uint64_t step : run.*steps) {
-      count += last != step ? 1 : 0;
-      last = step;
-    }
-  }
-  return count;
+void Verification::add(const Verification& other) {
+  pieces += other.pieces;
+  distances += other.distances;
+  violations += other.violations;
+  overstated += other.overstated;
+  if (other.least_gap) least_gap = std::min(least_gap.value_or(*other.least_gap), *other.least_gap);
+  if (!other.worst) return;
+  if (!worst || other.worst->radius - other.worst->distance > worst->radius - worst->distance) worst = other.worst;
 }
 
-}  // namespace
-
-Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
-                    const std::function<bool(std::uint64_t)>& progress) {
-  std::vector<TriangleId> first_ids;
-  TriangleId next = 0;
-  for (const Mesh& mesh : meshes) {
-    first_ids.push_back(next);
-    next += mesh.triangles.size();
+Verifier::Verifier(std::span<const Piece> pieces) : pieces_(pieces.size()) {
+  for (std::size_t begin = 0; begin < pieces.size(); begin += pieces_together) {
+    runs_.emplace_back(pieces.subspan(begin, std::min(pieces_together, pieces.size() - begin)));
   }
-  const std::size_t count = (pieces.size() + pieces_together - 1) / pieces_together;
-  std::vector<Check> runs(count, Check(meshes, first_ids));
+}
+Verifier::~Verifier() = default;
+
+void Verifier::check(std::span<const Mesh> meshes, TriangleId first,
+                     const std::function<bool(std::uint64_t)>& progress) {
+  std::vector<TriangleId> first_ids;
+  for (const Mesh& mesh : meshes) {
+    first_ids.push_back(first);
+    first += mesh.triangles.size();
+  }
   std::mutex mutex;
   std::uint64_t done = 0;
   bool cancelled = false;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      {
-        const std::scoped_lock lock(mutex);
-        if (cancelled) return;
-      }
-      const std::size_t begin = i * pieces_together;
-      const auto run = pieces.subspan(begin, std::min(pieces_together, pieces.size() - begin));
-      runs[i].run(run);
-      const std::scoped_lock lock(mutex);
-      done += run.size();
-      if (progress && !progress(done)) cancelled = true;
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs_.size(), 1),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                        {
+                          const std::scoped_lock lock(mutex);
+                          if (cancelled) return;
+                        }
+                        runs_[i].check(meshes, first_ids);
+                        const std::scoped_lock lock(mutex);
+                        done += runs_[i].size();
+                        if (progress && !progress(done)) cancelled = true;
+                      }
+                    });
   if (cancelled) throw Cancelled();
+}
 
+Verification Verifier::result() const {
+  // The number of steps in runs that are each ascending and follow each other.
+  const auto count_steps = [&](std::vector<std::uint64_t> Run::*steps) {
+    std::uint64_t count = 0;
+    std::optional<std::uint64_t> last;
+    for (const Run& run : runs_) {
+      for (const std::uint64_t step : run.*steps) {
+        count += last != step ? 1 : 0;
+        last = step;
+      }
+    }
+    return count;
+  };
   Verification result;
-  result.pieces = pieces.size();
-  result.violations = count_steps(runs, &Check::violations);
-  result.overstated = count_steps(runs, &Check::overstated);
-  for (const Check& run : runs) {
-    result.distances += run.distances;
-    if (run.least_gap) {
-      const auto gap = static_cast<double>(*run.least_gap);
-      result.least_gap = std::min(result.least_gap.value_or(gap), gap);
-    }
-    if (!run.worst) continue;
-    if (!result.worst || run.worst->radius - run.worst->distance > result.worst->radius - result.worst->distance) {
-      result.worst = run.worst;
-    }
+  result.pieces = pieces_;
+  result.violations = count_steps(&Run::violations);
+  result.overstated = count_steps(&Run::overstated);
+  for (const Run& run : runs_) {
+    Verification one;
+    one.distances = run.distances;
+    if (run.least_gap) one.least_gap = static_cast<double>(*run.least_gap);
+    one.worst = run.worst;
+    result.add(one);
   }
   return result;
+}
+
+Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
+                    const std::function<bool(std::uint64_t)>& progress) {
+  Verifier verifier(pieces);
+  verifier.check(meshes, 0, progress);
+  return verifier.result();
 }
 
 }  // namespace roam::app

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "roam/mesh.h"
-#include "roam/world.h"
+#include "roam/space.h"
 
 namespace roam::app {
 
@@ -29,7 +29,7 @@ struct Violation {
   double radius = 0.0;
 };
 
-/// By how much less than the radius a distance may be before it is a violation, in metres: what World promises.
+/// By how much less than the radius a distance may be before it is a violation, in metres: what Space promises.
 inline constexpr double radius_slack = 1e-6;
 /// By how much more than the true clearance a certified one may seem to be, in metres. A certificate has no slack; this
 /// is far more than long doubles round anywhere within 6.4e6 m, and far less than anybody could mind.
@@ -43,14 +43,33 @@ struct Verification {
   /// The least distance of the axis less the radius, metres; none when no triangle came near.
   std::optional<double> least_gap;
   std::optional<Violation> worst;
+
+  /// Adds what was found of other steps.
+  void add(const Verification& other);
 };
 
-/// Checks every piece against every triangle of `meshes`. A triangle is passed over only when its box is farther from
-/// the box of the piece than both the radius and the certified clearance; boxes are compared in doubles that are
-/// rounded outward. Whatever is left is measured by swept_distance. Independent of World.
-///
-/// Uses all cores; `progress` is called with the pieces done, from one thread at a time, and cancels by returning false
-/// (roam::Cancelled).
+/// Checks pieces against triangles that come little by little. A triangle is passed over only when its box is farther
+/// from the box of the piece than both the radius and the certified clearance; boxes are compared in doubles that are
+/// rounded outward. Whatever is left is measured by swept_distance. Independent of any Space. Uses all cores.
+class Verifier {
+ public:
+  /// The pieces must stay.
+  explicit Verifier(std::span<const Piece> pieces);
+  ~Verifier();
+
+  /// Checks all pieces against these triangles, which are numbered through from `first`. `progress` is called with the
+  /// pieces done, from one thread at a time, and cancels by returning false (roam::Cancelled).
+  void check(std::span<const Mesh> meshes, TriangleId first, const std::function<bool(std::uint64_t)>& progress = {});
+  /// Of all triangles that came.
+  [[nodiscard]] Verification result() const;
+
+ private:
+  class Run;
+  std::size_t pieces_;
+  std::vector<Run> runs_;
+};
+
+/// Checks every piece against every triangle of `meshes`.
 [[nodiscard]] Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 

@@ -7,15 +7,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <utility>
 
 #include "interrupt.h"
+#include "open_scene.h"
 #include "picture/picture.h"
 #include "progress.h"
 #include "recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
-#include "scene_options.h"
 #include "verbs.h"
 #include "walk_record.h"
 #include "walk_report.h"
@@ -45,8 +46,12 @@ struct WalkOptions {
   std::filesystem::path trace;
   std::filesystem::path picture;
   bool verify = false;
+  StoreOptions store;
+  SceneOptions against;  ///< the scene that a store was made of
   bool json = false;
 
+  /// Whether every move is checked against triangles.
+  [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }
   [[nodiscard]] Mode walker_mode() const {
     if (!mode) return recorded ? recorded->mode : Mode::walk;
     return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;
@@ -84,8 +89,9 @@ WalkerSettings walker_settings(const WalkOptions& options) {
 /// Takes down every step while a walk goes on.
 class Recorder {
  public:
-  Recorder(const WalkOptions& options, double expected_steps)
+  Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
       : options_(options),
+        scene_(scene),
         progress_(name(options.walker_mode()) + std::string("ing"), "steps"),
         expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
     if (!options.trace.empty()) trace_.emplace(options.trace);
@@ -95,7 +101,7 @@ class Recorder {
 
   /// Runs one step and takes it down.
   template <class Step>
-  const StepReport& step(const Step& run) {
+  const StepReport& step(const Walker& walker, const Step& run) {
     const auto begin = std::chrono::steady_clock::now();
     const StepReport& report = run();
     const auto took = std::chrono::steady_clock::now() - begin;
@@ -105,6 +111,7 @@ class Recorder {
     ++steps_;
     take(report);
     time_ += report.elapsed;
+    scene_.follow(walker);
     progress_.at(steps_, std::max(steps_, expected_steps_));
     return report;
   }
@@ -119,11 +126,13 @@ class Recorder {
  private:
   void take(const StepReport& report) {
     if (trace_) trace_->add(steps_, time_, options_.settings.radius, report);
-    if (options_.verify) append_pieces(pieces_, steps_, options_.settings.radius, report);
+    if (options_.checks() || !options_.picture.empty())
+      append_pieces(pieces_, steps_, options_.settings.radius, report);
     if (!options_.picture.empty()) append(record_, report, steps_ == 0);
   }
 
   const WalkOptions& options_;
+  OpenScene& scene_;
   Progress progress_;
   std::uint64_t expected_steps_;
   std::optional<TraceFile> trace_;
@@ -150,7 +159,7 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
       const double dt = std::min(seconds, options.dt);
       const Vec3 velocity = (waypoint - walker.position()) / seconds;
       const StepReport& report =
-          recorder.step([&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); });
+          recorder.step(walker, [&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); });
       result.length += glm::distance(report.from, report.to);
       result.simulated += dt;
       ++result.steps;
@@ -165,7 +174,7 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
 RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
   Route route(walker, waypoints, options);
   recorder.start(walker.report());
-  while (!route.done()) recorder.step([&]() -> const StepReport& { return route.advance(); });
+  while (!route.done()) recorder.step(walker, [&]() -> const StepReport& { return route.advance(); });
   return route.result();
 }
 
@@ -209,18 +218,33 @@ std::string title(const WalkOptions& options) {
                         : text + " along " + options.path.filename().string();
 }
 
-Verification verified(const LoadedScene& scene, const std::vector<Piece>& pieces) {
+Verification verified(const WalkOptions& options, const OpenScene& scene, const std::vector<Piece>& pieces) {
+  if (!options.against.scenes.empty()) {
+    Progress progress("verifying against " + options.against.names(), "B");
+    return verify_against(options.against, pieces,
+                          [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
+  }
   Progress progress("verifying", "pieces");
-  return verify(scene.meshes, pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
+  return scene.verified(pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
 }
 
+/// Metres. How far around the way a picture of a part of a store looks.
+constexpr double picture_reach = 20.0;
+
 ExitStatus walk(WalkOptions options) {
+  if (!options.against.scenes.empty()) {
+    // Of a store, they can only mean the scene that it is checked against.
+    SceneOptions& scene = options.scene;
+    options.against.up = std::exchange(scene.up, {});
+    options.against.unit = std::exchange(scene.unit, "m");
+    options.against.ignore = std::exchange(scene.ignore, {});
+  }
   if (!options.path.empty()) options.recorded = recorded_body(options.path);
   options.settings = walker_settings(options);
   check_outputs(options);
   if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
-  if (options.verify && mode == Mode::ghost) {
+  if (options.checks() && mode == Mode::ghost) {
     throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
   }
   if (options.wander && mode == Mode::ghost) {
@@ -239,14 +263,15 @@ ExitStatus walk(WalkOptions options) {
   std::optional<picture::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
-  const LoadedScene scene = load(options.scene, needs_triangles ? Source::keep : Source::release);
+  OpenScene scene(options.scene, options.store, needs_triangles ? Source::keep : Source::release);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
-  Recorder recorder(options, seconds / options.route.dt);
+  Recorder recorder(options, scene, seconds / options.route.dt);
   const Vec3 start = !options.from.empty() ? Vec3(options.from[0], options.from[1], options.from[2])
-                     : options.wander      ? wander_start(scene.world, options.settings, mode, scene.floors)
+                     : options.wander      ? scene.start(options.settings, mode)
                                            : path.front();
-  Walker walker(scene.world, options.settings, mode, start);
+  scene.wait_at(Body::capsule(options.settings.radius, options.settings.height), start);
+  Walker walker(scene.space(), options.settings, mode, start);
   WalkReport report;
   if (options.wander) {
     Wander wander(walker, options.route, *options.wander);
@@ -254,7 +279,7 @@ ExitStatus walk(WalkOptions options) {
     while (!wander.done()) {
       wander.look();
       if (wander.done()) break;
-      recorder.step([&]() -> const StepReport& { return wander.advance(); });
+      recorder.step(walker, [&]() -> const StepReport& { return wander.advance(); });
     }
     report.result = wander.result();
   } else if (mode == Mode::ghost) {
@@ -266,20 +291,34 @@ ExitStatus walk(WalkOptions options) {
   recorder.finish();
 
   report.scene = options.scene.names();
-  report.triangles = scene.world.stats().triangles;
+  report.triangles = scene.triangles();
   report.mode = mode;
   report.settings = options.settings;
   report.waypoints = path.size();
   report.eye = walker.eye();
-  if (report.result.blocked_at) report.object = scene.world.object_name(report.result.blocked_at->triangle);
+  if (report.result.blocked_at) {
+    // What was not known has no number in the scene: it is named by why it is not.
+    const TriangleId triangle = report.result.blocked_at->triangle;
+    if (walker.report().met_unknown) {
+      report.object = scene.space().object_name(triangle);
+    } else {
+      const SourceTriangle source = scene.source(triangle);
+      report.object = source.object;
+      report.result.blocked_at->triangle = source.scene;
+    }
+  }
+  report.paging = scene.paging();
   report.times = recorder.times();
-  if (options.verify) {
+  if (options.checks()) {
     const auto begin = std::chrono::steady_clock::now();
-    report.verified = verified(scene, recorder.pieces());
+    report.verified = verified(options, scene, recorder.pieces());
     report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   if (drawing) {
-    drawing->write(picture::make_sheet({title(options), report, recorder.record(), scene.world, scene.meshes}));
+    const std::vector<Mesh> around =
+        scene.store() ? scene.triangles_around(recorder.pieces(), picture_reach) : std::vector<Mesh>();
+    const std::span<const Mesh> meshes = scene.store() ? around : scene.loaded().meshes;
+    drawing->write(picture::make_sheet({title(options), report, recorder.record(), scene.space(), meshes}));
   }
   if (options.json) {
     print(json_report(report));
@@ -343,6 +382,11 @@ void add_walk(CLI::App& program, Run& run) {
   verb->add_option("--picture", o.picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
   verb->add_flag("--verify", o.verify,
                  "Check every move against all triangles, in higher precision, without the index");
+  verb->add_option("--against", o.against.scenes,
+                   "For a store: check every move against the triangles of the scene that it was made of, as they are "
+                   "read")
+      ->type_name("SCENE");
+  o.store.add_to(*verb);
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return walk(*options); }; });
 }

@@ -70,6 +70,24 @@ std::string explain(const WalkReport& report) {
   return {};
 }
 
+Json json_report(const PagerStats& paging) {
+  return {{"memory", paging.memory},
+          {"used", paging.used},
+          {"tiles", paging.tiles},
+          {"pages", paging.pages},
+          {"triangles", paging.triangles},
+          {"wanted", paging.wanted},
+          {"loads", paging.loads},
+          {"evictions", paging.evictions},
+          {"failures", paging.failures},
+          {"failed", paging.failed},
+          {"bytes_read", paging.bytes_read},
+          {"worst_read_s", paging.worst_read_s},
+          {"worst_decode_s", paging.worst_decode_s},
+          {"ready_m", paging.ready_m},
+          {"last_failure", paging.last_failure}};
+}
+
 Json json_report(const WalkReport& report) {
   const RouteResult& result = report.result;
   Json blocked = nullptr;
@@ -104,6 +122,7 @@ Json json_report(const WalkReport& report) {
                {"end", {{"position", to_json(result.end)}, {"eye", to_json(report.eye)}}},
                {"verified", nullptr},
                {"events", events}};
+  if (report.paging) json["paging"] = json_report(*report.paging);
   if (report.verified) {
     const Verification& v = *report.verified;
     json["violations"] = v.violations;
@@ -137,7 +156,13 @@ std::string text_report(const WalkReport& report) {
   }
   line("time of a step", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us at most", report.times.median * 1e-3,
                                      report.times.p99 * 1e-3, report.times.max * 1e-3));
-  if (result.throttled > 0) line("throttled", fmt::format("{} steps ended early", result.throttled));
+  if (result.throttled > 0) line("throttled", fmt::format("{} steps ended early or were slowed", result.throttled));
+  if (report.paging) {
+    const PagerStats& p = *report.paging;
+    line("paging", fmt::format("{}B of memory, {} loads, {} evictions, {}B read", short_count(double(p.memory)),
+                               p.loads, p.evictions, short_count(double(p.bytes_read))));
+    if (p.failed > 0) line("", fmt::format("{} tiles or pages are solid: {}", p.failed, p.last_failure));
+  }
   if (report.verified) {
     const Verification& v = *report.verified;
     line("verified", fmt::format("{} violations in {} straight pieces against all triangles, {}", v.violations,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "report.h"
+#include "roam/pager.h"
 #include "roam/route.h"
 #include "verification.h"
 #include "walk_record.h"
@@ -25,7 +26,11 @@ struct WalkReport {
   StepTimes times;
   std::optional<Verification> verified;
   double verify_seconds = 0.0;
+  std::optional<PagerStats> paging;  ///< where the scene is a store
 };
+
+/// What a pager held and did, as every report says it.
+[[nodiscard]] Json json_report(const PagerStats& paging);
 
 /// One sentence or two that say how the walk ended, and what can be done where it did not reach its end.
 [[nodiscard]] std::string explain(const WalkReport& report);

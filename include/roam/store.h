@@ -93,6 +93,8 @@ class Store {
   /// Throws roam::Error for what cannot be read or is damaged, naming tile and place.
   void for_each_triangle(const Box& box,
                          const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const;
+  /// The middles of up to `count` tiles, spread evenly over all: where triangles are many, places are many.
+  [[nodiscard]] std::vector<Vec3> sample(std::uint64_t count) const;
   /// Throws roam::Error as above, or when `triangle` is not of this store.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
 

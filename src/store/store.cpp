@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "store/files.h"
 #include "store/tile_reader.h"
@@ -113,6 +114,26 @@ void Store::for_each_triangle(
       f(triangles, ids);
     }
   }
+}
+
+std::vector<Vec3> Store::sample(std::uint64_t count) const {
+  store::TileReader reader(*state_);
+  std::vector<Vec3> places;
+  const std::uint64_t tiles = state_->info.tiles;
+  count = std::min(count, tiles);
+  std::uint64_t first = 0;  // tile of the page
+  for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
+    const std::uint64_t end = first + state_->pages[p].ref.tiles;
+    std::optional<store::LoadedPage> page;
+    for (; places.size() < count;) {
+      const std::uint64_t tile = (2 * places.size() + 1) * tiles / (2 * count);
+      if (tile >= end) break;
+      if (!page) page = reader.page(p);
+      places.push_back(store::box_of(page->view.tiles[tile - first]).center());
+    }
+    first = end;
+  }
+  return places;
 }
 
 SourceTriangle Store::source(TriangleId triangle) const {

@@ -1,0 +1,183 @@
+#include "open_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "exit_status.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "store_start.h"
+
+namespace roam::app {
+namespace {
+
+/// Seconds. How long a body that is put somewhere may wait for what is there; then it is held, as said.
+constexpr double longest_wait = 60.0;
+
+/// Metres and triangles. Pieces of a way are checked against a store together as long as they stay so near to each
+/// other that what lies around them fits in memory.
+constexpr double stretch = 100.0;
+constexpr std::uint64_t most_triangles = 50'000'000;
+
+Box grown(const Box& box, double by) { return {box.lower - by, box.upper + by}; }
+
+Box box_of(std::span<const Piece> pieces) {
+  Box box;
+  for (const Piece& piece : pieces) {
+    const double reach = std::max(piece.body.radius, piece.clearance) + piece.body.half_height;
+    box.include(grown({glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}, reach));
+  }
+  return box;
+}
+
+Mesh read_triangles(const Store& store, const Box& box) {
+  Mesh mesh;
+  store.for_each_triangle(box, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+    stop_if_interrupted();
+    for (const Triangle& triangle : triangles) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    if (mesh.triangles.size() > most_triangles) {
+      throw Error(fmt::format("{}: more than {} triangles lie around this way; look at a shorter part of it",
+                              store.name(), short_count(static_cast<double>(most_triangles))));
+    }
+  });
+  return mesh;
+}
+
+/// The pieces from `begin` on that stay near to each other. Never part of a step.
+std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
+  Box box;
+  std::size_t end = begin;
+  for (std::size_t i = begin; i < pieces.size(); ++i) {
+    box.include(pieces[i].from);
+    box.include(pieces[i].to);
+    const Vec3 size = box.size();
+    if (end > begin && std::max({size.x, size.y, size.z}) > stretch) return end;
+    if (i + 1 == pieces.size() || pieces[i + 1].step != pieces[i].step) end = i + 1;
+  }
+  return pieces.size();
+}
+
+std::shared_ptr<const Store> open_store(const SceneOptions& options) {
+  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
+  if (std::none_of(options.scenes.begin(), options.scenes.end(), is_store)) return nullptr;
+  if (options.scenes.size() > 1) {
+    throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
+  }
+  if (options.says_how_to_read()) {
+    throw UsageError(options.scenes.front().string() +
+                     " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
+  }
+  return Store::open(options.scenes.front());
+}
+
+}  // namespace
+
+void StoreOptions::add_to(CLI::App& verb) {
+  verb.add_option("--memory", memory, "For a store: memory of its collision, e.g. 64M or 1G (default: 64M)")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
+}
+
+OpenScene::OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source)
+    : store_(open_store(options)) {
+  if (store_) {
+    pager_ = std::make_unique<Pager>(store_,
+                                     PagerOptions{.memory = store_options.memory.value_or(StoreOptions::usual_memory)});
+    return;
+  }
+  if (store_options.memory) {
+    throw UsageError("--memory is for stores; " + options.names() + " is read whole (roam build makes a store of it)");
+  }
+  loaded_ = load(options, source);
+}
+
+const Space& OpenScene::space() const {
+  if (pager_) return *pager_;
+  return loaded_.world;
+}
+
+std::uint64_t OpenScene::triangles() const {
+  return store_ ? store_->info().triangles : loaded_.world.stats().triangles;
+}
+
+Box OpenScene::bounds() const { return store_ ? store_->info().bounds : loaded_.bounds; }
+
+std::optional<PagerStats> OpenScene::paging() const {
+  if (!pager_) return std::nullopt;
+  return pager_->stats();
+}
+
+Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) const {
+  return store_ ? store_start(*store_, settings, mode) : wander_start(loaded_.world, settings, mode, loaded_.floors);
+}
+
+void OpenScene::wait_at(const Body& body, const Vec3& place) {
+  if (!pager_) return;
+  pager_->wait(body, place, Vec3(0.0), longest_wait);
+  stop_if_interrupted();
+}
+
+void OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& motion) {
+  if (!pager_) return;
+  // Little by little: what is near the beginning first, and no more than a part of it at once.
+  const double length = glm::length(motion);
+  const Vec3 step = length > stretch ? motion * (stretch / length) : motion;
+  pager_->wait(body, from, step, longest_wait, 1.0);
+  stop_if_interrupted();
+}
+
+void OpenScene::follow(const Walker& walker) {
+  if (!pager_) return;
+  const StepReport& report = walker.report();
+  const Vec3 velocity = report.elapsed > 0.0 ? (report.to - report.from) / report.elapsed : Vec3(0.0);
+  pager_->wait(walker.body(), walker.position(), velocity, report.elapsed);
+}
+
+SourceTriangle OpenScene::source(TriangleId triangle) const {
+  if (store_) return store_->source(triangle);
+  return {"", triangle, triangle, loaded_.world.object_name(triangle)};
+}
+
+std::vector<Mesh> OpenScene::triangles_around(std::span<const Piece> pieces, double reach) const {
+  if (!store_) return loaded_.meshes;
+  std::vector<Mesh> meshes;
+  meshes.push_back(read_triangles(*store_, grown(box_of(pieces), reach)));
+  return meshes;
+}
+
+Verification OpenScene::verified(std::span<const Piece> pieces,
+                                 const std::function<bool(std::uint64_t)>& progress) const {
+  if (!store_) return verify(loaded_.meshes, pieces, progress);
+  Verification all;
+  for (std::size_t begin = 0; begin < pieces.size();) {
+    const std::size_t end = end_of_stretch(pieces, begin);
+    const auto part = pieces.subspan(begin, end - begin);
+    const Mesh mesh = read_triangles(*store_, box_of(part));
+    all.add(verify({&mesh, 1}, part));
+    begin = end;
+    if (progress && !progress(begin)) throw Cancelled();
+  }
+  return all;
+}
+
+Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,
+                            const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  Verifier verifier(pieces);
+  ImportOptions import = scene.import_options();
+  import.progress = [&](const ImportProgress& p) { return progress(p.bytes_read, p.bytes_total);
+};
+TriangleId first = 0;
+stream_scene(scene.scenes, import, [&](const Mesh& piece, bool) {
+  verifier.check({&piece, 1}, first);
+  first += piece.triangles.size();
+});
+return verifier.result();
+}  // namespace roam::app
+
+}  // namespace roam::app

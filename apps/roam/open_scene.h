@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// What a verb moves bodies in: a scene that was read and indexed whole, or a store that is paged while one moves.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "roam/pager.h"
+#include "roam/walker.h"
+#include "scene_options.h"
+#include "verification.h"
+
+namespace roam::app {
+
+/// `--memory`: of the collision of a store, bytes.
+struct StoreOptions {
+  static constexpr std::uint64_t usual_memory = 64ull << 20;
+  std::optional<std::uint64_t> memory;
+
+  void add_to(CLI::App& verb);
+};
+
+class OpenScene {
+ public:
+  /// Reads and indexes a scene, or opens a store, which must then be the only one that is named. Throws what load and
+  /// Store::open throw, and UsageError for options that have no meaning for what is opened.
+  OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source);
+
+  [[nodiscard]] const Space& space() const;
+  [[nodiscard]] std::uint64_t triangles() const;
+  [[nodiscard]] Box bounds() const;
+  /// Null where the scene was read whole.
+  [[nodiscard]] const Store* store() const { return store_.get(); }
+  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  /// Of the pager; nothing where the scene was read whole.
+  [[nodiscard]] std::optional<PagerStats> paging() const;
+
+  /// A free place to start from, see wander_start.
+  [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode) const;
+  /// Waits until a body there has ground to stand on, where it must be waited for.
+  void wait_at(const Body& body, const Vec3& place);
+  /// Waits until what lies along a way is known, as far as memory holds it.
+  void wait_along(const Body& body, const Vec3& from, const Vec3& motion);
+  /// To be called after every step: takes into use what has come. A walk that is computed faster than a person walks
+  /// waits for what that person would have had, at most as long as the step lasts.
+  void follow(const Walker& walker);
+
+  /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
+  [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
+
+  /// The triangles that come near these pieces, as read, or where it is a store as stored.
+  [[nodiscard]] std::vector<Mesh> triangles_around(std::span<const Piece> pieces, double reach) const;
+  /// Every piece against every triangle: of the scene as read, of the store as stored.
+  [[nodiscard]] Verification verified(std::span<const Piece> pieces,
+                                      const std::function<bool(std::uint64_t)>& progress) const;
+
+ private:
+  LoadedScene loaded_;
+  std::shared_ptr<const Store> store_;
+  std::unique_ptr<Pager> pager_;
+};
+
+/// Every piece against every triangle of a scene that is read piece by piece, however large it is. `progress` as of
+/// verify, but with bytes done and in all.
+[[nodiscard]] Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,
+                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
+
+}  // namespace roam::app

@@ -1,0 +1,112 @@
+// roam verify: is every byte of a store what was written?
+#include <fmt/format.h>
+
+#include "exit_status.h"
+#include "progress.h"
+#include "report.h"
+#include "roam/store.h"
+#include "roam/store_build.h"
+#include "scene_options.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+struct VerifyOptions {
+  std::filesystem::path store;
+  SceneOptions repair;  ///< the scene to repair it from
+  bool json = false;
+};
+
+/// Lines of damage that are told in text; JSON tells all.
+constexpr std::size_t most_lines = 20;
+
+Json json_report(const VerifyOptions& options, const StoreVerification& found, std::uint64_t repaired) {
+  Json damage = Json::array();
+  for (const StoreDamage& d : found.damage) {
+    damage.push_back({{"what", d.what}, {"why", d.why}, {"where", nullptr}});
+    if (!d.where.empty()) damage.back()["where"] = to_json(d.where);
+  }
+  return {{"store", options.store.string()}, {"bytes", found.bytes}, {"tiles", found.tiles},
+          {"whole", found.damage.empty()},   {"damage", damage},     {"shards_repaired", repaired}};
+}
+
+std::string text_report(const VerifyOptions& options, const StoreVerification& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
+    text += fmt::format("{}: {}\n", found.damage[i].what, found.damage[i].why);
+  }
+  if (found.damage.size() > most_lines) {
+    text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
+  }
+  if (found.damage.empty()) {
+    return fmt::format("{}: whole; {}B and {} tiles are what was written\n", options.store.string(),
+                       short_count(static_cast<double>(found.bytes)), found.tiles);
+  }
+  return text + fmt::format("{}: {} things are damaged and solid; `roam verify {} --repair SCENE` builds them again\n",
+                            options.store.string(), found.damage.size(), options.store.string());
+}
+
+StoreVerification look(const VerifyOptions& options) {
+  Progress progress("verifying " + options.store.string(), "B");
+  return verify_store(options.store,
+                      [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
+}
+
+std::uint64_t repair(const VerifyOptions& options) {
+  StoreBuildOptions build;
+  build.scene = options.repair.scenes;
+  build.import = options.repair.import_options();
+  build.output = options.store;
+  build.threads = options.repair.threads;
+  Progress progress("repairing " + options.store.string(), "triangles");
+  build.progress = [&](const StoreBuildProgress& p) {
+    return progress.goes_on(p.triangles_done, std::max(p.triangles_done, p.triangles_total));
+  };
+  return repair_store(build);
+}
+
+ExitStatus verify_or_repair(const VerifyOptions& options) {
+  StoreVerification found = look(options);
+  std::uint64_t repaired = 0;
+  if (!found.damage.empty() && !options.repair.scenes.empty()) {
+    if (!options.json) print(text_report(options, found));
+    repaired = repair(options);
+    found = look(options);
+  }
+  if (options.json) {
+    print(json_report(options, found, repaired));
+  } else {
+    print(text_report(options, found));
+  }
+  return found.damage.empty() ? done : answer_no;
+}
+
+constexpr const char* help =
+    "Reads every byte of a store: the hash of every file, the checksum of every tile and page; decodes every tile, "
+    "and\n"
+    "compares counts, boxes and the hash of all triangles. What is damaged is named by tile and place: there the "
+    "store\n"
+    "is solid, everywhere else it can be walked. With --repair just the shards with damage are built again, from the\n"
+    "scene that the store was made of. Exit status 0 when the store is whole, 3 when not.\n\n"
+    "Examples:\n"
+    "  roam verify dam.roam\n"
+    "  roam verify dam.roam --repair Data/\n"
+    "  roam verify dam.roam --json\n";
+
+}  // namespace
+
+void add_verify(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("verify", "Says whether a store is whole, and repairs it");
+  verb->footer(help);
+  const auto options = std::make_shared<VerifyOptions>();
+  VerifyOptions& o = *options;
+  verb->add_option("STORE", o.store, "The store's folder")->required()->type_name("");
+  verb->add_option("--repair", o.repair.scenes, "The scene that the store was made of: build what is damaged again")
+      ->type_name("SCENE...");
+  o.repair.add_reading_to(*verb);
+  verb->add_flag("--json", o.json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return verify_or_repair(*options); }; });
+}
+
+}  // namespace roam::app
