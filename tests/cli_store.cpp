@@ -1,0 +1,229 @@
+// roam build, info, verify, walk and sweep with a store, as a shell sees them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "program.h"
+#include "roam/generate.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+ProgramResult run(const std::vector<std::string>& arguments, const std::string& input = {}) {
+  return run_program(ROAM_PROGRAM, arguments, {.input = input});
+}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A gallery, its store, and the straight way through it, cut short: made once.
+class StoreVerbs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TestFolder;
+    roam::generate::write_scene(roam::generate::gallery({.triangles = 60'000, .seed = 1}), scene());
+    folder_->write("straight.path", "-13739 253 182\n-13639 359.3 182\n");
+    const ProgramResult built = run({"build", scene()});
+    ASSERT_EQ(built.status, 0) << built.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string scene() { return folder_->file("gallery.ply"); }
+  static std::string store() { return folder_->file("gallery.ply.roam"); }
+  static std::string path() { return folder_->file("straight.path"); }
+  /// A copy that a test may damage.
+  static std::string copy(const TestFolder& folder) {
+    fs::copy(store(), folder.file("copy.roam"), fs::copy_options::recursive);
+    return folder.file("copy.roam");
+  }
+  static fs::path only_pack(const std::string& of) { return fs::directory_iterator(of + "/packs")->path(); }
+  static void flip(const fs::path& file, std::streamoff at) {
+    std::fstream bytes(file, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekg(at);
+    const int was = bytes.get();
+    bytes.seekp(at);
+    bytes.put(static_cast<char>(was ^ 16));
+  }
+
+  static TestFolder* folder_;
+};
+TestFolder* StoreVerbs::folder_ = nullptr;
+
+TEST_F(StoreVerbs, InfoSaysWhatItHoldsAndCosts) {
+  const json scene_info = json::parse(run({"info", scene(), "--json"}).out);
+  const ProgramResult told = run({"info", store(), "--json"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  const json info = json::parse(told.out);
+  EXPECT_EQ(info["triangles"], scene_info["triangles"]);
+  EXPECT_EQ(info["bounds"], scene_info["bounds"]);
+  EXPECT_EQ(info["format"], "store 1");
+  EXPECT_EQ(info["hash"].get<std::string>().size(), 64U);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(store())) {
+    if (entry.is_regular_file() && entry.path().filename() != "LOCK" && entry.path().extension() != "") {
+      bytes += entry.file_size();
+    }
+  }
+  EXPECT_NEAR(info["bytes"].get<double>(), static_cast<double>(bytes), 200.0) << "all files, CURRENT too";
+  EXPECT_GT(info["tiles"], 1);
+  EXPECT_GT(info["largest_error_m"], 0.0);
+  EXPECT_LT(info["largest_error_m"], 1e-3);
+}
+
+TEST_F(StoreVerbs, SweepAnswersAsTheSceneDoes) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> along(0.0, 100.0), off(-1.0, 1.0), way(-5.0, 5.0);
+  std::string queries;
+  for (int i = 0; i < 300; ++i) {
+    const double s = along(random);
+    queries += std::to_string(-13739 + s) + ',' + std::to_string(253 + 1.063 * s + off(random)) + ',' +
+               std::to_string(182 + 0.5 * off(random)) + ',' + std::to_string(way(random)) + ',' +
+               std::to_string(way(random)) + ',' + std::to_string(way(random)) + ",0.2\n";
+  }
+  const ProgramResult by_scene = run({"sweep", scene()}, queries), by_store = run({"sweep", store()}, queries);
+  ASSERT_EQ(by_store.status, 0) << by_store.err;
+  std::istringstream a(by_scene.out), b(by_store.out);
+  int hits = 0, same = 0, rows = 0;
+  for (std::string row_a, row_b; std::getline(a, row_a) && std::getline(b, row_b); ++rows) {
+    if (rows == 0) {
+      EXPECT_EQ(row_a, row_b);
+      continue;
+    }
+    std::vector<std::string> fields_a, fields_b;
+    for (auto [row, fields] : {std::pair(&row_a, &fields_a), std::pair(&row_b, &fields_b)}) {
+      std::istringstream in(*row);
+      for (std::string field; std::getline(in, field, ',');) fields->push_back(field);
+    }
+    ASSERT_EQ(fields_a[0], fields_b[0]) << row_a << '\n' << row_b;
+    if (fields_a[0] == "0") continue;
+    ++hits;
+    // Both err by the tiles' error at most, along a way of at most 8.7 m that may graze.
+    EXPECT_NEAR(std::stod(fields_a[1]), std::stod(fields_b[1]), 0.02) << row_a << '\n' << row_b;
+    same += fields_a[8] == fields_b[8] ? 1 : 0;
+  }
+  EXPECT_EQ(rows, 301);
+  EXPECT_GT(hits, 150);
+  EXPECT_GT(same, hits * 9 / 10) << "triangles are numbered as in the scene, but for neighbours that are met together";
+}
+
+TEST_F(StoreVerbs, AWalkIsVerifiedAgainstTheStoreAndAgainstTheScene) {
+  for (const std::vector<std::string>& check :
+       {std::vector<std::string>{"--verify"}, std::vector<std::string>{"--against", scene()}}) {
+    for (const char* mode : {"walk", "fly"}) {
+      std::vector<std::string> arguments{"walk",    store(), "--path",   path(), "--mode", mode,
+                                         "--speed", "20",    "--memory", "8M",   "--json"};
+      arguments.insert(arguments.end(), check.begin(), check.end());
+      const ProgramResult walked = run(arguments);
+      ASSERT_EQ(walked.status, 0) << walked.err << walked.out;
+      const json report = json::parse(walked.out);
+      EXPECT_EQ(report["outcome"], "reached");
+      EXPECT_EQ(report["violations"], 0);
+      EXPECT_GT(report["verified"]["distances"], 1000);
+      EXPECT_EQ(report["verified"]["overstated_clearances"], 0);
+      EXPECT_LE(report["paging"]["memory"], 8 << 20);
+      EXPECT_GT(report["paging"]["loads"], 0);
+    }
+  }
+}
+
+TEST_F(StoreVerbs, WandersFromAPlaceThatIsFoundAndDrawsThat) {
+  const TestFolder folder;
+  const ProgramResult walked = run(
+      {"walk", store(), "--wander", "5", "--height", "1.8", "--verify", "--json", "--picture", folder.file("way.svg")});
+  ASSERT_EQ(walked.status, 0) << walked.err << walked.out;
+  const json report = json::parse(walked.out);
+  EXPECT_EQ(report["violations"], 0);
+  EXPECT_GT(report["length_m"], 3.0);
+  EXPECT_GT(folder.read("way.svg").size(), 5000U);
+}
+
+TEST_F(StoreVerbs, NamesWhatBlocksByObjectAndTriangleOfTheScene) {
+  const TestFolder folder;
+  folder.write("room.obj",
+               "v 0 -2 0\nv 20 -2 0\nv 20 2 0\nv 0 2 0\nv 5 -2 0\nv 5 2 0\nv 5 -2 3\nv 5 2 3\n"
+               "o floor\nf 1 2 3 4\no wall\nf 5 6 8 7\n");
+  folder.write("in.path", "1 0 0.9\n10 0 0.9\n");
+  ASSERT_EQ(run({"build", folder.file("room.obj"), "-o", folder.file("room.roam")}).status, 0);
+  const ProgramResult walked =
+      run({"walk", folder.file("room.roam"), "--path", folder.file("in.path"), "--height", "1.8", "--json"});
+  EXPECT_EQ(walked.status, 3);
+  const json report = json::parse(walked.out);
+  EXPECT_EQ(report["outcome"], "blocked");
+  EXPECT_EQ(report["blocked_at"]["object"], "wall");
+  EXPECT_GE(report["blocked_at"]["triangle"], 2);
+  EXPECT_LE(report["blocked_at"]["triangle"], 3);
+}
+
+TEST_F(StoreVerbs, DamageIsNamedSolidAndRepaired) {
+  const TestFolder folder;
+  const std::string bad = copy(folder);
+  const fs::path pack = only_pack(bad);
+  flip(pack, static_cast<std::streamoff>(fs::file_size(pack) / 3));
+  const ProgramResult verified = run({"verify", bad, "--json"});
+  EXPECT_EQ(verified.status, 3) << verified.out;
+  const json found = json::parse(verified.out);
+  EXPECT_FALSE(found["whole"]);
+  ASSERT_GE(found["damage"].size(), 1U);
+  EXPECT_TRUE(contains(verified.out, "tile ") && contains(verified.out, " of page 0")) << verified.out;
+  EXPECT_TRUE(contains(run({"verify", bad}).out, "--repair"));
+
+  const ProgramResult repaired = run({"verify", bad, "--repair", scene()});
+  EXPECT_EQ(repaired.status, 0) << repaired.out << repaired.err;
+  EXPECT_EQ(run({"verify", bad}).status, 0);
+  EXPECT_EQ(fs::file_size(only_pack(bad)), fs::file_size(only_pack(store())));
+}
+
+TEST_F(StoreVerbs, EveryTileDamagedHoldsABodyAndLetsNothingThrough) {
+  const TestFolder folder;
+  const std::string bad = copy(folder);
+  const fs::path pack = only_pack(bad);
+  // All of the first half: tiles; the pages lie at the end.
+  for (std::uintmax_t at = 64; at < fs::file_size(pack) / 2; at += 64) flip(pack, static_cast<std::streamoff>(at));
+  const ProgramResult walked =
+      run({"walk", bad, "--path", path(), "--mode", "fly", "--speed", "20", "--against", scene(), "--json"});
+  const json report = json::parse(walked.out);
+  EXPECT_EQ(report["violations"], 0) << walked.out;
+  if (report["outcome"] != "reached") {
+    EXPECT_EQ(walked.status, 3);
+    EXPECT_GT(report["paging"]["failed"], 0);
+    EXPECT_TRUE(contains(report["paging"]["last_failure"], "tile")) << report["paging"];
+  }
+}
+
+TEST_F(StoreVerbs, OptionsThatMeanNothingForAStoreOrASceneAreRefused) {
+  EXPECT_EQ(run({"walk", store(), "--up", "y", "--path", path()}).status, 2);
+  EXPECT_EQ(run({"walk", store(), "--lossless", "--path", path()}).status, 2);
+  EXPECT_EQ(run({"info", store(), scene()}).status, 2);
+  EXPECT_EQ(run({"sweep", store(), scene()}).status, 2);
+  EXPECT_EQ(run({"walk", scene(), "--memory", "64M", "--path", path()}).status, 2);
+  EXPECT_EQ(run({"walk", store(), "--memory", "lots", "--path", path()}).status, 2);
+  const ProgramResult little = run({"walk", store(), "--memory", "1M", "--path", path()});
+  EXPECT_NE(little.status, 0);
+  EXPECT_TRUE(contains(little.err, "memory")) << little.err;
+}
+
+TEST_F(StoreVerbs, ANewerFormatAsksForANewerRoam) {
+  const TestFolder folder;
+  const std::string newer = copy(folder);
+  std::string current = folder.read("copy.roam/CURRENT");
+  current.replace(current.find(" 1\n"), 3, " 9\n");
+  folder.write("copy.roam/CURRENT", current);
+  for (const char* verb : {"info", "verify", "sweep"}) {
+    const ProgramResult told = run({verb, newer});
+    EXPECT_EQ(told.status, 1);
+    EXPECT_TRUE(contains(told.err, "newer roam")) << told.err;
+  }
+}
+
+TEST_F(StoreVerbs, ASecondBuildOfTheSameSceneDoesNothing) {
+  const ProgramResult again = run({"build", scene(), "--json"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  const json report = json::parse(again.out);
+  EXPECT_TRUE(report["unchanged"]);
+  EXPECT_EQ(report["shards_built"], 0);
+}
+
+}  // namespace
