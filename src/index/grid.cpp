@@ -39,7 +39,13 @@ StepBox Grid::steps(const Box& box) const {
 
 std::array<std::int64_t, 3> Grid::fine(const Vec3& p) const {
   std::array<std::int64_t, 3> f{};
-  for (int k = 0; k < 3; ++k) f[k] = std::llround((p[k] - origin[k]) / step * double(kFineSteps));
+  // Both are powers of two: the product is the quotient, to the last bit.
+  const double per_metre = double(kFineSteps) / step;
+  for (int k = 0; k < 3; ++k) {
+    // llround of numbers below 2^52, without the call: the greatest double below 1/2 carries just what rounds up.
+    const double x = (p[k] - origin[k]) * per_metre;
+    f[k] = static_cast<std::int64_t>(x + std::copysign(0x1.fffffffffffffp-2, x));
+  }
   return f;
 }
 
