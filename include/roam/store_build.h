@@ -68,9 +68,11 @@ struct StoreBuildReport {
 /// Plans, builds and merges. Throws what the three throw.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
-/// Reads what has changed and decides the shards. Returns how many shards are still to be built; 0 with `unchanged`
-/// when the store is up to date. Throws roam::Error for a scene that cannot be read, a folder that is no store and not
-/// empty, another build at work on it (naming its process), too little memory or disk; roam::Cancelled.
+/// Reads what has changed and decides the shards. Returns how many shards the store that is in force does not have; 0
+/// with `unchanged` when it is up to date. Planning again gives the same plan with the same numbers; shards that are
+/// built by then stay, and building them again is done at once. Throws roam::Error for a scene that cannot be read, a
+/// folder that is no store and not empty, another build at work on it (naming its process), too little memory or disk;
+/// roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds shard `i` of the plan in `options.output`, 0 <= i < what plan_store returned. Of the other options only
@@ -83,7 +85,8 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds again just the shards in which verify_store finds damage, from the scene that the store was made of, and
-/// publishes. Throws roam::Error when the scene is not the one that it was made of. Returns how many were built.
+/// publishes. Where the manifest itself is damaged, everything is built again. Throws roam::Error when the scene is not
+/// the one that the store was made of. Returns how many were built.
 std::uint64_t repair_store(const StoreBuildOptions& options);
 
 }  // namespace roam
