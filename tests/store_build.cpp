@@ -117,6 +117,26 @@ TEST(StoreBuild, TakesMoreTrianglesInOnePointThanATileHolds) {
   expect_conserved(folder.file("s"), triangles_of({mesh}), 1e-3);
 }
 
+TEST(StoreBuild, TakesMoreTrianglesInOnePointThanAShardHolds) {
+  const TestFolder folder;
+  Mesh mesh;
+  mesh.vertices = {{1.0, 2.0, 3.0}, {1.1, 2.0, 3.0}, {1.0, 2.1, 3.0}};
+  mesh.triangles.assign((1U << 20) + 30'000, {0, 1, 2});
+  write_ply(folder.file("point.ply"), mesh);
+  const auto report = roam::build_store(options({folder.file("point.ply")}, folder.file("s")));
+  EXPECT_EQ(report.shards, 2U);
+  expect_whole(folder.file("s"));
+  const auto store = roam::Store::open(folder.file("s"));
+  EXPECT_EQ(store->info().triangles, mesh.triangles.size());
+  std::vector<roam::TriangleId> some;
+  store->for_each_triangle(everything, [&](std::span<const Triangle>, std::span<const roam::TriangleId> ids) {
+    for (std::size_t i = 0; i < ids.size(); i += 4000) some.push_back(ids[i]);
+  });
+  std::set<std::uint64_t> numbers;
+  for (const auto id : some) EXPECT_TRUE(numbers.insert(store->source(id).number).second);
+  EXPECT_GT(numbers.size(), 200U);
+}
+
 TEST(StoreBuild, KnowsPartsNumbersAndObjects) {
   const TestFolder folder;
   folder.write("a.obj", "o wall\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no door\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 4 5 6\n");
@@ -163,6 +183,7 @@ TEST(StoreBuild, TellsWhatTheImportLeftOut) {
   EXPECT_EQ(report.triangles, 1U);
   ASSERT_FALSE(report.notes.empty());
   EXPECT_TRUE(report.notes.front().starts_with("a.obj: ")) << report.notes.front();
+  EXPECT_EQ(report.notes.front().find(folder.file("")), std::string::npos) << report.notes.front();
   const auto again = roam::build_store(options({folder.file("a.obj")}, folder.file("s")));
   EXPECT_TRUE(again.unchanged);
   EXPECT_EQ(again.notes, report.notes);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <future>
 
 #include "roam/store_build.h"
@@ -17,19 +16,6 @@ namespace {
 
 using namespace store;
 namespace fs = std::filesystem;
-
-/// Adds the seconds of its life.
-class Timer {
- public:
-  explicit Timer(double& seconds) : seconds_(seconds) {}
-  ~Timer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Timer(const Timer&) = delete;
-  Timer& operator=(const Timer&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void make_folders(const fs::path& store) {
   for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {

@@ -9,12 +9,12 @@
 
 namespace roam::store {
 
-/// Depends on the triangles only, not on the runs that they come in. At no time more than some 2^21 cells.
+/// Depends on the triangles only, not on the runs that they come in. At no time more than some 2^20 cells.
 class Histogram {
  public:
   /// Items ascending by key.
   void add(std::span<const RunItem> items);
-  /// Sets the cells of the part: the finest of which there are no more than one for 2048 triangles, but 256, and 2^20.
+  /// Sets the cells of the part: the finest of which there are no more than one for 2048 triangles, but 256, and 2^18.
   void finish(PartFile& part);
 
  private:

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "store/build/histogram.h"
 #include "store/build/layout.h"
@@ -21,7 +23,9 @@ constexpr std::uint64_t kRecordLimit = 1u << 30;
 /// Takes the pieces of a part and writes runs; sorts one while the next one fills, where memory allows.
 class Intake {
  public:
-  Intake(Work& work, std::string id) : work_(work), id_(std::move(id)) { filling_.triangles.reserve(run_triangles); }
+  Intake(Work& work, std::string id, bool sorts_beside) : work_(work), id_(std::move(id)), sorts_beside_(sorts_beside) {
+    filling_.triangles.reserve(run_triangles);
+  }
 
   void add(const Mesh& piece, bool continues) {
     if (!continues || part_.objects.empty()) part_.objects.push_back({part_.triangles, piece.name});
@@ -58,7 +62,7 @@ class Intake {
     filling_.vertices.clear();
     filling_.triangles.clear();
     filling_.first = part_.triangles;
-    if (work_.sorts_beside_reading()) {
+    if (sorts_beside_) {
       sorting_ = std::async(std::launch::async, [this] { sort(); });
     } else {
       sort();
@@ -81,6 +85,7 @@ class Intake {
 
   Work& work_;
   std::string id_;
+  bool sorts_beside_;
   PartFile part_;
   RunContent filling_;
   // Of the thread that sorts:
@@ -104,6 +109,15 @@ std::string to_text(const PartRecord& record) {
               {"notes", record.notes}}
              .dump(1) +
          "\n";
+}
+
+/// A note of the import that begins with the name of the part, and is the same wherever the scene lies.
+std::string note_of(const ScenePart& part, std::string note) {
+  const std::string path = part.path.string();
+  for (std::size_t at = 0; !path.empty() && (at = note.find(path, at)) != std::string::npos; at += part.name.size()) {
+    note.replace(at, path.size(), part.name);
+  }
+  return note.starts_with(part.name + ": ") ? note : part.name + ": " + note;
 }
 
 /// What JSON can hold of a text that comes from a file of unknown encoding.
@@ -159,16 +173,18 @@ std::optional<PartRecord> find_record(const fs::path& store, const std::string& 
   return record;
 }
 
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, std::uint64_t bytes_before) {
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers) {
   PartRecord record;
   record.info.name = part.name;
   record.info.fingerprint = fingerprint;
   record.id = record_id(part.name, fingerprint);
-  Intake intake(work, record.id);
+  Intake intake(work, record.id, work.sorts_beside_reading(readers));
   ImportOptions options = work.options.import;
-  options.memory_limit = work.reader_memory();
+  options.memory_limit = work.reader_memory(readers);
+  std::uint64_t told = 0;  // bytes
   options.progress = [&](const ImportProgress& p) {
-    work.set_bytes(bytes_before + std::min(p.bytes_read, part.bytes));
+    const std::uint64_t bytes = std::clamp(p.bytes_read, told, std::max(told, part.bytes));
+    work.add_bytes(bytes - std::exchange(told, bytes));
     try {
       work.tick();
     } catch (const Cancelled&) {
@@ -181,7 +197,7 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   const PartFile file = intake.finish();
   record.runs = intake.runs();
   record.has_runs = true;
-  for (const std::string& note : report.notes) record.notes.push_back(valid(part.name + ": " + note));
+  for (const std::string& note : report.notes) record.notes.push_back(valid(note_of(part, note)));
   const std::vector<std::byte> bytes = encode_part(file);
   NewFile out(work.store / part_file("new"));
   out.write(bytes);
@@ -190,7 +206,7 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   record.info.triangles = file.triangles;
   record.info.objects = file.objects.size();
   write_file(record_file(work.store, record.id), to_text(record));
-  work.set_bytes(bytes_before + part.bytes);
+  work.add_bytes(std::max(told, part.bytes) - told);
   work.tick();
   return record;
 }

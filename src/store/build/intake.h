@@ -30,9 +30,8 @@ struct PartRecord {
 /// The record that read_part left in the scratch folder, when all that it tells of is there.
 [[nodiscard]] std::optional<PartRecord> find_record(const std::filesystem::path& store, const std::string& id);
 
-/// Reads the part, publishes its runs, its part file and, last, its record. `bytes_before`: of the parts that were read
-/// before, for the progress.
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, std::uint64_t bytes_before);
+/// Reads the part, as one of so many `readers` at once, publishes its runs, its part file and, last, its record.
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers);
 
 // Keys in JSON: 32 hexadecimal digits.
 [[nodiscard]] std::string key_text(CurveKey key);

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <map>
+#include <thread>
 
 #include "roam/error.h"
 #include "store/build/fingerprint.h"
@@ -21,6 +24,16 @@ constexpr std::uint64_t kPartFileLimit = 1ull << 32;
 bool is_inside(const fs::path& inner, const fs::path& outer) {
   const fs::path relative = fs::weakly_canonical(inner).lexically_relative(fs::weakly_canonical(outer));
   return !relative.empty() && *relative.begin() != "..";
+}
+
+/// Whether there is anything in a folder that no build puts there.
+bool holds_other_things(const fs::path& folder) {
+  static const std::set<std::string> ours{"LOCK", "manifests", "packs", "parts", "scratch", "sources.json"};
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!ours.contains(name) && !name.ends_with(temporary_suffix)) return true;
+  }
+  return false;
 }
 
 class Planner {
@@ -105,19 +118,55 @@ class Planner {
                        [&](const ShardInfo& shard) { return is_there(shard); });
   }
 
-  /// Reads these parts; false when there are none.
+  /// Reads these parts, several at once where memory allows; false when there are none.
   bool read(const std::vector<std::size_t>& numbers) {
     if (numbers.empty()) return false;
-    std::uint64_t bytes = 0, done = 0;
+    std::uint64_t bytes = 0;
     for (const std::size_t i : numbers) bytes += parts_[i].bytes;
     work_.begin(Work::Step::read, bytes, 0);
-    for (const std::size_t i : numbers) {
-      plan_.parts[i] = read_part(work_, parts_[i], plan_.parts[i].info.fingerprint, done);
-      sources_.check_unchanged(parts_[i]);
-      done += parts_[i].bytes;
-      ++report_.parts_read;
+    const Timer timer(report_.read_seconds);
+    const int readers = work_.readers(numbers.size());
+    std::vector<std::exception_ptr> failures(numbers.size());
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> ends{false};
+    const auto read_some = [&] {
+      for (std::size_t n; !ends && (n = next++) < numbers.size();) {
+        try {
+          read_one(numbers[n], readers);
+        } catch (...) {
+          failures[n] = std::current_exception();
+          ends = readers == 1 || is_cancelled(failures[n]);
+        }
+      }
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (int t = 1; t < readers; ++t) threads.emplace_back(read_some);
+      read_some();
     }
+    for (const std::exception_ptr& failure : failures) {
+      if (failure && (readers == 1 || is_cancelled(failure))) std::rethrow_exception(failure);
+    }
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+      if (failures[n]) read_one(numbers[n], 1);  // again, with all the memory that there is
+    }
+    report_.parts_read += numbers.size();
     return true;
+  }
+
+  void read_one(std::size_t i, int readers) {
+    plan_.parts[i] = read_part(work_, parts_[i], plan_.parts[i].info.fingerprint, readers);
+    sources_.check_unchanged(parts_[i]);
+  }
+
+  static bool is_cancelled(const std::exception_ptr& failure) {
+    try {
+      std::rethrow_exception(failure);
+    } catch (const Cancelled&) {
+      return true;
+    } catch (...) {
+      return false;
+    }
   }
 
   /// Decides the shards, as far as the parts that were read let it: `missing_` are those that must be read first.
@@ -223,8 +272,7 @@ void prepare_output(const StoreBuildOptions& options) {
           fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
     }
   }
-  if (fs::is_directory(status) && !Store::is_store(out) && !fs::exists(scratch_folder(out), error) &&
-      !fs::is_empty(out, error)) {
+  if (fs::is_directory(status) && !Store::is_store(out) && holds_other_things(out)) {
     throw Error(
         fmt::format("{} is a folder that holds other things; choose another output, or empty it", out.string()));
   }

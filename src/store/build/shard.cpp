@@ -78,7 +78,7 @@ class ShardBuilder {
 
   /// Each cell of the stretch by itself, each size class in it by itself.
   void cut(const Stretch& stretch) {
-    const auto& items = source_.items;
+    const auto items = source_.items;
     const auto after = [&](std::uint32_t begin, CurveKey last) {
       return static_cast<std::uint32_t>(
           std::partition_point(items.begin() + begin, items.end(), [&](const ShardItem& i) { return i.key <= last; }) -
@@ -99,7 +99,7 @@ class ShardBuilder {
 
   /// Builds the tile, or several, where one would take too much memory.
   void build(const TileRun& run, std::vector<TileResult>& out) const {
-    const auto items = std::span(source_.items).subspan(run.begin, run.end - run.begin);
+    const auto items = source_.items.subspan(run.begin, run.end - run.begin);
     std::vector<Triangle> triangles(items.size());
     for (std::size_t i = 0; i < items.size(); ++i) triangles[i] = source_.triangles[items[i].triangle];
     std::vector<std::uint32_t> numbers(items.size());

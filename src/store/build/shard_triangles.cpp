@@ -50,7 +50,7 @@ class Blocks {
     for_each_run([&](std::size_t i, const RunReader& run, const RunReader::Range& range) {
       tbb::parallel_for(range.begin, range.end, [&](std::size_t b) {
         work_.tick();
-        RunBlock block;
+        static thread_local RunBlock block;  // its memory is used again
         run.read(b, block);
         f(block, runs_[i].part, i, b - range.begin);
       });
@@ -104,10 +104,7 @@ ShardTriangles read_shard(Work& work, const Plan& plan, const Stretch& stretch) 
   if (stretch.cells.size() == 1 && stretch.cells.front().bits == 0) ranks.emplace(blocks);
 
   const auto count = static_cast<std::size_t>(stretch.triangles);
-  ShardTriangles out;
-  out.triangles.resize(count);
-  out.sources.resize(count);
-  out.items.resize(count);
+  ShardTriangles out(count);
   std::atomic<std::size_t> filled{0};
   blocks.for_each([&](const RunBlock& block, std::uint32_t part, std::size_t run, std::size_t number) {
     std::vector<std::pair<std::uint32_t, Place>> chosen;

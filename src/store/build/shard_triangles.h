@@ -3,7 +3,8 @@
 /// The triangles of one shard, in memory.
 
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <span>
 
 #include "roam/mesh.h"
 #include "store/build/plan.h"
@@ -24,11 +25,19 @@ struct ShardTriangles {
     std::uint64_t number;  ///< in the part
     std::uint32_t part;    ///< of the plan
   };
-  std::vector<Triangle> triangles;  ///< in no order
-  std::vector<Source> sources;
+  explicit ShardTriangles(std::size_t count)
+      : triangles(std::make_unique_for_overwrite<Triangle[]>(count)),
+        sources(std::make_unique_for_overwrite<Source[]>(count)),
+        all_items(std::make_unique_for_overwrite<ShardItem[]>(count)),
+        items(all_items.get(), count) {}
+
+  // Not touched before many threads fill them.
+  std::unique_ptr<Triangle[]> triangles;  ///< in no order
+  std::unique_ptr<Source[]> sources;
+  std::unique_ptr<ShardItem[]> all_items;
   /// Along the curve; in one cell of it by what the triangles are, so that their order in the scene makes no
   /// difference to the tiles, then by where they come from.
-  std::vector<ShardItem> items;
+  std::span<ShardItem> items;
 };
 
 /// Reads the stretch from the runs of the plan. Throws roam::Error when a run is missing or damaged.

@@ -17,6 +17,8 @@ constexpr std::uint64_t kRun = 64 * kMiB;
 constexpr std::uint64_t kShard = 136 * kMiB;
 /// A tile that is being built.
 constexpr std::uint64_t kTile = 8 * kMiB;
+/// What a reader should have where several read.
+constexpr std::uint64_t kReader = 160 * kMiB;
 /// Where sorting beside reading begins.
 constexpr std::uint64_t kPlenty = 512 * kMiB;
 
@@ -43,11 +45,19 @@ const StoreBuildOptions& checked(const StoreBuildOptions& options) {
 
 Work::Work(const StoreBuildOptions& o) : options(checked(o)), store(o.output), arena(threads_of(o)) {}
 
-std::uint64_t Work::reader_memory() const {
-  return options.memory - kProgram - (sorts_beside_reading() ? 2 * kRun : kRun);
+int Work::readers(std::size_t parts) const {
+  const std::uint64_t fit = (options.memory - kProgram) / (kRun + kReader);
+  return static_cast<int>(
+      std::clamp<std::uint64_t>(std::min<std::uint64_t>(fit, static_cast<std::uint64_t>(arena.max_concurrency())), 1,
+                                std::max<std::uint64_t>(1, parts)));
 }
 
-bool Work::sorts_beside_reading() const { return options.memory >= kPlenty; }
+std::uint64_t Work::reader_memory(int readers) const {
+  const std::uint64_t runs = sorts_beside_reading(readers) ? 2 * kRun : kRun;
+  return (options.memory - kProgram) / static_cast<std::uint64_t>(readers) - runs;
+}
+
+bool Work::sorts_beside_reading(int readers) const { return readers == 1 && options.memory >= kPlenty; }
 
 void Work::begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total) {
   {

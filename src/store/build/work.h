@@ -13,6 +13,19 @@
 
 namespace roam::store {
 
+/// Adds the seconds of its life.
+class Timer {
+ public:
+  explicit Timer(double& seconds) : seconds_(seconds) {}
+  ~Timer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 class Work {
  public:
   using Step = StoreBuildProgress::Step;
@@ -24,14 +37,16 @@ class Work {
   const std::filesystem::path store;
   tbb::task_arena arena;
 
-  /// Of the memory, what the import and its reader may take.
-  [[nodiscard]] std::uint64_t reader_memory() const;
+  /// How many parts of so many may be read at once.
+  [[nodiscard]] int readers(std::size_t parts) const;
+  /// Of the memory, what each of so many imports and its reader may take.
+  [[nodiscard]] std::uint64_t reader_memory(int readers) const;
   /// Whether one run may be sorted while the next one is filled.
-  [[nodiscard]] bool sorts_beside_reading() const;
+  [[nodiscard]] bool sorts_beside_reading(int readers) const;
 
   // Progress. Any thread may tell; the caller's "no" is thrown as roam::Cancelled in one of those that do.
   void begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total);
-  void set_bytes(std::uint64_t done) { bytes_ = done; }
+  void add_bytes(std::uint64_t count) { bytes_ += count; }
   void add_triangles(std::uint64_t count) { triangles_ += count; }
   void add_written(std::uint64_t bytes) { written_ += bytes; }
   void tick();
