@@ -113,8 +113,8 @@ TEST_F(StoreVerbs, AWalkIsVerifiedAgainstTheStoreAndAgainstTheScene) {
   for (const std::vector<std::string>& check :
        {std::vector<std::string>{"--verify"}, std::vector<std::string>{"--against", scene()}}) {
     for (const char* mode : {"walk", "fly"}) {
-      std::vector<std::string> arguments{"walk",    store(), "--path",   path(), "--mode", mode,
-                                         "--speed", "20",    "--memory", "8M",   "--json"};
+      std::vector<std::string> arguments{"walk", store(),   "--path", path(),     "--mode", mode,    "--height",
+                                         "1.8",  "--speed", "20",     "--memory", "8M",     "--json"};
       arguments.insert(arguments.end(), check.begin(), check.end());
       const ProgramResult walked = run(arguments);
       ASSERT_EQ(walked.status, 0) << walked.err << walked.out;
