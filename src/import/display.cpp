@@ -32,8 +32,9 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
                    });
   if (report.missing_textures > 0) {
     report.notes.push_back(fmt::format(
-        "{} images that the scene refers to are absent or unreadable; what they cover is shown without: {}.",
-        report.missing_textures, reader::listed(report.missing_texture_files)));
+        "{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
+        report.missing_textures == 1 ? "1 image" : fmt::format("{} images", report.missing_textures),
+        report.missing_textures == 1 ? "is" : "are", reader::listed(report.missing_texture_files)));
   }
   if (report.paged && !options.ignore.empty()) {
     report.notes.push_back(
