@@ -2,6 +2,7 @@
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
+#   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
@@ -39,6 +40,14 @@ case $what in
     printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
     # The package was configured for another prefix than this: it tells its programs where its reader is.
     expect 'reached after 9.9 m' "$work/build/walk_a_path" "$work/floor.obj" "$work/across.path"
+    ;;
+  store)
+    build walk_a_store
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
+    printf '1 1 0.9\n8 8 0.9\n' > "$work/across.path"
+    expect 'built' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
+    expect 'up to date' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
+    expect 'reached after 9.9 m, 16 MB' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
     ;;
   osg_one_line)
     build osg_one_line

@@ -1,0 +1,41 @@
+// Makes a store of a scene, unless it is up to date, and walks a path through it in 16 MB of collision.
+#include <roam/pager.h>
+#include <roam/path_file.h>
+#include <roam/route.h>
+#include <roam/store_build.h>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: walk_a_store SCENE STORE PATH\n");
+    return 2;
+  }
+  try {
+    roam::StoreBuildOptions options;
+    options.scene = {argv[1]};
+    options.output = argv[2];
+    const roam::StoreBuildReport built = roam::build_store(options);
+    std::printf("%s\n", built.unchanged ? "up to date" : "built");
+
+    roam::Pager pager(roam::Store::open(argv[2]), {.memory = 16 << 20});
+    const auto waypoints = roam::positions(roam::load_path(argv[3]));
+    roam::WalkerSettings person;
+    pager.wait(roam::Body::capsule(person.radius, person.height), waypoints.front(), roam::Vec3(0.0), 10.0);
+    roam::Walker walker(pager, person, roam::Mode::walk, waypoints.front());
+    roam::Route route(walker, waypoints, {});
+    while (!route.done()) {
+      route.advance();
+      // Between two steps what has come is taken into use. A viewer calls update(), which never waits.
+      pager.wait(walker.body(), walker.position(), walker.velocity(), 1.0 / 60.0);
+    }
+    const roam::PagerStats stats = pager.stats();
+    std::printf("%s after %.1f m, %.0f MB of memory\n", roam::name(route.result().outcome), route.result().length,
+                static_cast<double>(stats.memory) / (1 << 20));
+    return route.result().outcome == roam::Outcome::reached ? 0 : 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "walk_a_store: %s\n", error.what());
+    return 1;
+  }
+}
