@@ -134,9 +134,7 @@ void OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& motio
 
 void OpenScene::follow(const Walker& walker) {
   if (!pager_) return;
-  const StepReport& report = walker.report();
-  const Vec3 velocity = report.elapsed > 0.0 ? (report.to - report.from) / report.elapsed : Vec3(0.0);
-  pager_->wait(walker.body(), walker.position(), velocity, report.elapsed);
+  pager_->wait(walker.body(), walker.position(), walker.velocity(), walker.report().elapsed);
 }
 
 SourceTriangle OpenScene::source(TriangleId triangle) const {
