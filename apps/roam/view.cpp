@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -32,6 +33,15 @@ std::string keys_of(const ViewSettings& settings) {
     throw UsageError(error.what());
   }
   return key_table(roamer->controls());
+}
+
+/// Every move against every triangle: of the scene as read, of a store as stored.
+Verification verified(const ViewReport& report, const ViewOptions& options,
+                      const std::function<bool(std::uint64_t)>& progress) {
+  if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
+  SceneOptions store;
+  store.scenes = {report.store};
+  return OpenScene(store, options.paging, Source::release).verified(report.pieces, progress);
 }
 
 ExitStatus view(const ViewOptions& options) {
@@ -66,7 +76,7 @@ ExitStatus view(const ViewOptions& options) {
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");
     // A second Ctrl-C ends the program at once.
-    report.verified = verify(report.meshes, report.pieces, [&](std::uint64_t checked) {
+    report.verified = verified(report, options, [&](std::uint64_t checked) {
       return progress.goes_on(checked, report.pieces.size()) || cancelled;
     });
   }
@@ -89,6 +99,8 @@ constexpr const char* help =
     "in radius and 1.8 m high; with --radius or --path alone it is a sphere, as for `roam walk`. A path that was "
     "recorded\n"
     "here says its body.\n\n"
+    "A scene's collision store (roam build) is used when it lies beside the scene: then the walls are there at once, "
+    "in\nlittle memory, whatever the size of the scene.\n\n"
     "Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config; bookmarks are kept\n"
     "beside it. --path, --screenshot and --time end by themselves, and work with --headless. Exit status 3 when a "
     "path\n"
@@ -97,6 +109,7 @@ constexpr const char* help =
     "  roam view mine.dae\n"
     "  roam view house.glb --mode fly --at 1,2,1.5,90\n"
     "  roam view mine.dae --path tour.path --record tour.mp4\n"
+    "  roam view Data/ --store dam.roam --memory 256M\n"
     "  roam view Terrain/ --headless --screenshot terrain.png --size 1920x1080\n";
 
 }  // namespace

@@ -1,88 +1,122 @@
 #include "view/collision_loader.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "floors.h"
+#include "roam/error.h"
 
 namespace roam::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr double longest_wait = 5.0;  // s, for what is around the start
+constexpr double short_wait = 0.1;    // s
 
-/// Building on all cores but one: the window stays smooth.
-int build_threads(int asked) {
+}  // namespace
+
+int work_threads(int asked) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return asked > 0 ? asked : std::max(1, cores - 1);
 }
 
-}  // namespace
-
-ImportOptions import_options(const SceneOptions& scene) {
-  ImportOptions options;
-  if (!scene.up.empty()) options.up = parse_up_axis(scene.up);
-  options.unit = parse_length_unit(scene.unit);
-  options.ignore = scene.ignore;
-  return options;
+void wait_at(Pager& pager, const WalkerSettings& walker, const Vec3& place, const std::function<bool()>& goes_on) {
+  const Body body = Body::capsule(walker.radius, walker.height);
+  // As for one who hurries on at once.
+  const Vec3 velocity(0.0, 0.0, -walker.speed);
+  for (double waited = 0.0; waited < longest_wait; waited += short_wait) {
+    if (!goes_on()) throw Cancelled();
+    if (pager.wait(body, place, velocity, short_wait, 1.0)) return;
+  }
 }
 
-CollisionLoader::CollisionLoader(const SceneOptions& scene, const CollisionWish& wish)
-    : scene_(scene), wish_(wish), phase_start_(Clock::now()), loading_([this] { load(); }) {}
+CollisionLoader::CollisionLoader(const SceneAndStore& what, const CollisionWish& wish)
+    : what_(what), wish_(wish), loading_([this] { load(); }) {}
 
 std::optional<Collision> CollisionLoader::take() {
   return loading_.with_state([this](const LoadState&) { return std::exchange(loaded_, std::nullopt); });
 }
 
-void CollisionLoader::set(LoadState::Phase phase, double share, std::uint64_t triangles) {
-  loading_.with_state([&](LoadState& state) {
-    if (phase != state.phase) phase_start_ = Clock::now();
-    state.phase = phase;
-    state.share = share;
-    state.triangles = std::max(triangles, state.triangles);
-    const double seconds = std::chrono::duration<double>(Clock::now() - phase_start_).count();
-    // What is told after a moment's work, or of its first hundredth, is a guess that only confuses.
-    constexpr double least_seconds = 1.0;
-    constexpr double least_share = 0.01;
-    state.seconds_left = seconds > least_seconds && share > least_share ? seconds * (1.0 / share - 1.0) : -1.0;
-  });
+std::optional<StoreChoice> CollisionLoader::take_choice() {
+  return loading_.with_state([this](const LoadState&) { return std::exchange(choice_, std::nullopt); });
 }
 
-void CollisionLoader::load() {
-  ImportOptions reading = import_options(scene_);
-  reading.progress = [this](const ImportProgress& p) {
-    const double share =
-        p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
-    set(LoadState::Phase::reading, std::min(share, 1.0), p.triangles);
-    return loading_.wanted();
-  };
-  Scene scene = import_scene(scene_.scenes, reading);
-  BuildOptions build;
-  build.threads = build_threads(scene_.threads);
-  build.lossless = scene_.lossless;
-  build.progress = [&](double share) {
-    set(LoadState::Phase::indexing, share, scene.report.triangles);
-    return loading_.wanted();
-  };
-  std::vector<Vec3> floors;
-  if (wish_.find_start) floors = floor_samples(scene.meshes);
-  Collision loaded;
-  loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
-  loaded.report = std::move(scene.report);
-  if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
-  scene.meshes.clear();
-  scene.meshes.shrink_to_fit();
-  if (wish_.find_start) {
-    set(LoadState::Phase::looking, 0.0, loaded.report.triangles);
-    loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return loading_.wanted(); });
-  }
+void CollisionLoader::finish(Collision&& loaded) {
   loading_.with_state([&](LoadState& state) {
     state = {};
     state.phase = LoadState::Phase::done;
     state.share = 1.0;
-    state.triangles = loaded.report.triangles;
+    state.triangles = loaded.triangles;
     loaded_ = std::move(loaded);
   });
+}
+
+void CollisionLoader::load() {
+  try {
+    choose_and_load();
+  } catch (...) {
+    if (!place_is_known_) place_.set_exception(std::current_exception());
+    throw;
+  }
+}
+
+void CollisionLoader::choose_and_load() {
+  loading_.tell(LoadState::Phase::comparing, 0.0, 0);
+  const StoreChoice choice = choose_store(what_, [this] { return loading_.wanted(); });
+  loading_.with_state([&](const LoadState&) { choice_ = choice; });
+  if (choice.store) {
+    load_store(choice.store);
+  } else {
+    wants_store_ = choice.stale || is_large(scene_bytes(what_.scene), 0);
+    load_scene();
+  }
+}
+
+void CollisionLoader::load_store(std::shared_ptr<const Store> store) {
+  const auto goes_on = [this] { return loading_.wanted(); };
+  Collision loaded;
+  loaded.triangles = store->info().triangles;
+  loading_.tell(LoadState::Phase::looking, 0.0, loaded.triangles);
+  loaded.pager = std::make_shared<Pager>(store, PagerOptions{.memory = wish_.memory});
+  if (!wish_.place) loaded.start = find_start(*store, wish_.walker, wish_.mode, goes_on);
+  const Vec3 place = wish_.place.value_or(loaded.start ? loaded.start->pose.position : Vec3(0.0));
+  place_.set_value(place);
+  place_is_known_ = true;
+  wait_at(*loaded.pager, wish_.walker, place, goes_on);
+  finish(std::move(loaded));
+}
+
+void CollisionLoader::load_scene() {
+  const SceneOptions& options = what_.scene;
+  ImportOptions reading = options.import_options();
+  reading.progress = [this](const ImportProgress& p) {
+    const double share =
+        p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
+    loading_.tell(LoadState::Phase::reading, std::min(share, 1.0), p.triangles);
+    if (is_large(0, p.triangles)) wants_store_ = true;
+    return loading_.wanted();
+  };
+  Scene scene = import_scene(options.scenes, reading);
+  BuildOptions build;
+  build.threads = work_threads(options.threads);
+  build.lossless = options.lossless;
+  build.progress = [&](double share) {
+    loading_.tell(LoadState::Phase::indexing, share, scene.report.triangles);
+    return loading_.wanted();
+  };
+  std::vector<Vec3> floors;
+  if (!wish_.place) floors = floor_samples(scene.meshes);
+  Collision loaded;
+  loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
+  loaded.triangles = loaded.world->stats().triangles;
+  loaded.report = std::move(scene.report);
+  if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
+  scene.meshes.clear();
+  scene.meshes.shrink_to_fit();
+  if (!wish_.place) {
+    loading_.tell(LoadState::Phase::looking, 0.0, loaded.report.triangles);
+    loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return loading_.wanted(); });
+  }
+  finish(std::move(loaded));
 }
 
 }  // namespace roam::app

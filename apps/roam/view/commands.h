@@ -20,6 +20,7 @@ enum class Command : std::uint8_t {
   bookmark,
   next_bookmark,
   marks,
+  store,
   quit,
   none,  ///< a name that is not the viewer's
 };

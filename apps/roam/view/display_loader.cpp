@@ -1,17 +1,21 @@
 #include "view/display_loader.h"
 
 #include <algorithm>
+#include <chrono>
 #include <osgDB/Registry>
 #include <sstream>
 #include <utility>
 
 #include "graphics/shading.h"
 #include "roam/error.h"
-#include "view/collision_loader.h"
+#include "view/store_triangles.h"
 
 namespace roam::app {
 
-DisplayLoader::DisplayLoader(const SceneOptions& scene) : scene_(scene), loading_([this] { load(); }) {}
+DisplayLoader::DisplayLoader(const SceneOptions& scene) : scene_(scene), loading_([this] { load_scene(); }) {}
+
+DisplayLoader::DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place)
+    : store_(store), place_(std::move(place)), loading_([this] { load_store(); }) {}
 
 std::optional<DisplayNode> DisplayLoader::take() {
   return loading_.with_state([this](const LoadState&) -> std::optional<DisplayNode> {
@@ -41,16 +45,33 @@ bool DisplayLoader::receive(DisplayPart&& part) {
   return loading_.wanted();
 }
 
-void DisplayLoader::load() {
-  ImportOptions options = import_options(scene_);
+void DisplayLoader::load_scene() {
+  ImportOptions options = scene_.import_options();
   options.progress = [this](const ImportProgress& p) {
     const double share =
         p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
     loading_.with_state([&](LoadState& state) { state.share = std::min(share, 1.0); });
     return loading_.wanted();
   };
-  DisplayReport report =
-      read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(std::move(part)); });
+  finish(read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(std::move(part)); }));
+}
+
+void DisplayLoader::load_store() {
+  constexpr auto a_moment = std::chrono::milliseconds(20);
+  while (place_.wait_for(a_moment) != std::future_status::ready) {
+    if (!loading_.wanted()) throw Cancelled();
+  }
+  const Vec3 place = place_.get();
+  const auto take = [this](DisplayNode&& node, std::uint64_t triangles) {
+    loading_.with_state([&](LoadState& state) {
+      ready_.push_back(std::move(node));
+      state.triangles += triangles;
+    });
+  };
+  finish(show_store(*Store::open(store_), place, take, [this] { return loading_.wanted(); }));
+}
+
+void DisplayLoader::finish(DisplayReport&& report) {
   loading_.with_state([&](LoadState& state) {
     report_ = std::move(report);
     state.phase = LoadState::Phase::done;

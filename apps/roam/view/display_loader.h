@@ -3,6 +3,8 @@
 /// Loads what is to be seen, beside the thread that draws.
 
 #include <deque>
+#include <filesystem>
+#include <future>
 #include <optional>
 #include <osg/Node>
 #include <osg/ref_ptr>
@@ -25,6 +27,8 @@ struct DisplayNode {
 class DisplayLoader {
  public:
   explicit DisplayLoader(const SceneOptions& scene);
+  /// Of a store whose scene is not there: the triangles around a place, when that is known. See show_store.
+  DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place);
 
   /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
   /// fraction of a second.
@@ -37,10 +41,14 @@ class DisplayLoader {
   [[nodiscard]] std::optional<DisplayReport> take_report();
 
  private:
-  void load();
+  void load_scene();
+  void load_store();
+  void finish(DisplayReport&& report);
   bool receive(DisplayPart&& part);
 
   SceneOptions scene_;
+  std::filesystem::path store_;
+  std::future<Vec3> place_;
   std::deque<DisplayNode> ready_;
   std::optional<DisplayReport> report_;
   Loading loading_;

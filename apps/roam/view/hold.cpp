@@ -10,6 +10,7 @@ namespace roam::app {
 namespace {
 
 constexpr double news_seconds = 4.0;      // to read a sentence
+constexpr double slowed_seconds = 0.5;    // what changes from step to step is told as long as it lasts
 constexpr double calm_seconds = 0.25;     // a shorter touch is no blockage, a shorter break no end of one
 constexpr double measuring_period = 0.5;  // s
 constexpr double opening_skins = 4.0;     // what is nearer than that counts as touched, as for a Route
@@ -41,14 +42,31 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
 
 }  // namespace
 
-void Hold::take(const Walker& walker, const Vec3& wish, double seconds) {
+void Hold::take(const Walker& walker, const Vec3& wish, double seconds, bool failing) {
   now_ += seconds;
   const StepReport& report = walker.report();
   held_ = walker.held();
-  waiting_ = report.met_unknown;
+  note_unknown(walker, failing);
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
   if (report.grounded) level_ = walker.stance().level;
+}
+
+void Hold::note_unknown(const Walker& walker, bool failing) {
+  const StepReport& report = walker.report();
+  if (report.has(EventKind::slowed)) slowed_at_ = now_;
+  waiting_ = report.met_unknown;
+  if (!waiting_ || !failing) {
+    reason_.clear();
+    return;
+  }
+  for (const Contact& contact : report.contacts) {
+    if (!contact.unknown) continue;
+    const std::string reason = walker.space().object_name(contact.triangle);
+    // It is found out by another thread, and asked for in every step.
+    if (!reason.empty()) reason_ = reason;
+    return;
+  }
 }
 
 void Hold::note_events(const Walker& walker) {
@@ -100,10 +118,11 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
 }
 
 Told Hold::told() const {
-  if (waiting_) return {"waiting: loading ahead", true};
+  if (waiting_) return {"waiting: " + (reason_.empty() ? "loading ahead" : reason_), true};
   if (held_) return {"held: the body does not fit here", true};
   if (!blockage_.empty()) return {"blocked: " + blockage_, true};
   if (now_ - news_at_ <= news_seconds) return news_;
+  if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: loading ahead", false};
   return {};
 }
 

@@ -21,16 +21,20 @@ class Hold {
  public:
   /// After each step, and after placing. `wish` is the velocity that was wished for (m/s; length 0: none), `seconds`
   /// the time that the step took.
-  void take(const Walker& walker, const Vec3& wish, double seconds);
+  /// `failing`: some of what is unknown cannot be read, so that it says why.
+  void take(const Walker& walker, const Vec3& wish, double seconds, bool failing = false);
   [[nodiscard]] Told told() const;
 
  private:
   void note_events(const Walker& walker);
+  void note_unknown(const Walker& walker, bool failing);
   void look_at_blockage(const Walker& walker, const Vec3& wish, double seconds);
 
   double now_ = 0.0;   ///< s of all steps
   bool held_ = false;  ///< it does not fit where it is
   bool waiting_ = false;
+  std::string reason_;         ///< why what is waited for does not come; empty: it will
+  double slowed_at_ = -1e9;    ///< when last
   double blocked_for_ = 0.0;   ///< s without a break
   double blocked_at_ = -1e9;   ///< when last
   double measured_at_ = -1e9;  ///< when the opening was

@@ -21,6 +21,20 @@ LoadState Loading::state() const {
   return state_;
 }
 
+void Loading::tell(LoadState::Phase phase, double share, std::uint64_t triangles) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(mutex_);
+  if (phase != state_.phase) phase_start_ = now;
+  state_.phase = phase;
+  state_.share = share;
+  state_.triangles = triangles;
+  const double seconds = std::chrono::duration<double>(now - phase_start_).count();
+  // What is told after a moment's work, or of its first hundredth, is a guess that only confuses.
+  constexpr double least_seconds = 1.0;
+  constexpr double least_share = 0.01;
+  state_.seconds_left = seconds > least_seconds && share > least_share ? seconds * (1.0 / share - 1.0) : -1.0;
+}
+
 void Loading::run() {
   std::string error;
   try {
@@ -29,7 +43,7 @@ void Loading::run() {
   } catch (const Cancelled&) {
     error = "cancelled";
   } catch (const std::bad_alloc&) {
-    error = "out of memory; take a smaller scene or a machine with more memory";
+    error = "out of memory; build a store of it, which takes little (roam build), or take a smaller scene";
   } catch (const std::exception& e) {
     error = e.what();
   }

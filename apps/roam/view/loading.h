@@ -3,6 +3,8 @@
 /// The life of a thread that loads something.
 
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -25,6 +27,9 @@ class Loading {
   void cancel() { cancelled_ = true; }
   /// For `load` to ask now and then: whether it is to go on.
   [[nodiscard]] bool wanted() const { return !cancelled_; }
+  /// For `load` to say how far it is: `share` in [0, 1] of this phase, how many triangles so far. How long the phase
+  /// will take follows from that.
+  void tell(LoadState::Phase phase, double share, std::uint64_t triangles);
   /// How far it is; from any thread.
   [[nodiscard]] LoadState state() const;
   /// Calls `access` with the state and returns what it returns, while no other thread does either.
@@ -41,6 +46,7 @@ class Loading {
   std::atomic<bool> cancelled_ = false;
   mutable std::mutex mutex_;
   LoadState state_;
+  std::chrono::steady_clock::time_point phase_start_ = std::chrono::steady_clock::now();
   std::thread thread_;
 };
 

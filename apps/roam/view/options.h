@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "open_scene.h"
 #include "recorded_body.h"
 #include "roam/walker.h"
 #include "scene_options.h"
@@ -19,6 +20,8 @@ namespace roam::app {
 /// As they stand on the command line.
 struct ViewOptions {
   SceneOptions scene;
+  std::filesystem::path store;  ///< empty: look beside the scene
+  StoreOptions paging;
   std::optional<std::string> mode;
   std::optional<double> radius, height, eye, step, slope, speed, fov;
   std::string size = "1280x720";

@@ -49,8 +49,13 @@ class SceneGraph::PageReader : public osgDB::ReadFileCallback {
   std::atomic<int> under_way_ = 0;
 };
 
-SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, const SceneOptions& scene, Arrival arrival)
-    : viewer_(viewer), group_(graphics::make_scene_group()), arrival_(arrival), pages_(new PageReader), loader_(scene) {
+SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader,
+                       Arrival arrival)
+    : viewer_(viewer),
+      group_(graphics::make_scene_group()),
+      arrival_(arrival),
+      pages_(new PageReader),
+      loader_(std::move(loader)) {
   parent.addChild(group_);
   osgDB::Registry::instance()->setReadFileCallback(graphics::make_preparing_reader(pages_));
   if (arrival_ == Arrival::smooth) {
@@ -76,8 +81,8 @@ void SceneGraph::attach(DisplayNode&& piece) {
 }
 
 void SceneGraph::update() {
-  while (std::optional<DisplayNode> piece = loader_.take()) attach(std::move(*piece));
-  if (!report_) report_ = loader_.take_report();
+  while (std::optional<DisplayNode> piece = loader_->take()) attach(std::move(*piece));
+  if (!report_) report_ = loader_->take_report();
 }
 
 bool SceneGraph::is_compiling() const {
@@ -89,7 +94,7 @@ bool SceneGraph::is_compiling() const {
 }
 
 bool SceneGraph::is_complete() {
-  const LoadState::Phase phase = loader_.state().phase;
+  const LoadState::Phase phase = loader_->state().phase;
   const bool read = report_.has_value() || phase == LoadState::Phase::failed;
   const auto* pager = viewer_.getDatabasePager();
   const bool merging =

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <osg/Group>
 #include <osg/ref_ptr>
@@ -24,17 +25,17 @@ class SceneGraph {
   enum class Arrival : std::uint8_t { smooth, at_once };
 
   /// Puts a group below `parent`. Everything that the viewer's pager reads from now on is prepared for it.
-  SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, const SceneOptions& scene, Arrival arrival);
+  SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader, Arrival arrival);
   ~SceneGraph();
   SceneGraph(const SceneGraph&) = delete;
   SceneGraph& operator=(const SceneGraph&) = delete;
 
   /// Lets the loading come to its end; does not wait for that.
-  void cancel() { loader_.cancel(); }
+  void cancel() { loader_->cancel(); }
   /// Before each frame.
   void update();
 
-  [[nodiscard]] LoadState state() const { return loader_.state(); }
+  [[nodiscard]] LoadState state() const { return loader_->state(); }
   /// Of what has come, in the scene's frame; empty at first.
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   /// The graph is scene - origin; zero before the first piece.
@@ -65,7 +66,7 @@ class SceneGraph {
   std::uint64_t last_count_ = 0;  ///< of page reads, when is_complete() looked last
   int quiet_frames_ = 0;
   std::optional<DisplayReport> report_;
-  DisplayLoader loader_;
+  std::unique_ptr<DisplayLoader> loader_;
 };
 
 }  // namespace roam::app

@@ -14,6 +14,7 @@
 #include <osgGA/TerrainManipulator>
 #include <osgGA/TrackballManipulator>
 #include <thread>
+#include <utility>
 
 #include "exit_status.h"
 #include "interrupt.h"
@@ -28,10 +29,15 @@ constexpr double headless_frame = 1.0 / 60.0;  // s
 // Where nothing else keeps the frames from running free: no screen shows more.
 constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
-CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan) {
+CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path) {
   CollisionWish wish;
   wish.keep_meshes = options.verify;
-  wish.find_start = !plan.at && options.bookmark.empty() && options.path.empty();
+  if (plan.at) {
+    wish.place = plan.at->position;
+  } else if (!path.empty()) {
+    wish.place = path.front().position;
+  }
+  wish.memory = options.paging.memory.value_or(StoreOptions::usual_memory);
   wish.walker = plan.walker;
   wish.mode = plan.mode;
   return wish;
@@ -40,11 +46,13 @@ CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan) {
 }  // namespace
 
 Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings)
-    : options_(options),
+    : what_(scene_and_store(options.scene, options.store)),
+      options_(options),
       plan_(plan),
       roamer_(new osgRoam::Manipulator),
       log_(options.trace, options.verify),
       begin_(Clock::now()) {
+  options_.scene = what_.scene;
   if (!options_.path.empty()) path_ = load_path(options_.path);
   const std::filesystem::path folder = settings_folder();
   try {
@@ -75,13 +83,16 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   set_up_cameras();
   stage_->hud().set_help(key_lines(roamer_->controls()));
   // Both read the same files, at the same time: each in a process of its own that can only fail alone.
-  scene_.emplace(stage_->viewer(), *stage_->frame().space(), options_.scene,
+  collision_.emplace(what_, wish_of(options_, plan_, path_));
+  auto display = what_.store_only ? std::make_unique<DisplayLoader>(what_.store, collision_->place())
+                                  : std::make_unique<DisplayLoader>(options_.scene);
+  scene_.emplace(stage_->viewer(), *stage_->frame().space(), std::move(display),
                  stage_->headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth);
-  collision_.emplace(options_.scene, wish_of(options_, plan_));
 }
 
 Session::~Session() {
-  // Both at once: each takes a moment to end.
+  // All at once: each takes a moment to end.
+  if (builder_) builder_->cancel();
   scene_->cancel();
   collision_->cancel();
 }
@@ -116,11 +127,17 @@ bool Session::frame() {
   status_.collision = collision_->state();
   scene_->update();
   if (!placed_) receive_collision();
+  see_to_store();
   if (headless && placed_ && !replay_is_over()) now_ += headless_frame;
   frame_time_ = now_ - before;
 
   fly_without_ground();
   see_events();
+  if (headless && placed_ && pager_) {
+    // Whoever walks faster than a person waits for what that person would have had.
+    const Walker& walker = *roamer_->walker();
+    pager_->wait(walker.body(), walker.position(), walker.velocity(), frame_time_);
+  }
   fly_without_ground();
   if (quits_ || stage_->viewer().done()) return false;
   if (placed_) {

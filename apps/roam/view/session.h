@@ -3,6 +3,7 @@
 /// One session of `roam view`: from the empty window to the last frame.
 
 #include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@
 #include "view/replay.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
+#include "view/store_builder.h"
 #include "view/view_report.h"
 #include "view/walk_log.h"
 
@@ -27,6 +29,9 @@ namespace roam::app {
 
 /// Everything that happens between two frames happens in the thread that calls frame(); reading, indexing and the
 /// search for a start happen in threads of their own, and never hold a frame up.
+///
+/// What the body collides with is the scene's store, where there is one that is of it, or the scene as it was read. A
+/// store that is built meanwhile takes its place when it is done.
 ///
 /// Time: in a window it is that of the clock. Headless every frame is 1/60 s, however long it takes, and frames that
 /// nobody sees are not drawn.
@@ -71,6 +76,13 @@ class Session {
   void tell_where_put();
   void begin_replay();
   void see_events();
+  void see_to_store();
+  void follow_builder();
+  void change_to(std::shared_ptr<Pager> pager);
+  void tell_of_failures(const PagerStats& paging);
+  void toggle_building();
+  [[nodiscard]] std::string key_of(const char* command) const;
+  void name_blockage(ViewReport& report) const;
   void step_taken(const StepReport& report, double seconds);
   void watch_footing(const StepReport& report, double seconds);
   [[nodiscard]] bool ground_below() const;
@@ -96,6 +108,7 @@ class Session {
   void tell_of_loading();
   [[nodiscard]] ViewReport report();
 
+  SceneAndStore what_;
   ViewOptions options_;
   ViewPlan plan_;
   std::optional<Bookmarks> bookmarks_;
@@ -108,8 +121,16 @@ class Session {
   std::optional<Stage> stage_;
   std::optional<SceneGraph> scene_;
   std::optional<CollisionLoader> collision_;
-  std::shared_ptr<const World> world_;
   std::optional<Collision> loaded_;
+  std::shared_ptr<Pager> pager_;  ///< what the body collides with, where it is a store
+  std::optional<StoreBuilder> builder_;
+  std::future<void> freeing_;     ///< of the world that a store has replaced
+  bool builder_stopped_ = false;  ///< by the person
+  bool store_is_stale_ = false;
+  bool store_offered_ = false;
+  std::string failure_told_;  ///< of the store
+  double failure_told_at_ = -1e9;
+  std::string all_keys_;  ///< of a ghost in an empty space, which lacks some: as they were
   std::optional<Replay> replay_;
   std::optional<PathRecorder> recorder_;
   Hold hold_;

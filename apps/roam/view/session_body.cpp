@@ -35,7 +35,6 @@ void Session::receive_collision() {
     place_ghost(status_.collision.error);
   } else {
     loaded_ = collision_->take();
-    world_ = loaded_->world;
     place();
   }
 }
@@ -52,25 +51,31 @@ void Session::place() {
     start_ = Pose{path_.front().position, 0.0, 0.0};
   }
   roamer_->setMode(mode);
-  roamer_->setSpace(std::shared_ptr<const Space>(world_));
-  status_.triangles = world_->stats().triangles;
-  status_.world_bytes = world_->stats().bytes;
+  status_.triangles = loaded_->triangles;
+  if (loaded_->pager) {
+    pager_ = loaded_->pager;
+    roamer_->setSpace(pager_);
+  } else {
+    roamer_->setSpace(std::shared_ptr<const Space>(loaded_->world));
+    status_.world_bytes = loaded_->world->stats().bytes;
+  }
   enter();
   if (!path_.empty()) begin_replay();
 }
 
 void Session::place_ghost(const std::string& why) {
   if (!options_.path.empty() || options_.verify) {
-    throw Error(fmt::format("the collision could not be loaded: {}", why));
+    throw Error(fmt::format("the collision could not be loaded: {}{}", why,
+                            collision_->wants_store() ? "; a store of it (roam build) takes little memory" : ""));
   }
   note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why));
   ghost_only_ = true;
   // An empty space has nothing to stand on.
+  all_keys_ = roamer_->controls().text();
   roamer_->controls().rebind("gravity =\nghost =");
   stage_->hud().set_help(key_lines(roamer_->controls()));
   roamer_->setMode(Mode::ghost);
-  world_ = std::make_shared<const World>();
-  roamer_->setSpace(std::shared_ptr<const Space>(world_));
+  roamer_->setSpace(std::make_shared<const World>());
   start_ = plan_.at ? *plan_.at : overview(scene_->bounds(), plan_.fov);
   enter();
 }
@@ -132,7 +137,7 @@ void Session::step_taken(const StepReport& report, double seconds) {
     speed_ = 0.0;
   }
   if (roamer_->walker() == nullptr) return;
-  hold_.take(*roamer_->walker(), wish(), report.elapsed);
+  hold_.take(*roamer_->walker(), wish(), report.elapsed, status_.paging && status_.paging->failed > 0);
   watch_footing(report, seconds);
 }
 
@@ -166,8 +171,7 @@ bool Session::ground_below() const {
 void Session::fly_without_ground() {
   if (!std::exchange(without_ground_, false)) return;
   roamer_->setMode(Mode::fly);
-  const auto* walks = roamer_->controls().find("gravity");
-  const std::string key = walks == nullptr ? std::string() : osgRoam::Controls::keyText(*walks);
+  const std::string key = key_of("gravity");
   note("There is nothing below to stand on: flying." + (key.empty() ? key : " " + key + " walks again."));
 }
 
@@ -217,6 +221,15 @@ void Session::update_status(bool at_once) {
   for (const News& news : news_) s.news.push_back(news.told);
   if (!roamer_->problem().empty()) s.news.push_back({roamer_->problem(), true});
   s.recording.clear();
+  s.paging.reset();
+  if (pager_) {
+    s.paging = pager_->stats();
+    s.world_bytes = s.paging->memory;
+    tell_of_failures(*s.paging);
+  }
+  s.building.reset();
+  if (builder_) s.building = builder_->state();
+  s.store_key = store_offered_ && !pager_ ? key_of("store") : std::string();
   if (recorder_) s.recording = fmt::format("{}, {:.0f} s", recorder_->file().filename().string(), recorder_->seconds());
   if (placed_) {
     const Walker& walker = *roamer_->walker();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "roam/error.h"
@@ -14,6 +15,17 @@ namespace {
 constexpr double news_seconds = 6.0;     // at least
 constexpr double letter_seconds = 0.07;  // to read a long sentence
 constexpr std::size_t most_news = 4;     // lines at a time
+
+void erase_where_a_path_begins(std::string& text, const std::string& folder) {
+  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
+    const bool begins = at == 0 || std::string_view(" '\"(`").find(text[at - 1]) != std::string_view::npos;
+    if (begins) {
+      text.erase(at, folder.size());
+    } else {
+      ++at;
+    }
+  }
+}
 
 }  // namespace
 
@@ -87,6 +99,9 @@ void Session::run(Command command) {
       case Command::marks:
         marks_ = !marks_;
         break;
+      case Command::store:
+        toggle_building();
+        break;
       case Command::quit:
         quits_ = true;
         break;
@@ -102,10 +117,9 @@ void Session::run(Command command) {
 void Session::tell(std::string news, bool warning) {
   // Who looks at the scene knows where it is.
   for (const auto& scene : options_.scene.scenes) {
-    const std::string folder = scene.parent_path().string() + "/";
-    if (folder == "/") continue;
-    for (std::size_t at = news.find(folder); at != std::string::npos; at = news.find(folder, at)) {
-      news.erase(at, folder.size());
+    for (const auto& path : {std::filesystem::absolute(scene), scene}) {
+      const std::string folder = path.parent_path().string() + "/";
+      if (folder != "/") erase_where_a_path_begins(news, folder);
     }
   }
   const double seconds = std::max(news_seconds, letter_seconds * static_cast<double>(news.size()));

@@ -63,7 +63,6 @@ ViewReport Session::report() {
     report.result = replay_->result();
     report.path_ended = replay_->ended();
     report.waypoints = replay_->waypoints();
-    if (report.result->blocked_at) report.object = world_->object_name(report.result->blocked_at->triangle);
   }
   report.steps = log_.steps();
   report.simulated = log_.simulated();
@@ -77,11 +76,20 @@ ViewReport Session::report() {
   report.collision_own_ns = times(log_.own_collision_times(), 1.0);
   report.resident_bytes = resident_bytes();
   report.world_bytes = status_.world_bytes;
+  if (pager_) {
+    report.store = pager_->store().name();
+    report.paging = pager_->stats();
+  }
   report.renderer = stage_->frame().describe();
   std::istringstream hud(stage_->hud().text());
   for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
   report.written = written_;
   report.notes = notes_;
+  if (builder_ && builder_->state().phase != LoadState::Phase::done) {
+    report.notes.push_back(fmt::format("{} is not finished; what is done is kept, and `roam build` goes on from there",
+                                       builder_->output().string()));
+  }
+  if (report.result && report.result->blocked_at) name_blockage(report);
   if (loaded_) append(report.notes, loaded_->report.notes);
   if (scene_->report()) {
     const DisplayReport& display = *scene_->report();

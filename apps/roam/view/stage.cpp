@@ -57,7 +57,9 @@ void Stage::show(const Status& status) {
   hud_->set_status(std::move(lines));
   const Told message = status_message(status);
   hud_->set_message(message.text, message.warning ? graphics::Tone::warning : graphics::Tone::info);
-  hud_->set_progress(load_share(status.display, status.collision));
+  double share = load_share(status.display, status.collision);
+  if (share < 0.0 && status.building) share = load_share(status.display, *status.building);
+  hud_->set_progress(share);
   hud_->set_crosshair(status.mode.has_value() && status.camera.empty());
 }
 

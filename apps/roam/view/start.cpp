@@ -8,6 +8,9 @@
 #include <numbers>
 
 #include "roam/error.h"
+#include "roam/world.h"
+#include "store_start.h"
+#include "view/store_triangles.h"
 #include "wander.h"
 
 namespace roam::app {
@@ -15,6 +18,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
+// Of a store, what is looked at to find where to look: metres, and triangles.
+constexpr double sight = 60.0;
+constexpr std::size_t most_in_sight = 1'000'000;
 constexpr double overview_yaw = 60.0;     // degrees: two sides of a building are seen, none of them face on
 constexpr double overview_pitch = -30.0;  // degrees
 
@@ -33,6 +39,47 @@ bool sees_something(const Space& space, const Vec3& eye, double yaw) {
     }
   }
   return false;
+}
+
+/// What an eye has before it.
+struct View {
+  double yaw = 0.0;  ///< degrees, of where one sees farthest
+  bool anything = false;
+};
+
+View look(const Space& space, const Vec3& eye) {
+  const double yaw = open_yaw(space, eye);
+  return {yaw, sees_something(space, eye, yaw)};
+}
+
+/// `find` answers a place for a body of a mode, or throws Error.
+StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bounds,
+                       const std::function<Vec3(Mode)>& find, const std::function<View(const Vec3&)>& look_around) {
+  StartPlace start;
+  start.mode = mode;
+  constexpr double fov = 60.0;
+  std::string why;
+  for (const Mode way : {Mode::walk, Mode::fly}) {
+    if (way == Mode::walk && mode != Mode::walk) continue;
+    try {
+      const Vec3 centre = find(way);
+      if (way != mode && mode == Mode::walk) {
+        start.mode = Mode::fly;
+        start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";
+      }
+      const View view = look_around(centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height));
+      start.pose = {centre, view.yaw, 0.0};
+      // Who flies may as well begin where there is something to see.
+      if (start.mode == Mode::fly && !view.anything) start.pose = overview(bounds, fov);
+      return start;
+    } catch (const Error& error) {
+      why = error.what();
+    }
+  }
+  start.pose = overview(bounds, fov);
+  if (mode != Mode::ghost) start.mode = Mode::fly;
+  start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
+  return start;
 }
 
 }  // namespace
@@ -65,36 +112,24 @@ Pose overview(const Box& box, double fov) {
 
 StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
                       const std::function<bool()>& goes_on) {
-  StartPlace start;
-  start.mode = mode;
-  constexpr double fov = 60.0;
-  const auto look_around = [&](const Vec3& centre) {
-    const Vec3 eye = centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height);
-    start.pose = {centre, open_yaw(space, eye), 0.0};
-    // Who flies may as well begin where there is something to see.
-    if (start.mode == Mode::fly && !sees_something(space, eye, start.pose.yaw)) {
-      start.pose = overview(space.bounds(), fov);
-    }
-    return start;
-  };
-  std::string why;
-  for (const Mode way : {Mode::walk, Mode::fly}) {
-    if (way == Mode::walk && mode != Mode::walk) continue;
-    try {
-      const Vec3 place = wander_start(space, settings, way, floors, goes_on);
-      if (way != mode && mode == Mode::walk) {
-        start.mode = Mode::fly;
-        start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";
-      }
-      return look_around(place);
-    } catch (const Error& error) {
-      why = error.what();
-    }
-  }
-  start.pose = overview(space.bounds(), fov);
-  if (mode != Mode::ghost) start.mode = Mode::fly;
-  start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
-  return start;
+  return start_place(
+      settings, mode, space.bounds(), [&](Mode way) { return wander_start(space, settings, way, floors, goes_on); },
+      [&](const Vec3& eye) { return look(space, eye); });
+}
+
+StartPlace find_start(const Store& store, const WalkerSettings& settings, Mode mode,
+                      const std::function<bool()>& goes_on) {
+  return start_place(
+      settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, settings, way, goes_on); },
+      [&](const Vec3& eye) {
+        Mesh mesh;
+        for (const Triangle& triangle : triangles_around(store, eye, sight, most_in_sight, goes_on).triangles) {
+          const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+          mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
+          mesh.triangles.push_back({first, first + 1, first + 2});
+        }
+        return look(World::build({&mesh, 1}), eye);
+      });
 }
 
 }  // namespace roam::app

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "roam/store.h"
 #include "roam/walker.h"
 #include "view/pose.h"
 
@@ -23,6 +24,10 @@ struct StartPlace {
 /// is asked now and then, and ends it by false: roam::Cancelled.
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                     std::span<const Vec3> floors, const std::function<bool()>& goes_on);
+
+/// The same in a store, looking around a few places of it only.
+[[nodiscard]] StartPlace find_start(const Store& store, const WalkerSettings& settings, Mode mode,
+                                    const std::function<bool()>& goes_on);
 
 /// The level direction, in degrees, in which one sees farthest from `eye` before a wall.
 [[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);

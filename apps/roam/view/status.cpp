@@ -20,6 +20,8 @@ constexpr double indexing_share = 0.95;
 
 double share_of(const LoadState& state) {
   switch (state.phase) {
+    case Phase::comparing:
+      return 0.0;
     case Phase::reading:
       return reading_share * state.share;
     case Phase::indexing:
@@ -42,6 +44,16 @@ std::string body_text(const Status& status) {
   return text;
 }
 
+/// "64 MB, 512 tiles, ready 35 m, 3 failed"
+std::string paging_text(const PagerStats& paging) {
+  // In the unit of --memory.
+  constexpr double mebi = 1 << 20;
+  std::string text = fmt::format("{:.0f} MiB, {} tiles", static_cast<double>(paging.memory) / mebi, paging.tiles);
+  text += std::isfinite(paging.ready_m) ? fmt::format(", ready {:.0f} m", paging.ready_m) : std::string(", all ready");
+  if (paging.failed > 0) text += fmt::format(", {} failed", paging.failed);
+  return text;
+}
+
 std::string mode_text(const Status& status) {
   if (!status.camera.empty()) return status.camera;
   if (!status.mode) return "loading";
@@ -55,6 +67,7 @@ std::string mode_text(const Status& status) {
 std::string load_text(const char* what, const LoadState& state) {
   if (state.phase == Phase::done) return {};
   if (state.phase == Phase::failed) return fmt::format("{} failed: {}", what, state.error);
+  if (state.phase == Phase::comparing) return fmt::format("{}: comparing the scene with its store", what);
   if (state.phase == Phase::looking) return fmt::format("{}: looking for a place to start", what);
   std::string text = fmt::format("{} {:.0f} %", what, 100.0 * share_of(state));
   if (state.triangles > 0) text += fmt::format(": {} triangles", short_count(static_cast<double>(state.triangles)));
@@ -84,8 +97,15 @@ std::vector<StatusText> status_lines(const Status& status) {
   }
   if (status.triangles > 0) lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false});
   std::string memory = byte_text(status.resident);
-  if (status.world_bytes > 0) memory += fmt::format(", collision {}", byte_text(status.world_bytes));
+  if (status.world_bytes > 0 && !status.paging) memory += fmt::format(", collision {}", byte_text(status.world_bytes));
   lines.push_back({"memory", memory, false});
+  if (status.paging) lines.push_back({"collision", paging_text(*status.paging), status.paging->failed > 0});
+  if (status.building) {
+    const bool failed = status.building->phase == Phase::failed;
+    lines.push_back({"", failed ? "store failed" : load_text("store", *status.building), failed});
+  } else if (!status.store_key.empty()) {
+    lines.push_back({"store", "none; " + status.store_key + " builds it", false});
+  }
   std::string frame;
   if (status.frame_ms > 0.0) frame = fmt::format("{:.1f} ms", status.frame_ms);
   if (status.mode) {
@@ -95,6 +115,8 @@ std::vector<StatusText> status_lines(const Status& status) {
   if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
   for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
     const bool failed = state->phase == Phase::failed;
+    // A store has come in its place.
+    if (failed && state == &status.collision && status.paging) continue;
     // Why it failed is too long for a line, and is told below.
     const std::string text = failed ? std::string(what) + " failed" : load_text(what, *state);
     if (!text.empty()) lines.push_back({"", text, failed});
@@ -104,7 +126,7 @@ std::vector<StatusText> status_lines(const Status& status) {
 
 Told status_message(const Status& status) {
   Told message;
-  if (status.collision.phase == Phase::failed) {
+  if (status.collision.phase == Phase::failed && !status.paging) {
     message = {"The collision could not be loaded: this is a ghost that passes through walls.", true};
   } else if (!status.mode) {
     message = {fmt::format("held until the walls are known\n{}", load_text("collision", status.collision)), false};

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "roam/pager.h"
 #include "roam/walker.h"
 #include "view/hold.h"
 
@@ -15,7 +16,7 @@ namespace roam::app {
 
 /// How far the loading of one thing has come.
 struct LoadState {
-  enum class Phase : std::uint8_t { reading, indexing, looking, done, failed };
+  enum class Phase : std::uint8_t { comparing, reading, indexing, looking, done, failed };
   Phase phase = Phase::reading;
   double share = 0.0;           ///< of this phase, in [0, 1]
   std::uint64_t triangles = 0;  ///< so far
@@ -34,13 +35,16 @@ struct Status {
   double yaw = 0.0, pitch = 0.0;  ///< degrees
   std::string camera;             ///< of another manipulator than ours; empty: ours
   LoadState display, collision;
-  std::uint64_t triangles = 0;    ///< of the collision; 0: not known yet
-  std::uint64_t resident = 0;     ///< bytes of the process
-  std::uint64_t world_bytes = 0;  ///< of the collision
-  double frame_ms = 0.0;          ///< 0: not known yet
-  double collision_us = 0.0;      ///< a frame
-  std::string recording;          ///< what is being written
-  std::vector<Told> news;         ///< for this moment
+  std::uint64_t triangles = 0;        ///< of the collision; 0: not known yet
+  std::uint64_t resident = 0;         ///< bytes of the process
+  std::uint64_t world_bytes = 0;      ///< of the collision
+  std::optional<PagerStats> paging;   ///< where the collision comes from a store
+  std::optional<LoadState> building;  ///< of a store; none: nobody builds one
+  std::string store_key;              ///< builds a store, which is worth it; empty: there is nothing to build
+  double frame_ms = 0.0;              ///< 0: not known yet
+  double collision_us = 0.0;          ///< a frame
+  std::string recording;              ///< what is being written
+  std::vector<Told> news;             ///< for this moment
   Told hold;
 };
 

@@ -65,6 +65,8 @@ Json json_report(const ViewReport& report) {
                {"missing_texture_files", report.missing_texture_files},
                {"missing_pages", report.missing_pages},
                {"written", report.written}};
+  json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
+  if (report.paging) json["paging"] = app::json_report(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);
   if (report.start) json["start"] = to_json(*report.start);
   if (report.least_clearance) json["least_clearance_m"] = *report.least_clearance;

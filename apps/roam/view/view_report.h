@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report.h"
+#include "roam/pager.h"
 #include "roam/route.h"
 #include "verification.h"
 #include "view/pose.h"
@@ -44,6 +45,8 @@ struct ViewReport {
   Times collision_own_ns;  ///< of that, what the thread itself used
   std::uint64_t resident_bytes = 0;
   std::uint64_t world_bytes = 0;
+  std::string store;                 ///< that the body collided with at the end; empty: none
+  std::optional<PagerStats> paging;  ///< of it
   std::string renderer;
   std::vector<std::string> hud;    ///< as shown in the last frame, line by line
   std::vector<std::string> notes;  ///< what is not as it should be
@@ -51,7 +54,7 @@ struct ViewReport {
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
   std::vector<std::string> written;  ///< files
-  std::vector<Mesh> meshes;          ///< for --verify
+  std::vector<Mesh> meshes;          ///< for --verify; none where it was a store from the beginning
   std::vector<Piece> pieces;         ///< for --verify
   std::optional<Verification> verified;
 };

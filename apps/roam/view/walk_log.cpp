@@ -18,7 +18,7 @@ void WalkLog::take(const StepReport& report, const WalkerSettings& settings, Mod
   if (seconds <= 0.0) return;
   ++steps_;
   simulated_ += report.elapsed;
-  if (report.has(EventKind::throttled)) ++throttled_;
+  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++throttled_;
   Vec3 last = report.from;
   for (const Corner& corner : report.corners) {
     if (!corner.teleport) length_ += glm::distance(last, corner.position);

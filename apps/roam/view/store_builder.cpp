@@ -1,0 +1,83 @@
+#include "view/store_builder.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "view/collision_loader.h"
+
+namespace roam::app {
+namespace {
+
+/// This thread, and the processes and threads that it starts, give way to all others.
+void give_way() {
+  constexpr int nicer = 5;
+  // Not more: drawing without a graphics card takes all cores. Where it may not be done, smoothness is lost, not more.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nicer);
+}
+
+double share(std::uint64_t done, std::uint64_t total) {
+  return total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0.0;
+}
+
+}  // namespace
+
+StoreBuilder::StoreBuilder(const SceneAndStore& what, const WalkerSettings& walker, const Vec3& place,
+                           std::uint64_t memory)
+    : what_(what), output_(store_place(what)), walker_(walker), memory_(memory), place_(place), loading_([this] {
+        build();
+      }) {}
+
+void StoreBuilder::follow(const Vec3& place) {
+  loading_.with_state([&](const LoadState&) { place_ = place; });
+}
+
+Vec3 StoreBuilder::place() {
+  return loading_.with_state([this](const LoadState&) { return place_; });
+}
+
+std::shared_ptr<Pager> StoreBuilder::take() {
+  return loading_.with_state([this](const LoadState&) { return std::exchange(pager_, nullptr); });
+}
+
+std::vector<std::string> StoreBuilder::notes() {
+  return loading_.with_state([this](const LoadState&) { return notes_; });
+}
+
+bool StoreBuilder::goes_on(const StoreBuildProgress& p) {
+  using Step = StoreBuildProgress::Step;
+  const bool reads = p.step == Step::read;
+  const double part = reads                    ? share(p.bytes_done, p.bytes_total)
+                      : p.step == Step::shards ? share(p.triangles_done, p.triangles_total)
+                      : p.step == Step::merge  ? 1.0
+                                               : 0.0;
+  loading_.tell(reads ? LoadState::Phase::reading : LoadState::Phase::indexing, part, p.triangles_done);
+  return loading_.wanted();
+}
+
+void StoreBuilder::build() {
+  give_way();
+  StoreBuildOptions options;
+  options.scene = what_.scene.scenes;
+  options.output = output_;
+  options.import = what_.scene.import_options();
+  options.lossless = what_.scene.lossless;
+  options.threads = work_threads(what_.scene.threads);
+  options.nearest_first = place();
+  options.progress = [this](const StoreBuildProgress& p) { return goes_on(p); };
+  StoreBuildReport report = build_store(options);
+  loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
+  auto pager = std::make_shared<Pager>(Store::open(output_), PagerOptions{.memory = memory_});
+  wait_at(*pager, walker_, place(), [this] { return loading_.wanted(); });
+  loading_.with_state([&](LoadState& state) {
+    state = {};
+    state.phase = LoadState::Phase::done;
+    state.share = 1.0;
+    notes_ = std::move(report.notes);
+    pager_ = std::move(pager);
+  });
+}
+
+}  // namespace roam::app

@@ -1,0 +1,126 @@
+#include "view/store_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "exit_status.h"
+#include "roam/error.h"
+#include "store/build/same_scene.h"
+#include "store/opened.h"
+#include "store_name.h"
+
+namespace roam::app {
+namespace {
+
+/// Some ten seconds of loading, and some gigabytes of memory.
+constexpr std::uint64_t many_bytes = 1'000'000'000;
+constexpr std::uint64_t many_triangles = 20'000'000;
+
+/// "Data.roam/" -> "Data", where that is there; else empty.
+std::filesystem::path scene_beside(const std::filesystem::path& store) {
+  std::filesystem::path path = store.lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  if (path.extension() != ".roam") return {};
+  path.replace_extension();
+  std::error_code none;
+  return std::filesystem::exists(path, none) ? path : std::filesystem::path();
+}
+
+/// In what the store differs from the scene; empty when in nothing.
+std::string compare(const Store& store, const SceneOptions& scene, const std::function<bool()>& goes_on) {
+  try {
+    return store::difference(store, scene.scenes, scene.import_options(), scene.lossless, [&] {
+      if (!goes_on()) throw Cancelled();
+    });
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// Lets the scene be read as the store was.
+void read_as(SceneOptions& scene, const Store& store) {
+  const auto options = nlohmann::json::parse(store.state().manifest.options, nullptr, false);
+  if (!options.is_object()) return;
+  scene.up = options.contains("up") && options["up"].is_string() ? options["up"].get<std::string>() : std::string();
+  for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
+    if (metres_per(parse_length_unit(unit)) == options.value("metres_per_unit", 1.0)) scene.unit = unit;
+  }
+  scene.ignore = options.value("ignore", scene.ignore);
+}
+
+}  // namespace
+
+SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
+  SceneAndStore what{scene, store, false};
+  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
+  if (!store.empty() && !is_store(store)) {
+    throw UsageError(fmt::format("--store {}: there is no store there; `roam build {} -o {}` makes it", store.string(),
+                                 scene.names(), store.string()));
+  }
+  const auto& scenes = scene.scenes;
+  if (std::none_of(scenes.begin(), scenes.end(), is_store)) return what;
+  if (scenes.size() > 1 || !store.empty()) {
+    throw UsageError("a store is a scene of its own: name the scene, and the store by --store");
+  }
+  if (scene.says_how_to_read()) {
+    throw UsageError(scenes.front().string() +
+                     " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
+  }
+  what.store = scenes.front();
+  const std::filesystem::path shown = scene_beside(what.store);
+  what.store_only = shown.empty();
+  if (what.store_only) return what;
+  what.scene.scenes = {shown};
+  read_as(what.scene, *Store::open(what.store));
+  return what;
+}
+
+std::filesystem::path store_place(const SceneAndStore& what) {
+  return what.store.empty() ? store_beside(what.scene.scenes.front()) : what.store;
+}
+
+StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>& goes_on) {
+  StoreChoice choice;
+  const std::filesystem::path place = store_place(what);
+  if (!what.store.empty()) {
+    choice.store = Store::open(what.store);
+    const std::string difference = what.store_only ? std::string() : compare(*choice.store, what.scene, goes_on);
+    choice.stale = !difference.empty();
+    if (choice.stale) {
+      choice.note = fmt::format("what is collided with, {}, is not of what is seen: {}", place.string(), difference);
+    }
+    return choice;
+  }
+  if (!Store::is_store(place)) return choice;
+  std::string problem;
+  try {
+    std::shared_ptr<const Store> store = Store::open(place);
+    problem = compare(*store, what.scene, goes_on);
+    if (problem.empty()) choice.store = std::move(store);
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  choice.stale = !problem.empty();
+  if (choice.stale) {
+    choice.note =
+        fmt::format("the store {} is not used: {}; `roam build` brings it up to date", place.string(), problem);
+  }
+  return choice;
+}
+
+bool is_large(std::uint64_t bytes, std::uint64_t triangles) { return bytes > many_bytes || triangles > many_triangles; }
+
+std::uint64_t scene_bytes(const SceneOptions& scene) {
+  std::uint64_t bytes = 0;
+  try {
+    for (const ScenePart& part : scene_parts(scene.scenes, scene.import_options())) bytes += part.bytes;
+  } catch (const Error&) {
+    // Whoever loads it says why.
+    return 0;
+  }
+  return bytes;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,124 @@
+#include "view/store_triangles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <osg/Geometry>
+
+#include "graphics/shading.h"
+#include "progress.h"
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+constexpr std::size_t most_shown = 1'000'000;
+constexpr double least_reach = 0.5;       // m: nobody looks less far
+constexpr std::size_t batch = 16'384;     // triangles that are drawn, or left out of sight, together
+constexpr std::size_t piece = 8 * batch;  // triangles that come into the picture together
+
+/// Too many have come.
+struct Enough {};
+
+/// The triangles whose tiles meet the box; false when there are more than `most`.
+bool read(const Store& store, const Box& box, std::size_t most, const std::function<bool()>& goes_on,
+          StoreTriangles& into) {
+  into.triangles.clear();
+  into.problem.clear();
+  into.box = box;
+  try {
+    store.for_each_triangle(box, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+      if (!goes_on()) throw Cancelled();
+      if (into.triangles.size() + triangles.size() > most) throw Enough();
+      into.triangles.insert(into.triangles.end(), triangles.begin(), triangles.end());
+    });
+  } catch (const Enough&) {
+    return false;
+  } catch (const Error& error) {
+    into.problem = error.what();
+  }
+  return true;
+}
+
+Box around(const Vec3& place, double reach) { return {place - reach, place + reach}; }
+
+osg::ref_ptr<osg::Geometry> geometry_of(std::span<const Triangle> triangles, const Vec3& origin) {
+  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+  vertices->reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles) {
+    for (const Vec3& corner : triangle) {
+      const Vec3 v = corner - origin;
+      vertices->push_back(osg::Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)));
+    }
+  }
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(vertices);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices->size())));
+  return geometry;
+}
+
+std::string sentence(const Store& store, const StoreTriangles& shown) {
+  std::string text = fmt::format("the scene of {} is not known: what is seen is what is collided with", store.name());
+  if (!shown.all) {
+    text += fmt::format(", within {:.3g} m of the start", 0.5 * (shown.box.upper.x - shown.box.lower.x));
+  }
+  return text + fmt::format("; `roam view SCENE --store {}` shows a scene", store.name());
+}
+
+}  // namespace
+
+StoreTriangles triangles_around(const Store& store, const Vec3& place, double reach, std::size_t most,
+                                const std::function<bool()>& goes_on) {
+  StoreTriangles found;
+  while (!read(store, around(place, reach), most, goes_on, found) && reach > least_reach) reach *= 0.5;
+  return found;
+}
+
+DisplayReport show_store(const Store& store, const Vec3& place,
+                         const std::function<void(DisplayNode&&, std::uint64_t)>& take,
+                         const std::function<bool()>& goes_on) {
+  const Box& bounds = store.info().bounds;
+  StoreTriangles shown;
+  shown.all = store.info().triangles <= most_shown && read(store, bounds, most_shown, goes_on, shown);
+  if (!shown.all) {
+    // Wider and wider: what is read in vain is less than what is shown.
+    const Vec3 farthest = glm::max(bounds.upper - place, place - bounds.lower);
+    const double enough = std::max({farthest.x, farthest.y, farthest.z, 1.0});
+    shown = triangles_around(store, place, 8.0, most_shown, goes_on);
+    for (double reach = 16.0; reach < 2.0 * enough; reach *= 2.0) {
+      StoreTriangles wider;
+      if (!read(store, around(place, reach), most_shown, goes_on, wider)) break;
+      shown = std::move(wider);
+    }
+  }
+  DisplayReport report;
+  report.origin = glm::floor(place);
+  for (std::size_t first = 0; first < shown.triangles.size(); first += piece) {
+    const std::size_t end = std::min(first + piece, shown.triangles.size());
+    DisplayNode node;
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (std::size_t i = first; i < end; i += batch) {
+      const auto part = std::span(shown.triangles).subspan(i, std::min(batch, end - i));
+      group->addChild(geometry_of(part, report.origin));
+      for (const Triangle& triangle : part) {
+        for (const Vec3& corner : triangle) node.bounds.include(corner);
+      }
+    }
+    graphics::prepare(*group);
+    node.node = group;
+    node.origin = report.origin;
+    report.bounds.include(node.bounds);
+    ++report.parts;
+    take(std::move(node), end - first);
+    if (!goes_on()) throw Cancelled();
+  }
+  report.triangles = shown.triangles.size();
+  report.notes.push_back(sentence(store, shown));
+  if (!shown.problem.empty()) report.notes.push_back("not all of it is shown: " + shown.problem);
+  return report;
+}
+
+}  // namespace roam::app
