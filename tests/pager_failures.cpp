@@ -7,7 +7,7 @@
 
 #include "clutter.h"
 #include "pager_made.h"
-#include "roam/generate.h"
+#include "store/opened.h"
 #include "walker_judged.h"
 
 namespace {
@@ -49,6 +49,9 @@ constexpr Vec3 middle(30.5, 30.5, 1.5);
 /// Walks about in all directions; every step is judged by all triangles.
 void wander(Yard& yard, Pager& pager, Mode mode, double speed, int steps, std::uint64_t seed, double& length) {
   Random random(seed);
+  ASSERT_TRUE(made::update_until(pager, {0.3, 0.6}, middle, [&] {
+    return !pager.clearance({0.3, 0.6}, middle, 1.0).unknown;
+  }));
   Walker w(pager, {}, mode, middle);
   double heading = 0.0;
   Vec3 before = w.position();
@@ -121,13 +124,13 @@ TEST(PagerFailures, WhatFailsIsTriedAgainUntilItComes) {
 
 TEST(PagerFailures, WhatNeverComesIsSolidAndNamedAndTheRestGoesOn) {
   Yard yard("pager_named");
+  for (const auto& page : yard.store->state().pages) yard.bytes->spared.insert(page.ref.offset);
+  yard.bytes->errors = 500;
   Pager pager(yard.store, {.memory = Pager::least_memory});
-  // Every page comes, and then nothing more.
-  ASSERT_TRUE(
-      made::update_until(pager, {0.3, 0.0}, middle, [&] { return pager.stats().pages == yard.store->info().pages; }));
-  yard.bytes->errors = 1000;
-  const std::uint64_t before = pager.stats().tiles;
-  if (before == yard.store->info().tiles) GTEST_SKIP() << "it was too quick";
+  ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, middle, [&] {
+    if (pager.stats().tiles >= 20) yard.bytes->errors = 1000;
+    return yard.bytes->errors == 1000;
+  }));
   ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, middle, [&] {
     const auto s = pager.stats();
     return s.tiles + s.failed == yard.store->info().tiles;
@@ -179,12 +182,18 @@ TEST(PagerFailures, AStoreThatIsReplacedIsReadToItsEnd) {
   ASSERT_NO_FATAL_FAILURE(made::load_all(before));
   ASSERT_NO_FATAL_FAILURE(made::load_all(after));
   const roam::World first = build(yard.mesh), second = build(other);
+  // The tiles are smaller than the worlds', and an edge that is a little elsewhere is met earlier or later by more.
+  constexpr double stored_otherwise = 2e-3;
+  long differ = 0;
   Random random(9);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 from(random.between(0.0, 60.0), random.between(0.0, 60.0), 5.0), down(0.0, 0.0, -10.0);
-    ASSERT_NEAR(before.sweep({0.2, 0.0}, from, down).time, first.sweep({0.2, 0.0}, from, down).time, 2e-4);
-    ASSERT_NEAR(after.sweep({0.2, 0.0}, from, down).time, second.sweep({0.2, 0.0}, from, down).time, 2e-4);
+    const double one = first.sweep({0.2, 0.0}, from, down).time, other_one = second.sweep({0.2, 0.0}, from, down).time;
+    ASSERT_NEAR(before.sweep({0.2, 0.0}, from, down).time, one, stored_otherwise);
+    ASSERT_NEAR(after.sweep({0.2, 0.0}, from, down).time, other_one, stored_otherwise);
+    differ += std::abs(one - other_one) > stored_otherwise ? 1 : 0;
   }
+  EXPECT_GT(differ, 100);
 }
 
 TEST(PagerFailures, SeveralPagersReadOneStore) {
