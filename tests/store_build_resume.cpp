@@ -1,13 +1,17 @@
 // Builds that are killed, repeated, cut into steps, or follow a change give the same bytes as one that is not.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 
@@ -22,10 +26,17 @@ std::atomic<int> calls{0};
 std::atomic<int> fatal_call{0};
 /// Whether the fatal call is still done.
 std::atomic<bool> dies_after{false};
+/// The n-th such call and all after it fail with this error. 0: none does.
+std::atomic<int> failing_call{0}, failure{0};
 
 template <class Call>
 auto counted(Call&& call) {
-  const bool fatal = ++calls == fatal_call;
+  const int number = ++calls;
+  if (failing_call > 0 && number >= failing_call) {
+    errno = failure;
+    return static_cast<decltype(call())>(-1);
+  }
+  const bool fatal = number == fatal_call;
   if (fatal && !dies_after) ::kill(::getpid(), SIGKILL);
   const auto result = call();
   if (fatal) ::kill(::getpid(), SIGKILL);
@@ -112,6 +123,32 @@ TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
     if (fs::exists(output + "/CURRENT")) expect_whole(output);
     ASSERT_EQ(in_child([&] { build(output); }), 0);
     expect_same(folder.file("whole"), output);
+  }
+}
+
+TEST(StoreBuildResume, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const auto build = [&](const std::string& output) { roam::build_store(options({scene}, output)); };
+  const int count = calls_of(folder.file("count"), [&] { build(folder.file("whole")); });
+  const std::string output = folder.file("full");
+  for (const int error : {ENOSPC, EIO}) {
+    for (int i = 0; i < 8; ++i) {
+      fs::remove_all(output);
+      const int status = in_child([&] {
+        failure = error;
+        failing_call = 1 + (count / 2) * i / 7;
+        const std::string text = refusal([&] { build(output); });
+        failing_call = 0;
+        std::ofstream(folder.file("said")) << text;
+      });
+      ASSERT_EQ(status, 0);
+      const std::string said = folder.read("said");
+      EXPECT_NE(said.find(std::strerror(error)), std::string::npos) << said;
+      EXPECT_FALSE(roam::Store::is_store(output));
+      ASSERT_EQ(in_child([&] { build(output); }), 0);
+      expect_same(folder.file("whole"), output);
+    }
   }
 }
 
@@ -246,6 +283,29 @@ TEST(StoreBuildResume, ReadsAndBuildsOnlyWhatChanged) {
   expect_same(folder.file("s"), folder.file("fresh"));
   roam::build_store(options({scene[0]}, folder.file("s")));
   roam::build_store(options({scene[0]}, folder.file("fresh")));
+  expect_same(folder.file("s"), folder.file("fresh"));
+}
+
+TEST(StoreBuildResume, KeepsWhatAReaderOfTheOldStoreHolds) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply")}, folder.file("s"));
+  roam::build_store(o);
+  const auto before = content(folder.file("s"));
+  // As a reader does.
+  const int held = ::open(fs::directory_iterator(folder.file("s") + "/manifests")->path().c_str(), O_RDONLY);
+  ASSERT_GE(held, 0);
+  ASSERT_EQ(::flock(held, LOCK_SH), 0);
+  write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  roam::build_store(o);
+  const auto both = content(folder.file("s"));
+  for (const auto& [name, bytes] : before) {
+    if (name == "CURRENT") continue;
+    EXPECT_TRUE(both.contains(name) && both.at(name) == bytes) << name;
+  }
+  ::close(held);
+  EXPECT_TRUE(roam::build_store(o).unchanged);
+  roam::build_store(options({folder.file("a.ply")}, folder.file("fresh")));
   expect_same(folder.file("s"), folder.file("fresh"));
 }
 

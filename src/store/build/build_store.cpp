@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <future>
+#include <map>
 
 #include "roam/store_build.h"
 #include "store/build/layout.h"
@@ -23,15 +24,43 @@ void make_folders(const fs::path& store) {
   }
 }
 
+/// The notes of all parts for people: what is said of many parts is said once, with the first of them.
+class Notes {
+ public:
+  void add(const std::string& part, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+      const std::string sentence = note.substr(part.size() + 2);
+      const auto [it, is_new] = place_.emplace(sentence, said_.size());
+      if (is_new) said_.push_back({part, sentence, 0});
+      if (!is_new) ++said_[it->second].others;
+    }
+  }
+  [[nodiscard]] std::vector<std::string> text() const {
+    std::vector<std::string> lines;
+    for (const Said& s : said_) {
+      const std::string others = s.others > 0 ? fmt::format(" and {} more", s.others) : "";
+      lines.push_back(s.part + others + ": " + s.sentence);
+    }
+    return lines;
+  }
+
+ private:
+  struct Said {
+    std::string part, sentence;
+    std::size_t others;
+  };
+  std::map<std::string, std::size_t> place_;
+  std::vector<Said> said_;
+};
+
 void describe(const Plan& plan, StoreBuildReport& report) {
   report.triangles = 0;
   for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
   report.shards = plan.shards.size();
   report.parts = plan.parts.size();
-  report.notes.clear();
-  for (const PartRecord& part : plan.parts) {
-    report.notes.insert(report.notes.end(), part.notes.begin(), part.notes.end());
-  }
+  Notes notes;
+  for (const PartRecord& part : plan.parts) notes.add(part.info.name, part.notes);
+  report.notes = notes.text();
 }
 
 /// Nothing when the store is up to date.
@@ -52,9 +81,14 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   tidy(work.store);  // a build may have been killed after it had published
   report.unchanged = true;
   const Manifest manifest = *manifest_in_force(work.store);
-  for (const PartInfo& part : manifest.parts) report.triangles += part.triangles;
   report.shards = manifest.shards.size();
-  report.notes = manifest.notes;
+  Notes notes;
+  const auto by_part = notes_by_part(manifest);
+  for (std::size_t i = 0; i < manifest.parts.size(); ++i) {
+    report.triangles += manifest.parts[i].triangles;
+    notes.add(manifest.parts[i].name, by_part[i]);
+  }
+  report.notes = notes.text();
   return plan;
 }
 

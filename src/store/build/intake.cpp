@@ -113,11 +113,14 @@ std::string to_text(const PartRecord& record) {
 
 /// A note of the import that begins with the name of the part, and is the same wherever the scene lies.
 std::string note_of(const ScenePart& part, std::string note) {
-  const std::string path = part.path.string();
-  for (std::size_t at = 0; !path.empty() && (at = note.find(path, at)) != std::string::npos; at += part.name.size()) {
-    note.replace(at, path.size(), part.name);
+  const fs::path whole = fs::absolute(part.path).lexically_normal();
+  const fs::path folder = whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
+  for (const std::string& start : {part.path.string() + ": ", whole.string() + ": "}) {
+    if (note.starts_with(start)) note.erase(0, start.size());
   }
-  return note.starts_with(part.name + ": ") ? note : part.name + ": " + note;
+  const std::string place = (folder / "").string();
+  for (std::size_t at = 0; (at = note.find(place, at)) != std::string::npos;) note.erase(at, place.size());
+  return part.name + ": " + note;
 }
 
 /// What JSON can hold of a text that comes from a file of unknown encoding.

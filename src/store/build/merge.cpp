@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <map>
 #include <mutex>
 
@@ -71,13 +72,16 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   return shards;
 }
 
-/// Whether a process reads the store by this manifest: see StoreBytes in the folder of a store.
-bool in_use(const fs::path& manifest) {
+/// Removes a manifest unless a process reads the store by it, which then holds a shared lock on it. It is removed while
+/// it is locked here: who waits for the lock finds it gone, and looks at CURRENT again. Returns whether it was removed.
+bool remove_unless_read(const fs::path& manifest) {
   const int descriptor = ::open(manifest.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const bool read = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  std::error_code error;
+  const bool removed = !read && fs::remove(manifest, error);
   ::close(descriptor);
-  return locked;
+  return removed;
 }
 
 void keep(const Manifest& manifest, std::set<std::string>& files) {
@@ -90,17 +94,16 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 void tidy(const fs::path& store) {
   std::string hash;
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
-  std::set<std::string> needed{manifest_file(hash)};
+  std::set<std::string> needed;
   keep(manifest, needed);
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(store / "manifests", error)) {
-    if (entry.path() == store / manifest_file(hash) || !in_use(entry.path())) continue;
+    if (entry.path() == store / manifest_file(hash) || remove_unless_read(entry.path())) continue;
     const std::string name = "manifests/" + entry.path().filename().string();
     const std::vector<std::byte> bytes = read_file(entry.path(), 1ull << 30);
     keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name), needed);
-    needed.insert(name);
   }
-  for (const char* folder : {"packs", "parts", "manifests"}) {
+  for (const char* folder : {"packs", "parts"}) {
     for (const auto& entry : fs::directory_iterator(store / folder, error)) {
       const std::string name = std::string(folder) + "/" + entry.path().filename().string();
       if (!needed.contains(name)) fs::remove(entry.path(), error);

@@ -140,6 +140,17 @@ std::optional<Manifest> manifest_in_force(const fs::path& store) {
   return read_manifest(*files_of(store), store.string());
 }
 
+std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
+  std::vector<std::vector<std::string>> notes(manifest.parts.size());
+  std::size_t part = 0;
+  for (const std::string& note : manifest.notes) {  // in the order of the parts
+    while (part < notes.size() && !note.starts_with(manifest.parts[part].name + ": ")) ++part;
+    if (part == notes.size()) break;
+    notes[part].push_back(note);
+  }
+  return notes;
+}
+
 std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
   const fs::path file = shard_file(store, key);
   std::error_code error;

@@ -40,6 +40,9 @@ void write_plan(const std::filesystem::path& store, const Plan& plan);
 /// The manifest in force, if there is a store.
 [[nodiscard]] std::optional<Manifest> manifest_in_force(const std::filesystem::path& store);
 
+/// The notes of each part of a store, as PartRecord has them.
+[[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);
+
 /// Throws roam::Error when the output cannot be one for this scene; makes its folders.
 void prepare_output(const StoreBuildOptions& options);
 

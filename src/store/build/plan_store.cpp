@@ -66,21 +66,24 @@ class Planner {
  private:
   /// What is known of each part without reading it.
   void take_records() {
-    std::map<std::string, const PartInfo*> before;
+    std::map<std::string, std::size_t> before;
+    std::vector<std::vector<std::string>> notes;
     if (in_force_) {
-      for (const PartInfo& info : in_force_->parts) before[info.name] = &info;
+      for (std::size_t i = 0; i < in_force_->parts.size(); ++i) before[in_force_->parts[i].name] = i;
+      notes = notes_by_part(*in_force_);
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const std::string fingerprint = sources_.fingerprint(parts_[i], plan_.options);
       const std::string id = record_id(parts_[i].name, fingerprint);
       std::optional<PartRecord> record = find_record(work_.store, id);
       const auto old = before.find(parts_[i].name);
-      if (!record && old != before.end() && old->second->fingerprint == fingerprint && is_there(*old->second)) {
-        record.emplace();
-        record->info = *old->second;
-        record->id = id;
-        for (const std::string& note : in_force_->notes) {
-          if (note.starts_with(parts_[i].name + ": ")) record->notes.push_back(note);
+      if (!record && old != before.end()) {
+        const PartInfo& info = in_force_->parts[old->second];
+        if (info.fingerprint == fingerprint && is_there(info)) {
+          record.emplace();
+          record->info = info;
+          record->id = id;
+          record->notes = notes[old->second];
         }
       }
       if (!record) {
