@@ -10,9 +10,6 @@
 namespace roam::paging {
 namespace {
 
-/// Metres per second. Nobody need stand still, for nothing unknown lets anybody through.
-constexpr double least_limit = 0.5;
-
 /// Metres. How far it looks at least and at most.
 constexpr double least_reach = 16.0, greatest_reach = 500.0;
 

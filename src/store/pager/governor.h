@@ -23,8 +23,11 @@ class Governor {
   [[nodiscard]] double latency() const { return latency_; }
 
  private:
+  /// Metres per second. Nobody need stand still, for nothing unknown lets anybody through.
+  static constexpr double least_limit = 0.5;
+
   double horizon_;
-  double limit_ = 0.0, ready_ = 0.0, latency_ = 0.0;
+  double limit_ = least_limit, ready_ = 0.0, latency_ = 0.0;
   // Where it looked last, how far, and what it found.
   Vec3 place_{0.0};
   double radius_ = -1.0, half_height_ = -1.0, reach_ = 0.0, found_ = 0.0;

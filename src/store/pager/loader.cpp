@@ -10,6 +10,19 @@ namespace {
 /// How long a thread that has nothing to do sleeps: as long as a body that begins to move may wait for it.
 constexpr std::chrono::milliseconds nap{2};
 
+/// What a page must say, beyond what view_page checks, lest something unknown not be solid where it is.
+const char* check_solid(const store::PageView& view, const Box& page) {
+  for (const store::TileEntry& tile : view.tiles) {
+    std::uint64_t cells = 0;
+    for (const std::uint64_t layer : tile.mask) cells |= layer;
+    if (cells == 0) return "a tile of it is nowhere in its box";
+    for (int k = 0; k < 3; ++k) {
+      if (tile.lower[k] < page.lower[k] || tile.upper[k] > page.upper[k]) return "a tile lies outside its page";
+    }
+  }
+  return nullptr;
+}
+
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 }  // namespace
@@ -101,6 +114,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   PageInMemory in;
   if (const char* problem = store::view_page(bytes, s.manifest.shards[page.shard].bytes, in.view)) return problem;
   if (in.view.tiles.size() != page.ref.tiles) return "it has more or fewer tiles than said";
+  if (const char* problem = check_solid(in.view, page.ref.box)) return problem;
   std::byte* const tiles = memory + Planner::tiles_offset(page.ref.bytes);
   in.tiles = reinterpret_cast<index::Tile*>(tiles);
   for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
