@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <map>
+#include <memory>
+#include <thread>
 
 #include "roam/store_build.h"
 #include "store/build/layout.h"
@@ -17,6 +20,21 @@ namespace {
 
 using namespace store;
 namespace fs = std::filesystem;
+
+/// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
+/// has become the reader: that is waited for.
+std::unique_ptr<BuildLock> locked(const fs::path& store) {
+  constexpr int tries = 20;
+  constexpr auto pause = std::chrono::milliseconds(50);
+  for (int i = 1;; ++i) {
+    try {
+      return std::make_unique<BuildLock>(store);
+    } catch (const Error&) {
+      if (i == tries) throw;
+      std::this_thread::sleep_for(pause);
+    }
+  }
+}
 
 void make_folders(const fs::path& store) {
   for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {
@@ -166,7 +184,7 @@ bool is_newer(const fs::path& store) {
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
   prepare_output(options);
-  const BuildLock lock(work.store);
+  const auto lock = locked(work.store);
   const auto plan = plan_locked(work, {}, report);
   return plan ? plan->to_build().size() : 0;
 }
@@ -186,7 +204,7 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
   if (!fs::is_directory(work.store)) throw Error(fmt::format("{} is no folder of a store", work.store.string()));
-  const BuildLock lock(work.store);
+  const auto lock = locked(work.store);
   const Plan plan = read_plan(work.store);
   describe(plan, report);
   merge_locked(work, plan, report);
@@ -196,7 +214,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   StoreBuildReport report;
   Work work(options);
   prepare_output(options);
-  const BuildLock lock(work.store);
+  const auto lock = locked(work.store);
   const auto plan = plan_locked(work, {}, report);
   if (!plan) return report;
   build_shards(work, *plan, plan->to_build(), report);
@@ -207,7 +225,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 std::uint64_t repair_store(const StoreBuildOptions& options) {
   Work work(options);
   if (!Store::is_store(work.store)) throw Error(fmt::format("{} is no store", work.store.string()));
-  const BuildLock lock(work.store);
+  const auto lock = locked(work.store);
   Manifest manifest;
   try {
     manifest = *manifest_in_force(work.store);
