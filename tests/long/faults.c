@@ -149,4 +149,17 @@ int rename(const char* from, const char* to) {
   CALL("rename", int, (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
 }
 int mkdir(const char* folder, mode_t mode) { CALL("mkdir", int, (int)syscall(SYS_mkdirat, AT_FDCWD, folder, mode)); }
+int unlinkat(int folder, const char* file, int flags) {
+  CALL("unlink", int, (int)syscall(SYS_unlinkat, folder, file, flags));
+}
+int remove(const char* file) {
+  struct stat status;
+  const int is_folder = lstat(file, &status) == 0 && S_ISDIR(status.st_mode);
+  return unlinkat(AT_FDCWD, file, is_folder ? AT_REMOVEDIR : 0);
+}
 int unlink(const char* file) { CALL("unlink", int, (int)syscall(SYS_unlinkat, AT_FDCWD, file, 0)); }
+void _exit(int status) {
+  end();
+  syscall(SYS_exit_group, status);
+  __builtin_unreachable();
+}
