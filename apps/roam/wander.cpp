@@ -248,7 +248,7 @@ const StepReport& Wander::advance() {
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
   result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
-  if (report.has(EventKind::throttled)) ++result_.throttled;
+  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
   std::uint32_t kinds = 0;
   for (const Event& event : report.events) {
     const std::uint32_t bit = 1u << static_cast<unsigned>(event.kind);
