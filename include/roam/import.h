@@ -157,8 +157,8 @@ struct ScenePart {
 };
 
 /// The parts of a scene, in order: the paths', and within a folder first the tiles whose root is missing, which have no
-/// files, then the others by name. Opens no scene file but reads folders and their metadata.xml. Throws as import_scene
-/// does for paths that are missing or of no known format, and for folders in different reference systems.
+/// files, then the others by name. Opens no scene file but reads folders and their metadata.xml; options.progress ends
+/// it by false. Throws as import_scene does for missing paths, unknown formats, folders in different reference systems.
 [[nodiscard]] std::vector<ScenePart> scene_parts(std::span<const std::filesystem::path> paths,
                                                  const ImportOptions& options = {});
 

@@ -128,7 +128,9 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     reading.options = &options;
     reading.wanted = reader::Reading::Wanted::list;
     reading.frame = report.georeference;
-    reading.report_progress = [](std::uint64_t, std::uint64_t) {};
+    reading.report_progress = [&options](std::uint64_t, std::uint64_t) {
+      if (options.progress && !options.progress({})) throw Cancelled();
+    };
     const std::optional<Georeference> frame = report.georeference;
     TileList list(report, options.ignore.size());
     std::vector<bool> matched(options.ignore.size());
