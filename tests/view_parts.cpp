@@ -13,6 +13,7 @@
 #include "view/options.h"
 #include "view/settings.h"
 #include "view/status.h"
+#include "view/store_choice.h"
 
 namespace {
 
@@ -362,6 +363,31 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
   }
+}
+
+TEST(Stores, AreOfferedForLargeScenes) {
+  EXPECT_FALSE(is_large(900'000'000, 10'000'000));
+  EXPECT_TRUE(is_large(1'100'000'000, 0));
+  EXPECT_TRUE(is_large(0, 21'000'000));
+}
+
+TEST(Status, SaysHowTheStoreIs) {
+  Status status;
+  status.mode = Mode::walk;
+  status.paging.emplace();
+  status.paging->memory = 64u << 20;
+  status.paging->tiles = 512;
+  status.paging->ready_m = 35.2;
+  status.paging->failed = 3;
+  std::string text;
+  for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
+  EXPECT_TRUE(contains(text, "collision: 64 MiB, 512 tiles, ready 35 m, 3 failed\n")) << text;
+  status.building.emplace();
+  status.building->phase = LoadState::Phase::reading;
+  status.building->share = 0.5;
+  text.clear();
+  for (const StatusText& line : status_lines(status)) text += line.value + "\n";
+  EXPECT_TRUE(contains(text, "store 30 %")) << text;
 }
 
 }  // namespace

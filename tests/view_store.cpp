@@ -372,29 +372,16 @@ TEST(ViewStore, WalksAPathVerifiedAndTellsTheCounters) {
   EXPECT_TRUE(contains(report["store"].get<std::string>(), "scene.obj.roam"));
 }
 
-TEST(ViewStore, KnowsALargeScene) {
-  EXPECT_FALSE(is_large(900'000'000, 10'000'000));
-  EXPECT_TRUE(is_large(1'100'000'000, 0));
-  EXPECT_TRUE(is_large(0, 21'000'000));
-}
-
-TEST(ViewStore, SaysWhatIsWaitedFor) {
-  Status status;
-  status.mode = Mode::walk;
-  status.paging.emplace();
-  status.paging->memory = 64u << 20;
-  status.paging->tiles = 512;
-  status.paging->ready_m = 35.2;
-  status.paging->failed = 3;
-  std::string text;
-  for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
-  EXPECT_TRUE(contains(text, "collision: 64 MiB, 512 tiles, ready 35 m, 3 failed\n")) << text;
-  status.building.emplace();
-  status.building->phase = LoadState::Phase::reading;
-  status.building->share = 0.5;
-  text.clear();
-  for (const StatusText& line : status_lines(status)) text += line.value + "\n";
-  EXPECT_TRUE(contains(text, "store 30 %")) << text;
+TEST(ViewStore, EndsComparingWhenItIsToldTo) {
+  Driven d;
+  d.write_scene();
+  d.build();
+  const std::string reader = d.folder.write("reader", "#!/bin/sh\nexec sleep 100\n");
+  fs::permissions(reader, fs::perms::owner_all);
+  setenv("ROAM_READER", reader.c_str(), 1);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(static_cast<void>(choose_store({d.options.scene, {}, false}, [] { return false; })), Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
 }  // namespace

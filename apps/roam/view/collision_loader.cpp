@@ -66,7 +66,7 @@ void CollisionLoader::choose_and_load() {
   if (choice.store) {
     load_store(choice.store);
   } else {
-    wants_store_ = choice.stale || is_large(scene_bytes(what_.scene), 0);
+    wants_store_ = choice.stale;
     load_scene();
   }
 }
@@ -92,7 +92,7 @@ void CollisionLoader::load_scene() {
     const double share =
         p.bytes_total > 0 ? static_cast<double>(p.bytes_read) / static_cast<double>(p.bytes_total) : 0.0;
     loading_.tell(LoadState::Phase::reading, std::min(share, 1.0), p.triangles);
-    if (is_large(0, p.triangles)) wants_store_ = true;
+    if (is_large(p.bytes_total, p.triangles)) wants_store_ = true;
     return loading_.wanted();
   };
   Scene scene = import_scene(options.scenes, reading);

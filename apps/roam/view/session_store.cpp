@@ -30,7 +30,7 @@ void Session::see_to_store() {
   if (!store_offered_ && collision_->wants_store()) {
     store_offered_ = true;
     const std::string key = key_of("store");
-    note(fmt::format("a collision store would be there at once and take little memory: {}`roam build {}` builds it",
+    note(fmt::format("a collision store makes this scene open at once, in little memory: {}`roam build {}` builds it",
                      key.empty() ? key : key + " or ", options_.scene.names()));
   }
   if (builder_) follow_builder();
@@ -85,7 +85,9 @@ void Session::change_to(std::shared_ptr<Pager> pager) {
   roamer_->setSpace(pager_);
   status_.triangles = pager_->store().info().triangles;
   tell(fmt::format("the walls come from {} now", pager_->store().name()));
-  if (!loaded_ || !loaded_->world) return;
+  if (!loaded_) return;
+  loaded_->pager.reset();
+  if (!loaded_->world) return;
   // To give gigabytes back takes longer than a frame.
   freeing_ =
       std::async(std::launch::async, [world = std::exchange(loaded_->world, nullptr)]() mutable { world.reset(); });

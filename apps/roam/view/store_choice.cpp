@@ -30,14 +30,17 @@ std::filesystem::path scene_beside(const std::filesystem::path& store) {
 
 /// In what the store differs from the scene; empty when in nothing.
 std::string compare(const Store& store, const SceneOptions& scene, const std::function<bool()>& goes_on) {
-  try {
-    return store::difference(store, scene.scenes, scene.import_options(), scene.lossless, [&] {
-      if (!goes_on()) throw Cancelled();
-    });
-  } catch (const Error& error) {
-    return error.what();
-  }
+  ImportOptions import = scene.import_options();
+  import.progress = [&](const ImportProgress&) { return goes_on();
+};
+try {
+  return store::difference(store, scene.scenes, import, scene.lossless, [&] {
+    if (!goes_on()) throw Cancelled();
+  });
+} catch (const Error& error) {
+  return error.what();
 }
+}  // namespace
 
 /// Lets the scene be read as the store was.
 void read_as(SceneOptions& scene, const Store& store) {
@@ -50,7 +53,7 @@ void read_as(SceneOptions& scene, const Store& store) {
   scene.ignore = options.value("ignore", scene.ignore);
 }
 
-}  // namespace
+}  // namespace roam::app
 
 SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
   SceneAndStore what{scene, store, false};
@@ -111,16 +114,5 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
 }
 
 bool is_large(std::uint64_t bytes, std::uint64_t triangles) { return bytes > many_bytes || triangles > many_triangles; }
-
-std::uint64_t scene_bytes(const SceneOptions& scene) {
-  std::uint64_t bytes = 0;
-  try {
-    for (const ScenePart& part : scene_parts(scene.scenes, scene.import_options())) bytes += part.bytes;
-  } catch (const Error&) {
-    // Whoever loads it says why.
-    return 0;
-  }
-  return bytes;
-}
 
 }  // namespace roam::app

@@ -41,7 +41,5 @@ struct StoreChoice {
 
 /// Whether loading a scene whole takes so long, or so much memory, that a store is worth building.
 [[nodiscard]] bool is_large(std::uint64_t bytes, std::uint64_t triangles);
-/// The bytes of the scene's files; 0 where that cannot be told.
-[[nodiscard]] std::uint64_t scene_bytes(const SceneOptions& scene);
 
 }  // namespace roam::app
