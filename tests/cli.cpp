@@ -40,6 +40,14 @@ TEST(CommandLine, SaysSoWhenWhatItExplainsCannotBeWritten) {
   }
 }
 
+TEST(CommandLine, FailsAndDoesNotCrashWhenNotEvenItsMessageCanBeWritten) {
+  for (const char* asked : {"--version", "info nothing.ply"}) {
+    const ProgramResult result =
+        run_program("/bin/sh", {"-c", std::string("exec \"$0\" ") + asked + " > /dev/full 2>&1", ROAM_PROGRAM});
+    EXPECT_EQ(result.status, 1) << asked;
+  }
+}
+
 TEST(CommandLine, NamesTheUnknownOptionAndWhereToLook) {
   const ProgramResult result = roam({"walk", "scene.obj", "--path", "a.path", "--radis", "0.3"});
   EXPECT_EQ(result.status, 2);

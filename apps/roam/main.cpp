@@ -1,6 +1,7 @@
 // The command line `roam`: chooses the verb, runs it, and turns what went wrong into a message and an exit status.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -67,6 +68,13 @@ int run(int argc, char** argv) {
   return chosen();
 }
 
+/// A message that cannot be written either, to a log on the disk that is full, is lost: the exit status still tells.
+void tell(const char* message) {
+  std::fputs("roam: ", stderr);
+  std::fputs(message, stderr);
+  std::fputs("\n", stderr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -74,19 +82,19 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const UsageError& error) {
-    fmt::print(stderr, "roam: {}\n", error.what());
+    tell(error.what());
     return bad_usage;
   } catch (const BrokenPipe&) {
     return failed;
   } catch (const roam::Cancelled&) {
-    fmt::print(stderr, "roam: cancelled\n");
+    tell("cancelled");
     return failed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "roam: out of memory; take a smaller scene or a machine with more memory\n");
+    tell("out of memory; take a smaller scene or a machine with more memory");
     return failed;
   } catch (const std::exception& error) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the file.
-    fmt::print(stderr, "roam: {}\n", interrupted() ? "cancelled" : error.what());
+    tell(interrupted() ? "cancelled" : error.what());
     return failed;
   }
 }
