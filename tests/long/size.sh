@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# tests/long/size.sh [SCENE.ply [STORE.roam]]
+# A gallery of 103 M triangles, 2.6 GB (or SCENE, a gallery too): builds its store within --memory 1G, or takes STORE;
+# then walks it with 64 MiB and cold files: ten simulated minutes at 50 m/s and at 1.4 m/s, and 300 m of which every
+# move is checked against all triangles of the scene. Then the step time of 1e5, 1e6, 1e7 and 1e8 triangles on the same
+# way. Prints one line of figures each. 12 GB of disk, 20 minutes on two cores at rest. On a machine that is not at rest,
+# UNDER="chrt -f 10" keeps other programs from interrupting the walks (not the builds).
+set -uo pipefail
+source "$(dirname "$0")/common.sh"
+trap 'rm -rf "$work"' EXIT
+
+number() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}$/\1/p" "$2" | head -1; }
+# Only these files: no other program is disturbed.
+forget() { find "$1" -type f -exec dd if={} iflag=nocache count=0 status=none \;; }
+
+# built SCENE STORE: with the largest sum of memory over the builder and its readers, looked at ten times a second.
+built() {
+  TIMEFORMAT='%U %S'
+  { time "$roam" build "$1" -o "$2" --memory 1G --json > "$work/build.json" 2> "$work/said"; } 2> "$work/time" &
+  local job=$! peak=0 now builder
+  sleep 0.3
+  builder=$(pgrep -P $job -x "$(basename "$roam")")
+  while kill -0 $job 2> /dev/null; do
+    now=$(ps -o rss= -p "$builder" --ppid "$builder" | awk '{sum += $1} END {print sum + 0}')
+    ((now <= peak)) || peak=$now
+    sleep 0.1
+  done
+  wait $job || complain "the build failed: $(tail -1 "$work/said")"
+  read -r user system < "$work/time"
+  echo "built $(number triangles "$work/build.json") triangles in $(number seconds "$work/build.json") s (read" \
+    "$(number read_s "$work/build.json"), plan $(number plan_s "$work/build.json"), shards" \
+    "$(number shard_s "$work/build.json"), merge $(number merge_s "$work/build.json")); processor $user + $system s;" \
+    "$(number bytes_per_triangle "$work/build.json") bytes a triangle; memory at most $((peak / 1024)) MiB"
+  ((peak <= 1 << 20)) || complain "the build takes more than 1 GiB"
+}
+
+# walked STORE WHAT OPTIONS...
+walked() {
+  local what=$2 report=$work/report
+  forget "$1"
+  TIMEFORMAT='%R %U %S'
+  { time ${UNDER:-} "$roam" walk "$1" "${@:3}" --memory 64M --json > "$report" 2> "$work/said"; } 2> "$work/time"
+  read -r real user system < "$work/time"
+  echo "$what: $(number outcome "$report"), $(number length_m "$report") m in $(number simulated_s "$report") simulated" \
+    "s, $(number steps "$report") steps; step ns median $(number median "$report"), p99 $(number p99 "$report"), max" \
+    "$(number max "$report"); throttled $(number throttled "$report"); violations $(number violations "$report");" \
+    "memory $(number memory "$report"), used $(number used "$report"), loads $(number loads "$report"), evictions" \
+    "$(number evictions "$report"), $(number bytes_read "$report") bytes read, failures $(number failures "$report");" \
+    "took $real s, processor $user + $system s"
+  (($(number memory "$report") <= 64 << 20)) || complain "$what: more than 64 MiB"
+  [[ $(number violations "$report") == 0 || $(number violations "$report") == null ]] || complain "$what: violations"
+  [[ $(number failures "$report") == 0 ]] || complain "$what: $(number last_failure "$report")"
+  [[ $(number outcome "$report") == reached ]] || complain "$what: $(number why "$report")"
+}
+
+big=${1:-$work/big.ply}
+[[ -e $big ]] || "$roam" make gallery -o "$big" --triangles 103000000 || exit 2
+store=${2:-$work/big.roam}
+[[ -e $store/CURRENT ]] || built "$big" "$store"
+
+# Along the paper's first two paths and back, 32 km; along the first, 840 m; 300 m of it.
+for ((i = 0; i < 7; ++i)); do
+  printf '%s\n' '-13739 253 182' '-12504 1566 182' '-12228 1927 182' '-12504 1566 182'
+done > "$work/fly.path"
+echo '-13739 253 182' >> "$work/fly.path"
+printf '%s\n' '-13739 253 182' '-13163.5 864.9 182' > "$work/walk.path"
+printf '%s\n' '-13739 253 182' '-13533.5 471.5 182' > "$work/near.path"
+printf '%s\n' '-13739 253 182' '-12504 1566 182' > "$work/first.path"
+walked "$store" "fly, 50 m/s" --path "$work/fly.path" --mode fly --speed 50
+walked "$store" "walk, 1.4 m/s" --path "$work/walk.path" --mode walk --speed 1.4 --height 1.8
+walked "$store" "fly, 50 m/s, against the scene" --path "$work/near.path" --mode fly --speed 50 --against "$big"
+
+for triangles in 100000 1000000 10000000; do
+  "$roam" make gallery -o "$work/g.ply" --triangles $triangles > /dev/null || exit 2
+  "$roam" build "$work/g.ply" -o "$work/$triangles.roam" > /dev/null 2> "$work/said" || complain "$(tail -1 "$work/said")"
+  rm "$work/g.ply"
+done
+for triangles in 100000 1000000 10000000; do
+  walked "$work/$triangles.roam" "$triangles triangles" --path "$work/first.path" --mode fly --speed 50
+done
+walked "$store" "103 M triangles" --path "$work/first.path" --mode fly --speed 50
+finish "size"
