@@ -173,6 +173,8 @@ void Planner::plan(const Traveller& traveller, Clock::time_point time) {
   look_again_at_requests(traveller);
   consider_all(traveller, time);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
+    // Its page may have been sent away for one that came before it.
+    if (pages_[candidates_[i].thing.page].self.leaving) continue;
     // What is farther must not take the room of what is nearer and did not find any.
     if (!place(candidates_[i], traveller)) break;
   }
