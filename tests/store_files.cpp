@@ -282,6 +282,37 @@ class Memory : public StoreBytes {
   std::map<std::string, std::string> files;
 };
 
+TEST(Publish, WhileAnotherReadsLeadsItToTheNewOne) {
+  /// Publishes the next manifest, and removes the one before it, between the reading of CURRENT and of what it names.
+  struct Republished : StoreBytes {
+    std::map<std::string, std::string> files;
+    std::vector<std::string> next;  ///< texts of manifests
+    void publish() {
+      const std::string hash = sha256(bytes_of(next.back()));
+      files = {{"CURRENT", "roam store 1\n" + hash + "\n"}, {manifest_file(hash), next.back()}};
+      next.pop_back();
+    }
+    std::vector<std::byte> whole(const std::string& file, std::uint64_t) override {
+      const auto it = files.find(file);
+      if (it == files.end()) throw Error(file + " is not there");
+      const auto bytes = bytes_of(it->second);
+      std::vector<std::byte> content(bytes.begin(), bytes.end());
+      if (file == "CURRENT" && !next.empty()) publish();
+      return content;
+    }
+    const char* read(const std::string&, std::uint64_t, std::span<std::byte>) override { return "not asked for"; }
+  } bytes;
+  for (const char* options : {"third", "second", "first"}) {
+    Manifest manifest = some_manifest();
+    manifest.options = options;
+    bytes.next.push_back(to_text(manifest));
+  }
+  bytes.publish();
+  EXPECT_EQ(read_manifest(bytes, "s").options, "third");
+  bytes.files.erase(bytes.files.rbegin()->first);  // and one that is gone for good is an error
+  EXPECT_NE(error_of([&] { (void)read_manifest(bytes, "s"); }), "no error");
+}
+
 TEST(Publish, EveryFlippedBitOfWhatIsReadFirstIsRefused) {
   const TemporaryFolder folder;
   const std::string hash = publish(folder.path(), some_manifest());

@@ -165,6 +165,30 @@ void check_version(std::uint32_t version, const std::string& name) {
   }
 }
 
+std::string text_of(const std::vector<std::byte>& content) {
+  return {reinterpret_cast<const char*>(content.data()), content.size()};
+}
+
+/// The hash in the text of CURRENT: "roam store 1\n", 64 digits, "\n".
+std::string named_by(const std::string& current, const std::string& store) {
+  const auto end = current.find('\n');
+  std::uint32_t version = 0;
+  if (!current.starts_with(kCurrentStart) || end == std::string::npos || end > kCurrentStart.size() + 9) {
+    refuse(store, "its file CURRENT is none of a store");
+  }
+  for (std::size_t i = kCurrentStart.size(); i < end; ++i) {
+    if (current[i] < '0' || current[i] > '9') refuse(store, "its file CURRENT is none of a store");
+    version = 10 * version + static_cast<std::uint32_t>(current[i] - '0');
+  }
+  check_version(version, store);
+  std::string named = current.substr(end + 1, 64);
+  if (version < 1 || current[kCurrentStart.size()] == '0' || !is_digits(named, 64) ||
+      current.substr(end + 65) != "\n") {
+    refuse(store, "its file CURRENT is none of a store");
+  }
+  return named;
+}
+
 }  // namespace
 
 std::string to_text(const ShardInfo& shard) { return json_of(shard).dump(1) + "\n"; }
@@ -231,31 +255,25 @@ Manifest parse_manifest(const std::string& text, const std::string& name) {
 }
 
 Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash, std::uint64_t* text_bytes) {
-  const auto text_of = [](const std::vector<std::byte>& content) {
-    return std::string(reinterpret_cast<const char*>(content.data()), content.size());
-  };
-  const std::string current = text_of(bytes.whole(current_file, kCurrentLimit));
-  // "roam store 1\n" and 64 digits.
-  const auto end = current.find('\n');
-  std::uint32_t version = 0;
-  if (!current.starts_with(kCurrentStart) || end == std::string::npos || end > kCurrentStart.size() + 9) {
-    refuse(store, "its file CURRENT is none of a store");
+  std::string current = text_of(bytes.whole(current_file, kCurrentLimit));
+  for (;;) {
+    const std::string named = named_by(current, store);
+    const std::string file = manifest_file(named);
+    std::vector<std::byte> content;
+    try {
+      content = bytes.whole(file, kManifestLimit);
+    } catch (const Error&) {
+      // Another may have been published since CURRENT was read, and this one removed.
+      std::string now = text_of(bytes.whole(current_file, kCurrentLimit));
+      if (now == current) throw;
+      current = std::move(now);
+      continue;
+    }
+    if (sha256(content) != named) refuse(store, file + " is not what it was when it was written");
+    if (hash != nullptr) *hash = named;
+    if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
+    return parse_manifest(text_of(content), store + "/" + file);
   }
-  for (std::size_t i = kCurrentStart.size(); i < end; ++i) {
-    if (current[i] < '0' || current[i] > '9') refuse(store, "its file CURRENT is none of a store");
-    version = 10 * version + static_cast<std::uint32_t>(current[i] - '0');
-  }
-  check_version(version, store);
-  const std::string named = current.substr(end + 1, 64);
-  if (version < 1 || !is_digits(named, 64) || current.substr(end + 65) != "\n") {
-    refuse(store, "its file CURRENT is none of a store");
-  }
-  const std::string file = manifest_file(named);
-  const std::vector<std::byte> content = bytes.whole(file, kManifestLimit);
-  if (sha256(content) != named) refuse(store, file + " is not what it was when it was written");
-  if (hash != nullptr) *hash = named;
-  if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
-  return parse_manifest(text_of(content), store + "/" + file);
 }
 
 std::string publish(const std::filesystem::path& store, const Manifest& manifest) {

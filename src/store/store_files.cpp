@@ -1,5 +1,6 @@
 // The bytes of a store that is a folder.
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -43,9 +44,11 @@ class Files : public StoreBytes {
   }
   ~Files() override {
     for (const auto& [file, descriptor] : open_) ::close(descriptor);
+    if (held_ >= 0) ::close(held_);
   }
 
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
+    if (file.starts_with("manifests/")) hold(folder_ / file);
     return read_file(folder_ / file, limit);
   }
 
@@ -59,6 +62,19 @@ class Files : public StoreBytes {
   }
 
  private:
+  /// Locks a manifest until this goes: as long as it is locked no builder removes it, nor what it names. Where it is
+  /// removed before, or cannot be opened, whoever reads it then learns that.
+  void hold(const fs::path& manifest) {
+    const int descriptor = ::open(manifest.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    // Builders lock it for no longer than it takes to remove it. Some file systems know no locks.
+    while (::flock(descriptor, LOCK_SH) != 0 && errno == EINTR) {
+    }
+    const std::lock_guard lock(mutex_);
+    if (held_ >= 0) ::close(held_);
+    held_ = descriptor;
+  }
+
   /// Stays open until this goes.
   [[nodiscard]] int kept_descriptor(const std::string& file) {
     const std::lock_guard lock(mutex_);
@@ -86,6 +102,7 @@ class Files : public StoreBytes {
   std::size_t most_open_ = 512;
   std::mutex mutex_;
   std::unordered_map<std::string, int> open_;
+  int held_ = -1;  ///< the manifest
 };
 
 }  // namespace

@@ -75,7 +75,8 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
 /// Removes a manifest unless a process reads the store by it, which then holds a shared lock on it. It is removed while
 /// it is locked here: who waits for the lock finds it gone, and looks at CURRENT again. Returns whether it was removed.
 bool remove_unless_read(const fs::path& manifest) {
-  const int descriptor = ::open(manifest.c_str(), O_RDONLY | O_CLOEXEC);
+  // Network file systems lock against readers only what may be written.
+  const int descriptor = ::open(manifest.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool read = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   std::error_code error;
