@@ -223,14 +223,18 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 }
 
 std::uint64_t repair_store(const StoreBuildOptions& options) {
-  Work work(options);
-  if (!Store::is_store(work.store)) throw Error(fmt::format("{} is no store", work.store.string()));
-  const auto lock = locked(work.store);
-  Manifest manifest;
+  if (!Store::is_store(options.output)) throw Error(fmt::format("{} is no store", options.output.string()));
+  const auto lock = locked(options.output);
+  std::optional<Manifest> in_force;
   try {
-    manifest = *manifest_in_force(work.store);
+    in_force = manifest_in_force(options.output);
   } catch (const Error&) {
-    if (is_newer(work.store)) throw;
+    if (is_newer(options.output)) throw;
+  }
+  StoreBuildOptions as_built = options;
+  if (in_force) as_built.lossless = in_force->lossless;
+  Work work(as_built);
+  if (!in_force) {
     // Nothing tells what the store held. All of it is built again.
     make_folders(work.store);
     std::error_code error;
@@ -241,6 +245,7 @@ std::uint64_t repair_store(const StoreBuildOptions& options) {
     merge_locked(work, *plan, report);
     return report.shards_built;
   }
+  const Manifest& manifest = *in_force;
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {
     std::error_code error;
@@ -254,8 +259,7 @@ std::uint64_t repair_store(const StoreBuildOptions& options) {
   if (damaged.empty()) return 0;
   StoreBuildReport report;
   const auto plan = plan_locked(work, damaged, report);
-  bool same = plan && plan->options == manifest.options && plan->lossless == manifest.lossless &&
-              plan->parts.size() == manifest.parts.size();
+  bool same = plan && plan->options == manifest.options && plan->parts.size() == manifest.parts.size();
   for (std::size_t i = 0; same && i < plan->parts.size(); ++i) {
     same = plan->parts[i].info.name == manifest.parts[i].name &&
            plan->parts[i].info.fingerprint == manifest.parts[i].fingerprint;
