@@ -42,7 +42,8 @@ struct SceneCurve {
   using Key = std::uint64_t;
   static constexpr int kAxisBits = 20;
   static constexpr int kClassShift = 3 * kAxisBits;
-  static constexpr Key kAxis = 0x1249249249249249ULL;  ///< the bits of the first axis
+  static constexpr Key kAxis = 0x1249249249249249ULL;                     ///< the bits of the first axis
+  static constexpr std::uint32_t kTileTriangles = index::kTileTriangles;  ///< no tile holds more
   static Key spread(std::uint64_t x) { return index::spread(x); }
   static std::uint64_t gather(Key place) { return index::gather(place); }
 };

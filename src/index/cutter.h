@@ -15,8 +15,8 @@ namespace roam::index {
 /// `Curve`: see curve.h. Items have a `key` and ascend by it; `reach(item)` is half the widest side of a triangle's
 /// box, rounded up, in metres: how far it may stick out of the cells of its run.
 ///
-/// A run that holds more than kTileTriangles is always divided at the first bit of the keys that divides it. So cutting
-/// the cells of such a division one by one gives the same tiles as cutting the whole.
+/// A run that holds more than Curve::kTileTriangles is always divided at the first bit of the keys that divides it. So
+/// cutting the cells of such a division one by one gives the same tiles as cutting the whole.
 template <class Curve, class Item, class Reach>
 class Cutter {
  public:
@@ -45,7 +45,7 @@ class Cutter {
   void cut(std::uint32_t begin, std::uint32_t end, int bit, Out& out) const {
     const auto c = static_cast<int>(items_[begin].key >> Curve::kClassShift);
     const std::uint32_t count = end - begin;
-    if (count <= kTileTriangles && width(begin, end) <= limit(count <= kSparseTriangles ? c + 1 : c)) {
+    if (count <= Curve::kTileTriangles && width(begin, end) <= limit(count <= kSparseTriangles ? c + 1 : c)) {
       out(begin, end);
       return;
     }
@@ -56,7 +56,8 @@ class Cutter {
       return;
     }
     // More triangles than a tile holds in one cell of the curve.
-    for (; end - begin > kTileTriangles; begin += kTileTriangles) out(begin, begin + kTileTriangles);
+    for (; end - begin > Curve::kTileTriangles; begin += Curve::kTileTriangles)
+      out(begin, begin + Curve::kTileTriangles);
     out(begin, end);
   }
 

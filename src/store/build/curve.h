@@ -18,6 +18,8 @@ struct AbsoluteCurve {
   static constexpr int kClassShift = 3 * kAxisBits;
   static constexpr double kCell = 0x1p-10;    ///< m, side of the smallest cell
   static constexpr double kOrigin = -0x1p30;  ///< m, of the first cell on each axis
+  /// No tile holds more: it is decoded in 200 us so.
+  static constexpr std::uint32_t kTileTriangles = 8192;
   /// The bits of the first axis.
   static constexpr Key kAxis = Key{index::SceneCurve::kAxis} | Key{index::SceneCurve::kAxis} << 63;
 
