@@ -201,8 +201,55 @@ TEST_F(StoreVerbs, OptionsThatMeanNothingForAStoreOrASceneAreRefused) {
   EXPECT_EQ(run({"walk", scene(), "--memory", "64M", "--path", path()}).status, 2);
   EXPECT_EQ(run({"walk", store(), "--memory", "lots", "--path", path()}).status, 2);
   const ProgramResult little = run({"walk", store(), "--memory", "1M", "--path", path()});
-  EXPECT_NE(little.status, 0);
-  EXPECT_TRUE(contains(little.err, "memory")) << little.err;
+  EXPECT_EQ(little.status, 2);
+  EXPECT_TRUE(contains(little.err, "--memory") && contains(little.err, "8 MiB")) << little.err;
+  const ProgramResult much = run({"walk", store(), "--memory", "4000000G", "--path", path()});
+  EXPECT_EQ(much.status, 1);
+  EXPECT_TRUE(contains(much.err, "--memory")) << much.err;
+  const ProgramResult itself = run({"walk", store(), "--path", path(), "--against", store()});
+  EXPECT_EQ(itself.status, 2);
+  EXPECT_TRUE(contains(itself.err, "--verify")) << itself.err;
+}
+
+TEST_F(StoreVerbs, WithoutItsManifestItIsRepairedAsAWhole) {
+  for (const char* lost : {"CURRENT", "manifest"}) {
+    const TestFolder folder;
+    const std::string bad = copy(folder);
+    if (lost == std::string("CURRENT")) {
+      folder.write("copy.roam/CURRENT", "");
+    } else {
+      fs::remove(fs::directory_iterator(bad + "/manifests")->path());
+    }
+    EXPECT_NE(run({"verify", bad}).status, 0) << lost;
+    const ProgramResult repaired = run({"verify", bad, "--repair", scene()});
+    EXPECT_EQ(repaired.status, 0) << lost << repaired.out << repaired.err;
+    EXPECT_TRUE(contains(repaired.out, "whole")) << lost << repaired.out;
+    EXPECT_EQ(folder.read("copy.roam/CURRENT"), StoreVerbs::folder_->read("gallery.ply.roam/CURRENT")) << lost;
+  }
+}
+
+TEST_F(StoreVerbs, WhatIsNotThereOrNotCompleteIsSaidSo) {
+  const TestFolder folder;
+  const std::string missing = folder.file("nothing.ply");
+  const ProgramResult built = run({"build", missing});
+  EXPECT_EQ(built.status, 1);
+  EXPECT_TRUE(contains(built.err, missing)) << built.err;
+  EXPECT_FALSE(fs::exists(missing + ".roam")) << "nothing is left of a build that could not begin";
+  const ProgramResult walked =
+      run({"walk", store(), "--path", path(), "--against", missing, "--trace", folder.file("t")});
+  EXPECT_EQ(walked.status, 1);
+  EXPECT_FALSE(fs::exists(folder.file("t"))) << "that is said before the walk, not after it";
+
+  const std::string begun = folder.file("begun.roam");
+  ASSERT_EQ(run({"build", scene(), "-o", begun, "--plan"}).status, 0);
+  for (const char* verb : {"info", "sweep", "build"}) {
+    const ProgramResult told = run({verb, begun});
+    EXPECT_EQ(told.status, 1) << verb;
+    EXPECT_TRUE(contains(told.err, "not complete")) << told.err;
+  }
+  const ProgramResult twice = run({"build", store()});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_TRUE(contains(twice.err, "a store already")) << twice.err;
 }
 
 TEST_F(StoreVerbs, ANewerFormatAsksForANewerRoam) {

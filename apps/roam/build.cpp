@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "exit_status.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "report.h"
@@ -99,6 +100,10 @@ Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double s
   return json;
 }
 
+void tell_notes(const StoreBuildReport& report) {
+  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+}
+
 /// What a store that is complete came to.
 void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   const StoreInfo info = Store::open(verb.output)->info();
@@ -131,6 +136,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
     if (verb.plan) {
       const std::uint64_t count = plan_store(options, report);
       if (!report.unchanged) {
+        tell_notes(report);
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
           json["shards_to_build"] = count;
@@ -143,7 +149,12 @@ ExitStatus run_steps(const BuildVerb& verb) {
       }
     } else if (verb.shard) {
       build_shard(options, *verb.shard, report);
-      if (verb.json) print(json_report(verb, report, seconds()));
+      if (verb.json) {
+        print(json_report(verb, report, seconds()));
+      } else {
+        print(fmt::format("shard {} of {} is {}\n", *verb.shard, verb.output.string(),
+                          report.shards_built > 0 ? "built" : "there already"));
+      }
       return done;
     } else if (verb.merge) {
       merge_store(options, report);
@@ -151,13 +162,29 @@ ExitStatus run_steps(const BuildVerb& verb) {
       report = build_store(options);
     }
   }
-  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  tell_notes(report);
   tell_store(verb, report, seconds());
   return done;
 }
 
-ExitStatus build(BuildVerb verb) {
+/// What no build can mean, before anything is made on the disk.
+void check_usage(const BuildVerb& verb) {
   if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
+  if (verb.memory < StoreBuildOptions::least_memory) {
+    throw UsageError(fmt::format("build: --memory {}B: a build needs at least {} MiB",
+                                 short_count(static_cast<double>(verb.memory)), StoreBuildOptions::least_memory >> 20));
+  }
+  if (verb.shard || verb.merge) return;  // they read the plan, not the scene
+  for (const auto& scene : verb.scene.scenes) {
+    if (Store::is_store(scene)) {
+      throw UsageError(scene.string() + " is a store already: name the scene that it was made of");
+    }
+  }
+  verb.scene.check_there();
+}
+
+ExitStatus build(BuildVerb verb) {
+  check_usage(verb);
   if (verb.output.empty()) {
     if (verb.scene.scenes.empty()) throw UsageError("build: without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());

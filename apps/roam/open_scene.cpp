@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "exit_status.h"
 #include "interrupt.h"
@@ -76,6 +77,18 @@ std::shared_ptr<const Store> open_store(const SceneOptions& options) {
   return Store::open(options.scenes.front());
 }
 
+std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std::uint64_t memory) {
+  const auto said = [&] { return "--memory " + short_count(static_cast<double>(memory)) + "B"; };
+  if (memory < Pager::least_memory) {
+    throw UsageError(fmt::format("{}: a store is walked in {} MiB at least", said(), Pager::least_memory >> 20));
+  }
+  try {
+    return std::make_unique<Pager>(store, PagerOptions{.memory = memory});
+  } catch (const std::bad_alloc&) {
+    throw Error(said() + " is more than this machine gives; a store is walked in less, e.g. --memory 64M");
+  }
+}
+
 }  // namespace
 
 void StoreOptions::add_to(CLI::App& verb) {
@@ -87,8 +100,7 @@ void StoreOptions::add_to(CLI::App& verb) {
 OpenScene::OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source)
     : store_(open_store(options)) {
   if (store_) {
-    pager_ = std::make_unique<Pager>(store_,
-                                     PagerOptions{.memory = store_options.memory.value_or(StoreOptions::usual_memory)});
+    pager_ = make_pager(store_, store_options.memory.value_or(StoreOptions::usual_memory));
     return;
   }
   if (store_options.memory) {
@@ -162,6 +174,16 @@ Verification OpenScene::verified(std::span<const Piece> pieces,
     if (progress && !progress(begin)) throw Cancelled();
   }
   return all;
+}
+
+void check_against(const SceneOptions& scene) {
+  for (const auto& path : scene.scenes) {
+    if (Store::is_store(path)) {
+      throw UsageError("--against " + path.string() +
+                       ": this is a store; name the scene, or say --verify to check against the store itself");
+    }
+  }
+  scene.check_there();
 }
 
 Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,

@@ -62,6 +62,10 @@ class OpenScene {
   std::unique_ptr<Pager> pager_;
 };
 
+/// What verify_against needs, looked for before a walk that may take hours. Throws UsageError for a store, and
+/// roam::Error for a scene that is not there.
+void check_against(const SceneOptions& scene);
+
 /// Every piece against every triangle of a scene that is read piece by piece, however large it is. `progress` as of
 /// verify, but with bytes done and in all.
 [[nodiscard]] Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,

@@ -7,6 +7,7 @@
 #include "floors.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "roam/error.h"
 
 namespace roam::app {
 namespace {
@@ -71,6 +72,20 @@ ImportOptions SceneOptions::import_options() const {
 
 bool SceneOptions::says_how_to_read() const { return !up.empty() || unit != "m" || !ignore.empty() || lossless; }
 
+void SceneOptions::check_there() const {
+  std::error_code none;
+  for (const auto& scene : scenes) {
+    if (!std::filesystem::exists(scene, none)) {
+      throw Error(scene.string() + ": there is no such file or folder. Check the spelling.");
+    }
+    if (std::filesystem::is_directory(scene / "scratch", none) &&
+        std::filesystem::is_directory(scene / "packs", none)) {
+      throw Error(scene.string() +
+                  " is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped");
+    }
+  }
+}
+
 std::string SceneOptions::names() const {
   std::string text;
   for (const auto& scene : scenes) text += (text.empty() ? "" : ", ") + scene.string();
@@ -78,6 +93,7 @@ std::string SceneOptions::names() const {
 }
 
 LoadedScene load(const SceneOptions& options, Source source) {
+  options.check_there();
   const auto start = std::chrono::steady_clock::now();
   Scene scene = read(options);
   for (const std::string& note : scene.report.notes) fmt::print(stderr, "roam: note: {}\n", note);

@@ -4,6 +4,7 @@
 #include "exit_status.h"
 #include "progress.h"
 #include "report.h"
+#include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
 #include "scene_options.h"
@@ -67,7 +68,14 @@ std::uint64_t repair(const VerifyOptions& options) {
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
-  StoreVerification found = look(options);
+  StoreVerification found;
+  try {
+    found = look(options);
+  } catch (const Error& error) {
+    // What says what the store holds is damaged itself. A repair then makes it anew, unless it is of a newer roam.
+    if (options.repair.scenes.empty() || !Store::is_store(options.store)) throw;
+    found.damage.push_back({"the manifest", error.what(), Box{}});
+  }
   std::uint64_t repaired = 0;
   if (!found.damage.empty() && !options.repair.scenes.empty()) {
     if (!options.json) print(text_report(options, found));

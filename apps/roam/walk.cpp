@@ -238,6 +238,7 @@ ExitStatus walk(WalkOptions options) {
     options.against.up = std::exchange(scene.up, {});
     options.against.unit = std::exchange(scene.unit, "m");
     options.against.ignore = std::exchange(scene.ignore, {});
+    check_against(options.against);
   }
   if (!options.path.empty()) options.recorded = recorded_body(options.path);
   options.settings = walker_settings(options);
