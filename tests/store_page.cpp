@@ -107,6 +107,24 @@ TEST(Page, RefusesEntriesThatNoTileHas) {
   EXPECT_TRUE(refused([](TileEntry& t) { t.bytes = 0; }));
 }
 
+TEST(Page, RefusesAnythingWhereZerosBelong) {
+  const std::vector<TileEntry> tiles = some_tiles(100, 300.0, 1);
+  const std::vector<std::byte> bytes = encode_page(tiles).bytes;
+  std::uint32_t nodes = 0;
+  std::memcpy(&nodes, bytes.data() + 12, sizeof nodes);
+  ASSERT_GT(nodes, 1U);
+  const auto refused = [&](std::size_t at) {
+    const Copy copy(bytes);
+    copy.bytes()[at] = std::byte{1};
+    PageView view;
+    return view_page(copy.bytes(), kPackBytes, view) != nullptr;
+  };
+  for (std::size_t at = 48; at < 128; ++at) EXPECT_TRUE(refused(at)) << at;
+  for (std::size_t node = 1; node <= nodes; ++node) {
+    for (std::size_t at = 121; at < 128; ++at) EXPECT_TRUE(refused(128 * node + at)) << node << " " << at;
+  }
+}
+
 TEST(Page, WhateverIsTakenForOneLeadsNobodyAstray) {
   const EncodedPage page = encode_page(some_tiles(150, 300.0, 9));
   std::mt19937 random(11);

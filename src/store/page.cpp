@@ -83,6 +83,9 @@ const char* check_tree(const PageView& view) {
     if (node.child_count < 1 || node.child_count > index::kWidth || node.inner_count > node.child_count) {
       return "a node's counts are out of range";
     }
+    for (const std::uint8_t byte : node.unused) {
+      if (byte != 0) return "there is something where nothing should be";
+    }
     const std::size_t inner = node.inner_count, leaves = node.child_count - inner;
     if (leaves > view.tiles.size() || inner > count) return "a node has too many children";
     if (inner > 0 && (node.first_node <= i || node.first_node > count - inner)) return "a node's children are no nodes";
@@ -165,6 +168,9 @@ const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes
   }
   if (bytes.size() != sizeof header + header.nodes * sizeof(Node) + header.tiles * sizeof(TileEntry)) {
     return "its size is not that of its counts";
+  }
+  for (const std::uint64_t word : header.zero) {
+    if (word != 0) return "there is something where nothing should be";
   }
   if (!finite(header.origin) || !(header.step >= 0x1p-29 && header.step <= 0x1p10)) return "its grid is out of range";
   const auto* nodes = bytes.data() + sizeof header;

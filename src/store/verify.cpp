@@ -1,10 +1,10 @@
-#include "store/verify.h"
-
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <tuple>
 
 #include "store/files.h"
 #include "store/tile_reader.h"
@@ -18,7 +18,7 @@ class Verifier {
   Verifier(const std::filesystem::path& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
       : folder_(folder), store_(Store::open(folder)), state_(store_->state()), progress_(progress) {}
 
-  Findings run() {
+  StoreVerification run() {
     check_files();
     const Manifest& manifest = state_.manifest;
     std::vector<std::uint64_t> first_page(manifest.shards.size());
@@ -26,15 +26,21 @@ class Verifier {
     tbb::parallel_for(std::size_t{0}, manifest.parts.size(), [&](std::size_t i) { check_part(manifest.parts[i]); });
     tbb::parallel_for(std::size_t{0}, manifest.shards.size(),
                       [&](std::size_t i) { check_shard(manifest.shards[i], first_page[i]); });
-    if (geometry_hash_ != manifest.geometry_hash && findings_.report.damage.empty()) {
+    Box bounds;
+    for (const ShardInfo& shard : manifest.shards) bounds.include(shard.bounds);
+    if (bounds.lower != manifest.bounds.lower || bounds.upper != manifest.bounds.upper) {
+      damage({"the manifest", "its bounds are not those of its shards", bounds});
+    }
+    if (geometry_hash_ != manifest.geometry_hash && report_.damage.empty()) {
       damage({"the manifest", "the triangles of all tiles are not those that it counts", manifest.bounds});
     }
-    findings_.report.bytes = done_;
-    findings_.report.tiles = tiles_;
+    report_.bytes = done_;
+    report_.tiles = tiles_;
     // Threads come in any order; reports do not.
-    std::sort(findings_.report.damage.begin(), findings_.report.damage.end(),
-              [](const StoreDamage& a, const StoreDamage& b) { return a.what < b.what; });
-    return std::move(findings_);
+    std::sort(report_.damage.begin(), report_.damage.end(), [](const StoreDamage& a, const StoreDamage& b) {
+      return std::tie(a.what, a.why) < std::tie(b.what, b.why);
+    });
+    return std::move(report_);
   }
 
  private:
@@ -55,12 +61,7 @@ class Verifier {
 
   void damage(StoreDamage what) {
     const std::lock_guard lock(mutex_);
-    findings_.report.damage.push_back(std::move(what));
-  }
-  void damage(const ShardInfo& shard, StoreDamage what) {
-    const std::lock_guard lock(mutex_);
-    findings_.shards.insert(shard.key);
-    findings_.report.damage.push_back(std::move(what));
+    report_.damage.push_back(std::move(what));
   }
 
   void check_part(const PartInfo& part) {
@@ -75,8 +76,6 @@ class Verifier {
       }
     } catch (const Error& error) {
       damage({file + " (" + part.name + ")", error.what(), Box{}});
-      const std::lock_guard lock(mutex_);
-      findings_.parts.insert(part.name);
     }
   }
 
@@ -85,9 +84,9 @@ class Verifier {
     bool whole = false;
     try {
       whole = sha256_of_file(folder_ / file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
-      if (!whole) damage(shard, {file, "its SHA-256 is not its name", shard.bounds});
+      if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
     } catch (const Error& error) {
-      damage(shard, {file, error.what(), shard.bounds});
+      damage({file, error.what(), shard.bounds});
       return;  // not there at all
     }
     // Also where the pack is not whole: so one knows which of its tiles are.
@@ -95,26 +94,29 @@ class Verifier {
     ShardInfo counted;
     bool counts = true;
     for (std::uint64_t p = first_page; p < first_page + shard.pages.size(); ++p) {
-      counts = check_page(shard, p, reader, counted) && counts;
+      counts = check_page(p, reader, counted) && counts;
     }
     if (counts && (counted.triangles != shard.triangles || counted.tiles != shard.tiles ||
                    counted.geometry_hash != shard.geometry_hash || counted.largest_error != shard.largest_error)) {
-      damage(shard, {file, "its triangles are not those that the manifest counts", shard.bounds});
+      damage({file, "its triangles are not those that the manifest counts", shard.bounds});
     }
     const std::lock_guard lock(mutex_);
     geometry_hash_ += counted.geometry_hash;
   }
 
-  bool check_page(const ShardInfo& shard, std::uint64_t number, TileReader& reader, ShardInfo& counted) {
+  bool check_page(std::uint64_t number, TileReader& reader, ShardInfo& counted) {
     const Box& box = state_.pages[number].ref.box;
     LoadedPage page;
     try {
       page = reader.page(number);
     } catch (const Error& error) {
-      damage(shard, {name_of(number, box), error.what(), box});
+      damage({name_of(number, box), error.what(), box});
       return false;
     }
-    bool good = true;
+    Box all;
+    for (const TileEntry& entry : page.view.tiles) all.include(box_of(entry));
+    bool good = all.lower == box.lower && all.upper == box.upper;
+    if (!good) damage({name_of(number, box), "its box in the manifest is not that of its tiles", all});
     for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
       const TileEntry& entry = page.view.tiles[t];
       try {
@@ -125,7 +127,7 @@ class Verifier {
         counted.geometry_hash += entry.geometry_hash;
         counted.largest_error = std::max(counted.largest_error, double(entry.fine_error));
       } catch (const Error& error) {
-        damage(shard, {name_of(number, t, box_of(entry)), error.what(), box_of(entry)});
+        damage({name_of(number, t, box_of(entry)), error.what(), box_of(entry)});
         good = false;
       }
     }
@@ -163,7 +165,7 @@ class Verifier {
   const Store::State& state_;
   const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;
   std::mutex mutex_;
-  Findings findings_;
+  StoreVerification report_;
   bool cancelled_ = false;
   std::uint64_t done_ = 0, total_ = 0;
   std::atomic<std::uint64_t> tiles_{0};
@@ -171,17 +173,11 @@ class Verifier {
 };
 
 }  // namespace
-
-Findings find_damage(const std::filesystem::path& folder,
-                     const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  return Verifier(folder, progress).run();
-}
-
 }  // namespace store
 
 StoreVerification verify_store(const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  return store::find_damage(folder, progress).report;
+  return store::Verifier(folder, progress).run();
 }
 
 }  // namespace roam
