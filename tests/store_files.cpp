@@ -160,6 +160,19 @@ TEST(Files, KeepReadingAPackThatWasRemoved) {
   EXPECT_EQ(files->read("packs/a.pack", 0, out), nullptr);
 }
 
+TEST(Files, ReadAPackThatWasRepaired) {
+  const TemporaryFolder folder;
+  folder.write("packs/a.pack", "damaged");
+  const auto files = files_of(folder.path());
+  std::vector<std::byte> out(7);
+  ASSERT_EQ(files->read("packs/a.pack", 0, out), nullptr);
+  write_file(folder.path() / "packs/a.pack", "content");
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(files->read("packs/a.pack", 0, out), nullptr);
+    EXPECT_EQ(std::memcmp(out.data(), "content", 7), 0);
+  }
+}
+
 TEST(BuildLock, IsForOneProcessAtATimeAndEndsWithIt) {
   const TemporaryFolder folder;
   int pipe_ends[2];

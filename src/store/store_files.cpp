@@ -2,12 +2,14 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 
 #include "store/files.h"
 
@@ -43,7 +45,7 @@ class Files : public StoreBytes {
     if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) most_open_ = limit.rlim_cur / 2;
   }
   ~Files() override {
-    for (const auto& [file, descriptor] : open_) ::close(descriptor);
+    for (const auto& [file, kept] : open_) ::close(kept.descriptor);
     if (held_ >= 0) ::close(held_);
   }
 
@@ -53,11 +55,15 @@ class Files : public StoreBytes {
   }
 
   const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
-    if (const int kept = kept_descriptor(file); kept >= 0) return fill(kept, offset, out);
-    const int descriptor = ::open((folder_ / file).c_str(), O_RDONLY | O_CLOEXEC);
+    if (const Kept* kept = find(file)) {
+      if (is_removed(kept->descriptor)) open_again(*kept);
+      return fill(kept->descriptor, offset, out);
+    }
+    fs::path path = folder_ / file;
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return reason(errno);
     const char* problem = fill(descriptor, offset, out);
-    if (!keep(file, descriptor)) ::close(descriptor);
+    if (!keep(file, {descriptor, std::move(path)})) ::close(descriptor);
     return problem;
   }
 
@@ -75,15 +81,32 @@ class Files : public StoreBytes {
     held_ = descriptor;
   }
 
-  /// Stays open until this goes.
-  [[nodiscard]] int kept_descriptor(const std::string& file) {
+  /// A file that stays open until this goes.
+  struct Kept {
+    int descriptor;
+    fs::path path;
+  };
+  [[nodiscard]] const Kept* find(const std::string& file) {
     const std::lock_guard lock(mutex_);
     const auto it = open_.find(file);
-    return it == open_.end() ? -1 : it->second;
+    return it == open_.end() ? nullptr : &it->second;
   }
-  bool keep(const std::string& file, int descriptor) {
+  bool keep(const std::string& file, Kept kept) {
     const std::lock_guard lock(mutex_);
-    return open_.size() < most_open_ && open_.emplace(file, descriptor).second;
+    return open_.size() < most_open_ && open_.emplace(file, std::move(kept)).second;
+  }
+
+  /// Whether no name leads to the file any more, or the network has lost it.
+  [[nodiscard]] static bool is_removed(int descriptor) {
+    struct stat status {};
+    return ::fstat(descriptor, &status) != 0 || status.st_nlink == 0;
+  }
+  /// A pack that was repaired is another file of the same name. Where there is none, the old one is read on.
+  static void open_again(const Kept& kept) {
+    const int descriptor = ::open(kept.path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::dup3(descriptor, kept.descriptor, O_CLOEXEC);  // whoever reads from the old one just now is not disturbed
+    ::close(descriptor);
   }
 
   static const char* fill(int descriptor, std::uint64_t offset, std::span<std::byte> out) {
@@ -101,7 +124,7 @@ class Files : public StoreBytes {
   fs::path folder_;
   std::size_t most_open_ = 512;
   std::mutex mutex_;
-  std::unordered_map<std::string, int> open_;
+  std::unordered_map<std::string, Kept> open_;
   int held_ = -1;  ///< the manifest
 };
 
