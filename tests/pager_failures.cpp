@@ -94,6 +94,18 @@ TEST(PagerFailures, WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits) {
   EXPECT_EQ(ended.wait_for(std::chrono::seconds(30)), std::future_status::ready);
 }
 
+TEST(PagerFailures, WaitingForNoTimeAheadWaitsForWhatTheBodyIsIn) {
+  const Yard yard("wait");
+  yard.bytes->hold();
+  Pager pager(yard.store);
+  const Body body{0.3, 0.0};
+  const Vec3 place(30.0, 30.0, 0.4);
+  EXPECT_FALSE(pager.wait(body, place, Vec3(0.0), 0.02, 0.0));
+  yard.bytes->let_go();
+  EXPECT_TRUE(pager.wait(body, place, Vec3(0.0), 60.0, 0.0));
+  EXPECT_FALSE(pager.clearance(body, place, 1e-3).unknown);
+}
+
 TEST(PagerFailures, ABodyThatWasHeldGoesOnWhenItsSurroundingsCome) {
   Yard yard("pager_release");
   yard.bytes->hold();

@@ -24,6 +24,9 @@ using namespace paging;
 /// Changes that one update takes into use: some 50 ns each.
 constexpr int most_changes = 64;
 
+/// Metres. However short a time is waited for, what the body is in must be known.
+constexpr double least_wait_reach = 1e-3;
+
 /// Bytes for everything whose size no store and no option changes.
 constexpr std::uint64_t fixed_cost = 512 << 10;
 
@@ -217,7 +220,7 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
   for (;;) {
     (void)update(body, place, velocity);
     const Traveller traveller(body, place, velocity);
-    const double reach = std::min(reach_limit, traveller.pace() * ahead);
+    const double reach = std::clamp(traveller.pace() * ahead, least_wait_reach, reach_limit);
     if (!s.governor.anything_coming(s.residents, traveller, reach)) return true;
     if (Clock::now() - begin >= limit) return false;
     std::this_thread::sleep_for(std::chrono::microseconds(500));
