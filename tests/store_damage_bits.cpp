@@ -220,6 +220,7 @@ std::string damage(clutter::Random& random, Files& files) {
   auto chosen = files.begin();
   std::advance(chosen, static_cast<int>(random.between(0.0, 0.999) * static_cast<double>(files.size())));
   Bytes& bytes = chosen->second;
+  if (bytes.empty()) return "nothing more of " + chosen->first;
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.between(0.0, 1.0) * double(n)) % n; };
   const std::size_t at = below(bytes.size()), length = 1 + below(std::min<std::size_t>(bytes.size() - at, 512));
   const auto run = bytes.begin() + static_cast<std::ptrdiff_t>(at);
