@@ -155,6 +155,24 @@ TEST(StoreBuild, KnowsPartsNumbersAndObjects) {
   EXPECT_EQ(found, (std::set<std::string>{"a.obj/wall/0/0", "a.obj/door/1/1", "b.obj/tree/0/2", "b.obj/tree/1/3"}));
 }
 
+TEST(StoreBuild, TakesFilesWhoseNamesAreNoText) {
+  const TestFolder folder;
+  const std::vector<std::string> names{"caf\xe9.ply", "\xc3\xbc\xe2\x82\xac.ply", "\xed\xa0\x80\xc0\xaf.ply"};
+  std::vector<fs::path> scene;
+  for (const std::string& name : names) {
+    scene.emplace_back(write_ply(folder.file(name), field(4, 1.0, {9000.0 * double(scene.size()), 0.0, 0.0})));
+  }
+  const auto o = options({scene[0], scene[1], scene[2]}, folder.file("s"));
+  roam::build_store(o);
+  EXPECT_TRUE(roam::build_store(o).unchanged);
+  const auto store = roam::Store::open(folder.file("s"));
+  std::set<std::string> parts;
+  store->for_each_triangle(store->info().bounds, [&](auto, auto ids) {
+    for (const roam::TriangleId id : ids) parts.insert(store->source(id).part);
+  });
+  EXPECT_EQ(parts, (std::set<std::string>{"caf%E9.ply", names[1], "%ED%A0%80%C0%AF.ply"}));
+}
+
 TEST(StoreBuild, MakesTheSameTilesOfTrianglesInAnotherOrder) {
   const TestFolder folder;
   clutter::Random random(7);

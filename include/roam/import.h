@@ -146,7 +146,8 @@ ImportReport stream_scene(std::span<const std::filesystem::path> paths, const Im
 /// A part of a scene that can be read on its own: a file, or one tile (Data/Tile_x/Tile_x.osgb and its pages) of a
 /// folder of photogrammetry. The parts of a scene, one after the other, are the scene.
 struct ScenePart {
-  std::string name;                     ///< unique among the parts, the same wherever the scene's folders lie
+  std::string name;                     ///< unique among the parts, the same wherever the scene's folders lie; UTF-8,
+                                        ///< in which %XX stands for a byte of a file's name that is none
   std::filesystem::path path;           ///< as it was passed to scene_parts
   std::string tile;                     ///< name of the tile in the folder; empty for a file
   std::optional<Georeference> frame{};  ///< of the first folder, into which this part is placed

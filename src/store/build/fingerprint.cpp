@@ -138,7 +138,8 @@ void Sources::save() const {
   if (settled == known_) return;
   Json json = Json::object();
   for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
-  write_file(file_, json.dump(1) + "\n");
+  // A path that is no UTF-8 is not found again, and its file read again.
+  write_file(file_, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace roam::store
