@@ -9,8 +9,8 @@
 /// Library target roam::store. docs/format.md describes the files byte by byte.
 ///
 /// A store is a folder. What is in it never changes once it is written: packs and part files are named by the SHA-256
-/// of what they hold, and the file CURRENT, which is replaced by rename, names the manifest that is in force. So
-/// whoever has opened a store reads that store to its end, whatever is built beside it. Every tile and every page of
+/// of what they hold, and the file CURRENT, which is replaced by rename, names the manifest that is in force. Whoever has
+/// opened a store holds a lock on its manifest, and so reads that store to its end, whatever is built in its place. Every tile and every page of
 /// the index carries its XXH3, which is checked before a byte of it is decoded.
 ///
 /// A store is not changed by reading it and may be read by any number of threads and processes.
@@ -108,7 +108,8 @@ class Store {
 
 /// A part of a store that is not as it was written.
 struct StoreDamage {
-  std::string what;  ///< "tile 17 of page 3", "page 3", "pack 0123abcd...", "part files/..."
+  std::string what;  ///< "tile 17 of page 3 (its box)", "page 3 (its box)", "packs/0123abcd....pack",
+                     ///< "parts/0123abcd....part (its name)", "the manifest"
   std::string why;
   Box where;  ///< that is solid because of it; empty where unknown
 };
