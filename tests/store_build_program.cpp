@@ -49,6 +49,24 @@ TEST(StoreBuildProgram, BuildsInSteps) {
   expect_whole(folder.file("s"));
 }
 
+TEST(StoreBuildProgram, SaysWhichShardsThereAre) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const std::string store = folder.file("s");
+  const auto one = roam({"build", scene, "-o", store, "--plan"});
+  EXPECT_EQ(one.out.rfind("1 shard to build: --shard 0, on", 0), 0U) << one.out;
+  EXPECT_EQ(roam({"build", "-o", store, "--shard", "-1"}).status, 2);
+  EXPECT_EQ(roam({"build", "-o", store, "--shard", "0"}).status, 0);
+  EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+  // The part is made again, its shard is there: nothing but a merge is left to do.
+  std::filesystem::remove_all(store + "/parts");
+  const auto none = roam({"build", scene, "-o", store, "--plan"});
+  EXPECT_EQ(none.status, 0) << none.err;
+  EXPECT_EQ(none.out.find("--shard 0"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("--merge"), std::string::npos) << none.out;
+  EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+}
+
 TEST(StoreBuildProgram, IsStoppedByCtrlCAndGoesOn) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(900, 0.5, {0.0, 0.0, 0.0}));

@@ -104,6 +104,19 @@ void tell_notes(const StoreBuildReport& report) {
   for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
 }
 
+/// What is to be done after a plan.
+void tell_shards(const BuildVerb& verb, std::uint64_t count) {
+  const std::string store = verb.output.string();
+  if (count == 0) {
+    print(fmt::format("no shards to build: go on with --merge ({})\n", store));
+  } else if (count == 1) {
+    print(fmt::format("1 shard to build: --shard 0, on any machine that sees {}; then --merge\n", store));
+  } else {
+    print(fmt::format("{} shards to build: --shard 0 to --shard {}, on any machines that see {}; then --merge\n", count,
+                      count - 1, store));
+  }
+}
+
 /// What a store that is complete came to.
 void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   const StoreInfo info = Store::open(verb.output)->info();
@@ -142,8 +155,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
           json["shards_to_build"] = count;
           print(json);
         } else {
-          print(fmt::format("{} shards to build: --shard 0 to --shard {}, on any machines that see {}; then --merge\n",
-                            count, count == 0 ? 0 : count - 1, verb.output.string()));
+          tell_shards(verb, count);
         }
         return done;
       }
@@ -230,8 +242,9 @@ void add_build(CLI::App& program, Run& run) {
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE");
   CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed and decide the shards");
-  CLI::Option* shard =
-      verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")->type_name("I");
+  CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
+                           ->check(CLI::NonNegativeNumber)
+                           ->type_name("I");
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
