@@ -44,8 +44,10 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
     return fmt::format("{}: whole; {}B and {} tiles are what was written\n", options.store.string(),
                        short_count(static_cast<double>(found.bytes)), found.tiles);
   }
-  return text + fmt::format("{}: {} things are damaged and solid; `roam verify {} --repair SCENE` builds them again\n",
-                            options.store.string(), found.damage.size(), options.store.string());
+  return text + fmt::format("{}: {} damaged; tiles that are, are solid; `roam verify {} --repair SCENE` mends it\n",
+                            options.store.string(),
+                            found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()),
+                            options.store.string());
 }
 
 StoreVerification look(const VerifyOptions& options) {
