@@ -124,7 +124,7 @@ class Session {
   std::optional<Collision> loaded_;
   std::shared_ptr<Pager> pager_;  ///< what the body collides with, where it is a store
   std::optional<StoreBuilder> builder_;
-  std::future<void> freeing_;     ///< of the world that a store has replaced
+  std::future<void> freeing_;     ///< of the world or the pager that a store has replaced
   bool builder_stopped_ = false;  ///< by the person
   bool store_is_stale_ = false;
   bool store_offered_ = false;

@@ -80,17 +80,21 @@ void Session::change_to(std::shared_ptr<Pager> pager) {
     roamer_->controls().rebind(all_keys_);
     stage_->hud().set_help(key_lines(roamer_->controls()));
   }
-  pager_ = std::move(pager);
+  auto before = std::exchange(pager_, std::move(pager));
   store_is_stale_ = false;
   roamer_->setSpace(pager_);
   status_.triangles = pager_->store().info().triangles;
   tell(fmt::format("the walls come from {} now", pager_->store().name()));
-  if (!loaded_) return;
-  loaded_->pager.reset();
-  if (!loaded_->world) return;
-  // To give gigabytes back takes longer than a frame.
-  freeing_ =
-      std::async(std::launch::async, [world = std::exchange(loaded_->world, nullptr)]() mutable { world.reset(); });
+  std::shared_ptr<const World> world;
+  if (loaded_) {
+    loaded_->pager.reset();
+    world = std::exchange(loaded_->world, nullptr);
+  }
+  // To give gigabytes back takes longer than a frame, and so may the end of what a pager is reading.
+  freeing_ = std::async(std::launch::async, [world = std::move(world), before = std::move(before)]() mutable {
+    world.reset();
+    before.reset();
+  });
 }
 
 void Session::tell_of_failures(const PagerStats& paging) {
