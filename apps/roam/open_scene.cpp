@@ -189,15 +189,14 @@ void check_against(const SceneOptions& scene) {
 Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,
                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   Verifier verifier(pieces);
-  ImportOptions import = scene.import_options();
-  import.progress = [&](const ImportProgress& p) { return progress(p.bytes_read, p.bytes_total);
-};
-TriangleId first = 0;
-stream_scene(scene.scenes, import, [&](const Mesh& piece, bool) {
-  verifier.check({&piece, 1}, first);
-  first += piece.triangles.size();
-});
-return verifier.result();
-}  // namespace roam::app
+  ImportOptions reading = scene.import_options();
+  reading.progress = [&](const ImportProgress& p) { return progress(p.bytes_read, p.bytes_total); };
+  TriangleId first = 0;
+  stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
+    verifier.check({&piece, 1}, first);
+    first += piece.triangles.size();
+  });
+  return verifier.result();
+}
 
 }  // namespace roam::app

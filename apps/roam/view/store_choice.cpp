@@ -30,17 +30,16 @@ std::filesystem::path scene_beside(const std::filesystem::path& store) {
 
 /// In what the store differs from the scene; empty when in nothing.
 std::string compare(const Store& store, const SceneOptions& scene, const std::function<bool()>& goes_on) {
-  ImportOptions import = scene.import_options();
-  import.progress = [&](const ImportProgress&) { return goes_on();
-};
-try {
-  return store::difference(store, scene.scenes, import, scene.lossless, [&] {
-    if (!goes_on()) throw Cancelled();
-  });
-} catch (const Error& error) {
-  return error.what();
+  ImportOptions reading = scene.import_options();
+  reading.progress = [&](const ImportProgress&) { return goes_on(); };
+  try {
+    return store::difference(store, scene.scenes, reading, scene.lossless, [&] {
+      if (!goes_on()) throw Cancelled();
+    });
+  } catch (const Error& error) {
+    return error.what();
+  }
 }
-}  // namespace
 
 /// Lets the scene be read as the store was.
 void read_as(SceneOptions& scene, const Store& store) {
@@ -53,7 +52,7 @@ void read_as(SceneOptions& scene, const Store& store) {
   scene.ignore = options.value("ignore", scene.ignore);
 }
 
-}  // namespace roam::app
+}  // namespace
 
 SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
   SceneAndStore what{scene, store, false};
