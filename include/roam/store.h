@@ -9,9 +9,9 @@
 /// Library target roam::store. docs/format.md describes the files byte by byte.
 ///
 /// A store is a folder. What is in it never changes once it is written: packs and part files are named by the SHA-256
-/// of what they hold, and the file CURRENT, which is replaced by rename, names the manifest that is in force. Whoever has
-/// opened a store holds a lock on its manifest, and so reads that store to its end, whatever is built in its place. Every tile and every page of
-/// the index carries its XXH3, which is checked before a byte of it is decoded.
+/// of what they hold, and the file CURRENT, which is replaced by rename, names the manifest that is in force. Whoever
+/// has opened a store holds a lock on its manifest, and so reads that store to its end, whatever is built in its place.
+/// Every tile and every page of the index carries its XXH3, which is checked before a byte of it is decoded.
 ///
 /// A store is not changed by reading it and may be read by any number of threads and processes.
 
