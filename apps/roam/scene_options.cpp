@@ -17,12 +17,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 Scene read(const SceneOptions& options) {
-  ImportOptions import = options.import_options();
+  ImportOptions how = options.import_options();
   Progress progress("reading " + options.names(), "B");
-  import.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total);
-};
-return import_scene(options.scenes, import);
-}  // namespace
+  how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
+  return import_scene(options.scenes, how);
+}
 
 World index(const SceneOptions& options, const Scene& scene) {
   Progress progress("indexing", "triangles");
@@ -36,7 +35,7 @@ World index(const SceneOptions& options, const Scene& scene) {
   return World::build(scene.meshes, build);
 }
 
-}  // namespace roam::app
+}  // namespace
 
 void SceneOptions::add_to(CLI::App& verb) {
   verb.add_option("SCENE", scenes, "Files, or folders of photogrammetry tiles; several make one scene")
@@ -63,11 +62,11 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
 }
 
 ImportOptions SceneOptions::import_options() const {
-  ImportOptions import;
-  if (!up.empty()) import.up = parse_up_axis(up);
-  import.unit = parse_length_unit(unit);
-  import.ignore = ignore;
-  return import;
+  ImportOptions how;
+  if (!up.empty()) how.up = parse_up_axis(up);
+  how.unit = parse_length_unit(unit);
+  how.ignore = ignore;
+  return how;
 }
 
 bool SceneOptions::says_how_to_read() const { return !up.empty() || unit != "m" || !ignore.empty() || lossless; }
