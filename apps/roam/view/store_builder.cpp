@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include "view/collision_loader.h"
@@ -58,7 +59,6 @@ bool StoreBuilder::goes_on(const StoreBuildProgress& p) {
 }
 
 void StoreBuilder::build() {
-  give_way();
   StoreBuildOptions options;
   options.scene = what_.scene.scenes;
   options.output = output_;
@@ -67,7 +67,11 @@ void StoreBuilder::build() {
   options.threads = work_threads(what_.scene.threads);
   options.nearest_first = place();
   options.progress = [this](const StoreBuildProgress& p) { return goes_on(p); };
-  StoreBuildReport report = build_store(options);
+  // In a thread of its own: those of the pager, which inherit from this one, must not give way.
+  StoreBuildReport report = std::async(std::launch::async, [&] {
+                              give_way();
+                              return build_store(options);
+                            }).get();
   loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
   auto pager = std::make_shared<Pager>(Store::open(output_), PagerOptions{.memory = memory_});
   wait_at(*pager, walker_, place(), [this] { return loading_.wanted(); });
