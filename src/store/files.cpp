@@ -47,9 +47,9 @@ const char* advice(int error) {
 }
 
 [[noreturn]] void fail(const char* what, const fs::path& file, int error) {
-  const std::string todo = advice(error);
-  throw Error(
-      fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error), todo.empty() ? "" : "; ", todo));
+  const std::string advised = advice(error);
+  throw Error(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
+                          advised.empty() ? "" : "; ", advised));
 }
 
 /// Calls a system call again when a signal interrupts it.

@@ -7,7 +7,7 @@
 # the cause; and the same command without faults completes it. About half an hour. Needs a C compiler; as root also
 # mounts file systems in memory of its own, and uses strace where it is there.
 set -uo pipefail
-source "$(dirname "$0")/common.sh"
+source "$(dirname "$0")/complaints.sh"
 mounted=
 trap '[[ -z $mounted ]] || umount "$mounted"; rm -rf "$work"' EXIT
 runs=${1:-100}

@@ -8,7 +8,7 @@
 # Each bit of a small store, and 10^5 damages at random, are a program's:
 #   ROAM_TEST_DAMAGES=100000 build-check/test_store_damage_bits
 set -uo pipefail
-source "$(dirname "$0")/common.sh"
+source "$(dirname "$0")/complaints.sh"
 trap 'rm -rf "$work"' EXIT
 copies=${1:-100}
 need_strace

@@ -4,7 +4,7 @@
 # and after it in turn; half of it for one thread, half for two. Each time it runs it again to the end and compares with
 # a build that nobody disturbed. Three parts, more than one shard. About half an hour. Needs a C compiler.
 set -uo pipefail
-source "$(dirname "$0")/common.sh"
+source "$(dirname "$0")/complaints.sh"
 trap 'rm -rf "$work"' EXIT
 kills=${1:-200}
 every=${2:-1}

@@ -6,7 +6,7 @@
 # way. Prints one line of figures each. 12 GB of disk, 20 minutes on two cores at rest. On a machine that is not at rest,
 # UNDER="chrt -f 10" keeps other programs from interrupting the walks (not the builds).
 set -uo pipefail
-source "$(dirname "$0")/common.sh"
+source "$(dirname "$0")/complaints.sh"
 trap 'rm -rf "$work"' EXIT
 
 number() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}$/\1/p" "$2" | head -1; }
