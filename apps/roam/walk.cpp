@@ -318,8 +318,11 @@ ExitStatus walk(WalkOptions options) {
   if (drawing) {
     const std::vector<Mesh> around =
         scene.store() ? scene.triangles_around(recorder.pieces(), picture_reach) : std::vector<Mesh>();
+    // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
+    const World near = World::build(around);
+    const Space& space = scene.store() ? static_cast<const Space&>(near) : scene.space();
     const std::span<const Mesh> meshes = scene.store() ? around : scene.loaded().meshes;
-    drawing->write(picture::make_sheet({title(options), report, recorder.record(), scene.space(), meshes}));
+    drawing->write(picture::make_sheet({title(options), report, recorder.record(), space, meshes}));
   }
   if (options.json) {
     print(json_report(report));
