@@ -233,24 +233,15 @@ Impact Patchwork::sweep(const Body& body, const Vec3& from, const Vec3& motion) 
 
 std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                                 std::span<Contact> contacts) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  if (contacts.empty()) return 0;
-  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
-  state_->collect(body, from, motion, reach, collector);
-  collector.sort();
-  return collector.count();
+  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
+    state_->collect(body, from, way, reach, collector);
+  });
 }
 
 Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  Contact nearest;
-  query::Collector collector(reach, {&nearest, 1}, true);
-  // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  state_->collect(body, from, Vec3(0.0), reach, collector);
-  if (motion != Vec3(0.0)) state_->collect(body, from, motion, reach, collector);
-  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+  return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    state_->collect(body, from, way, reach, collector);
+  });
 }
 
 Box Patchwork::bounds() const { return state_->tree.bounds(); }

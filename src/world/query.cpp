@@ -174,24 +174,15 @@ Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) cons
 
 std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                             std::span<Contact> contacts) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  if (contacts.empty()) return 0;
-  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
-  query::collect(*data_, {body, from, motion}, 0, collector);
-  collector.sort();
-  return collector.count();
+  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
+    query::collect(*data_, {body, from, way}, 0, collector);
+  });
 }
 
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  Contact nearest;
-  query::Collector collector(reach, {&nearest, 1}, true);
-  // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  query::collect(*data_, {body, from, Vec3(0.0)}, 0, collector);
-  if (motion != Vec3(0.0)) query::collect(*data_, {body, from, motion}, 0, collector);
-  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+  return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    query::collect(*data_, {body, from, way}, 0, collector);
+  });
 }
 
 }  // namespace roam

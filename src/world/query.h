@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "index/margin.h"
+#include "math/largest.h"
 #include "world/data.h"
 
 namespace roam::query {
@@ -64,5 +66,33 @@ void collect(const WorldData& world, const Way& way, TriangleId base, Collector&
 
 /// The nearest contact, or none, as a clearance.
 [[nodiscard]] Clearance clearance_of(const Contact* nearest, double reach);
+
+/// Space::contacts of whatever collect(motion, collector) offers the collector from: everything within its reach of the
+/// body's way along `motion`.
+template <class Collect>
+std::size_t contacts_of(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                        std::span<Contact> contacts, const Collect& collect) {
+  check(body, from, motion);
+  check_reach(reach);
+  if (contacts.empty()) return 0;
+  Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
+  collect(motion, collector);
+  collector.sort();
+  return collector.count();
+}
+
+/// Space::clearance, likewise.
+template <class Collect>
+[[nodiscard]] Clearance clearance_of(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                                     const Collect& collect) {
+  check(body, from, motion);
+  check_reach(reach);
+  Contact nearest;
+  Collector collector(reach, {&nearest, 1}, true);
+  // Nearest first at the start: on the way, only what comes nearer still is of interest.
+  collect(Vec3(0.0), collector);
+  if (motion != Vec3(0.0)) collect(motion, collector);
+  return clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+}
 
 }  // namespace roam::query

@@ -235,25 +235,17 @@ Impact Pager::sweep(const Body& body, const Vec3& from, const Vec3& motion) cons
 
 std::size_t Pager::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                             std::span<Contact> contacts) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  if (contacts.empty()) return 0;
-  query::Collector collector(reach, contacts, largest(motion) > index::kLongestPiece);
-  query::collect_of(PagedScene(state_->residents), {body, from, motion}, collector);
-  collector.sort();
-  return collector.count();
+  const PagedScene scene(state_->residents);
+  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
+    query::collect_of(scene, {body, from, way}, collector);
+  });
 }
 
 Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  query::check(body, from, motion);
-  query::check_reach(reach);
-  Contact nearest;
-  query::Collector collector(reach, {&nearest, 1}, true);
   const PagedScene scene(state_->residents);
-  // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  query::collect_of(scene, {body, from, Vec3(0.0)}, collector);
-  if (motion != Vec3(0.0)) query::collect_of(scene, {body, from, motion}, collector);
-  return query::clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+  return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    query::collect_of(scene, {body, from, way}, collector);
+  });
 }
 
 Box Pager::bounds() const { return state_->store->info().bounds; }
