@@ -31,8 +31,6 @@ constexpr char kMagic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
 /// Metres. Boxes hold what is stored too, which may lie a little beyond the limit of what is read.
 constexpr double kFarthest = Space::coordinate_limit * 1.001;
 
-Box box_of(const TileEntry& t) { return {{t.lower[0], t.lower[1], t.lower[2]}, {t.upper[0], t.upper[1], t.upper[2]}}; }
-
 bool finite(const double (&v)[3]) {
   return std::abs(v[0]) <= kFarthest && std::abs(v[1]) <= kFarthest && std::abs(v[2]) <= kFarthest;
 }

@@ -44,6 +44,9 @@ struct TileEntry {
 };
 static_assert(sizeof(TileEntry) == 200);
 
+[[nodiscard]] inline Box box_of(const TileEntry& t) {
+  return {{t.lower[0], t.lower[1], t.lower[2]}, {t.upper[0], t.upper[1], t.upper[2]}};
+}
 [[nodiscard]] inline TileShape shape_of(const TileEntry& t) { return {t.triangles, t.nodes, t.leaves, t.fine != 0}; }
 
 /// The bytes of a page over these tiles (1 to page_tiles), and the order in which it holds them: entry i of the page is

@@ -25,8 +25,6 @@ std::string place(const Box& box) {
 
 }  // namespace
 
-Box box_of(const TileEntry& t) { return {{t.lower[0], t.lower[1], t.lower[2]}, {t.upper[0], t.upper[1], t.upper[2]}}; }
-
 std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
   return fmt::format("tile {} of page {} {}", tile, page, place(box));
 }

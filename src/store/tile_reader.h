@@ -48,7 +48,6 @@ class TileReader {
   TileDecoder decoder_;
 };
 
-[[nodiscard]] Box box_of(const TileEntry& entry);
 /// "tile 3 of page 17 (10.5 2.0 0.3 to 20.1 9.9 4.0)"
 [[nodiscard]] std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box);
 [[nodiscard]] std::string name_of(std::uint64_t page, const Box& box);
