@@ -73,9 +73,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   StoreBuildOptions options;
   options.scene = verb.scene.scenes;
   options.output = verb.output;
-  if (!verb.scene.up.empty()) options.import.up = parse_up_axis(verb.scene.up);
-  options.import.unit = parse_length_unit(verb.scene.unit);
-  options.import.ignore = verb.scene.ignore;
+  options.import = verb.scene.import_options();
   options.memory = verb.memory;
   options.threads = verb.scene.threads;
   options.lossless = verb.scene.lossless;

@@ -8,6 +8,7 @@
 
 #include "exit_status.h"
 #include "interrupt.h"
+#include "loose_triangles.h"
 #include "progress.h"
 #include "store_start.h"
 
@@ -37,11 +38,7 @@ Mesh read_triangles(const Store& store, const Box& box) {
   Mesh mesh;
   store.for_each_triangle(box, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
     stop_if_interrupted();
-    for (const Triangle& triangle : triangles) {
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
-      mesh.triangles.push_back({first, first + 1, first + 2});
-    }
+    append(mesh, triangles);
     if (mesh.triangles.size() > most_triangles) {
       throw Error(fmt::format("{}: more than {} triangles lie around this way; look at a shorter part of it",
                               store.name(), short_count(static_cast<double>(most_triangles))));
@@ -154,11 +151,8 @@ SourceTriangle OpenScene::source(TriangleId triangle) const {
   return {"", triangle, triangle, loaded_.world.object_name(triangle)};
 }
 
-std::vector<Mesh> OpenScene::triangles_around(std::span<const Piece> pieces, double reach) const {
-  if (!store_) return loaded_.meshes;
-  std::vector<Mesh> meshes;
-  meshes.push_back(read_triangles(*store_, grown(box_of(pieces), reach)));
-  return meshes;
+Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {
+  return read_triangles(*store_, grown(box_of(pieces), reach));
 }
 
 Verification OpenScene::verified(std::span<const Piece> pieces,

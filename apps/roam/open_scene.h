@@ -50,8 +50,8 @@ class OpenScene {
   /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
 
-  /// The triangles that come near these pieces, as read, or where it is a store as stored.
-  [[nodiscard]] std::vector<Mesh> triangles_around(std::span<const Piece> pieces, double reach) const;
+  /// The triangles of the store, as stored, around these pieces. There must be a store.
+  [[nodiscard]] Mesh stored_triangles(std::span<const Piece> pieces, double reach) const;
   /// Every piece against every triangle: of the scene as read, of the store as stored.
   [[nodiscard]] Verification verified(std::span<const Piece> pieces,
                                       const std::function<bool(std::uint64_t)>& progress) const;

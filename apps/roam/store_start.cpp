@@ -1,6 +1,7 @@
 #include "store_start.h"
 
 #include "floors.h"
+#include "loose_triangles.h"
 #include "roam/world.h"
 
 namespace roam::app {
@@ -21,13 +22,7 @@ Vec3 store_start(const Store& store, const WalkerSettings& settings, Mode mode, 
     if (triangles > most_triangles) break;
     Mesh mesh;
     store.for_each_triangle({place - around, place + around},
-                            [&](std::span<const Triangle> found, std::span<const TriangleId>) {
-                              for (const Triangle& triangle : found) {
-                                const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-                                mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
-                                mesh.triangles.push_back({first, first + 1, first + 2});
-                              }
-                            });
+                            [&](std::span<const Triangle> found, std::span<const TriangleId>) { append(mesh, found); });
     triangles += mesh.triangles.size();
     meshes.push_back(std::move(mesh));
   }

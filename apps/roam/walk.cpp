@@ -316,9 +316,9 @@ ExitStatus walk(WalkOptions options) {
     report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   if (drawing) {
-    const std::vector<Mesh> around =
-        scene.store() ? scene.triangles_around(recorder.pieces(), picture_reach) : std::vector<Mesh>();
     // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
+    std::vector<Mesh> around;
+    if (scene.store()) around.push_back(scene.stored_triangles(recorder.pieces(), picture_reach));
     const World near = World::build(around);
     const Space& space = scene.store() ? static_cast<const Space&>(near) : scene.space();
     const std::span<const Mesh> meshes = scene.store() ? around : scene.loaded().meshes;

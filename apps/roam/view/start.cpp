@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "loose_triangles.h"
 #include "roam/error.h"
 #include "roam/world.h"
 #include "store_start.h"
@@ -123,11 +124,7 @@ StartPlace find_start(const Store& store, const WalkerSettings& settings, Mode m
       settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
-        for (const Triangle& triangle : triangles_around(store, eye, sight, most_in_sight, goes_on).triangles) {
-          const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-          mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
-          mesh.triangles.push_back({first, first + 1, first + 2});
-        }
+        append(mesh, triangles_around(store, eye, sight, most_in_sight, goes_on).triangles);
         return look(World::build({&mesh, 1}), eye);
       });
 }
