@@ -109,7 +109,7 @@ class Store {
 /// A part of a store that is not as it was written.
 struct StoreDamage {
   std::string what;  ///< "tile 17 of page 3 (its box)", "page 3 (its box)", "packs/0123abcd....pack",
-                     ///< "parts/0123abcd....part (its name)", "the manifest"
+                     ///< "parts/0123abcd....part (its name)", "CURRENT", "the manifest"
   std::string why;
   Box where;  ///< that is solid because of it; empty where unknown
 };
@@ -122,7 +122,8 @@ struct StoreVerification {
 
 /// Reads every byte of a store: SHA-256 of every file, XXH3 of every tile and page, decodes every tile, and compares
 /// counts, boxes and the geometry hash with what the manifest says. `progress` is called with bytes done and bytes in
-/// all; false cancels (roam::Cancelled). Throws roam::Error where there is no manifest to verify against.
+/// all; false cancels (roam::Cancelled). Where CURRENT or the manifest is not there or damaged, that is the only damage
+/// that is found. Throws roam::Error for what is no store, not complete, of a newer format, or may not be read.
 [[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,
                                              const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {});
 

@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// Which sizes of a body can go everywhere in a scene and fall nowhere; and what to use where no one size can.
+///
+///     const roam::Training t = roam::train(survey, {.height = 1.8});
+///     if (t.feasible) std::cout << "any radius from " << t.smallest << " to " << t.largest.value_or(1.0) << " m\n";
+///
+/// Xie & Niu 2020 (PLoS ONE 15(2): e0229038, figure 6) roam n random paths with a radius that goes down where the
+/// viewpoint cannot enter and up where it flies off. Method::paper does that and no more; Method::interval finds both
+/// ends from the scene itself, by the widest way (passage.h) and the cracks of the floor, and proves them by trials
+/// with the real Walker just inside and just outside. docs/training.md has the definitions, the measured errors and
+/// what is certified.
+///
+/// Same survey, options and seed, same bits. Safe to call from any thread.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/passage.h"
+#include "roam/route.h"
+#include "roam/size_region.h"
+#include "roam/survey.h"
+
+namespace roam {
+
+enum class Method : std::uint8_t { interval, paper };
+
+struct TrainOptions {
+  Mode mode = Mode::walk;  ///< walk or fly
+  Method method = Method::interval;
+  std::uint64_t seed = 1;    ///< of the paths
+  int paths = 0;             ///< that are planned; 0: 5, or one for each dead-end room where there are more
+  double radius_max = 1.0;   ///< of the body, m: larger ones are not looked for
+  double support_max = 1.0;  ///< of the foot, m: a crack that is wider is an open drop, where a body is held back
+  double height = 0.0;       ///< of the body on foot, m; 0: a sphere
+  double step = 0.3;         ///< m, see WalkerSettings
+  double spacing = 0.2;      ///< m, see PassageOptions
+  double speed = 1.4;        ///< of the trials, m/s
+  int threads = 0;           ///< 0: one per core
+  /// Called now and then, from any one thread at a time, with what is being done and how much of it, in [0, 1].
+  /// Returning false ends training: what is known by then is answered, with Training::complete false.
+  std::function<bool(const std::string& stage, double done)> progress;
+};
+
+/// One walk or flight along a planned path by a body of one size.
+struct Trial {
+  double radius = 0.0;
+  double support_radius = 0.0;  ///< 0: none of its own
+  Outcome outcome = Outcome::reached;
+  Vec3 at{0.0};          ///< of the centre when it ended
+  std::size_t path = 0;  ///< of Training::paths
+};
+
+/// A planned path: the widest way between two places that were drawn.
+struct TrainedPath {
+  Vec3 from{0.0}, to{0.0};        ///< of the feet, or the centre when flying
+  std::vector<Vec3> way;          ///< likewise
+  std::optional<double> largest;  ///< radius that passes, m; none: not limited
+  double smallest = 0.0;          ///< radius that falls into no crack on the way, m; 0: there is none
+  std::vector<Trial> trials;
+};
+
+/// A gap of the floor into which a small enough body falls. See docs/training.md for what is one.
+struct Crack {
+  enum class Kind : std::uint8_t {
+    crack,      ///< carried over by a large enough body or foot
+    step_down,  ///< its bottom is floor that one walks on
+    open_drop,  ///< larger than any foot: a pit, a shaft, a cliff. Sets no radius.
+  };
+  Kind kind = Kind::crack;
+  Vec3 point{0.0};         ///< centre of the largest disc free of floor, at the level of the rim
+  double radius = 0.0;     ///< of that disc, m: a split of width w has w / 2
+  Vec3 direction{0.0};     ///< level unit vector across it
+  bool on_a_path = false;  ///< one of the paths goes over it
+};
+
+/// What decides one end of the interval.
+struct Decisive {
+  enum class Kind : std::uint8_t { opening, split, step };
+  Kind kind = Kind::opening;
+  Vec3 point{0.0};
+  double width = 0.0;   ///< m: of the door, or the split
+  Vec3 direction{0.0};  ///< unit, across
+};
+
+struct Training {
+  double radius = 0.0;          ///< of the body that serves: use it from now on
+  double support_radius = 0.0;  ///< of its foot; 0: it needs none of its own
+  /// The feasible interval of one radius for all paths: [smallest, largest]. None: no opening limits it. 0: no crack.
+  double smallest = 0.0;
+  std::optional<double> largest;
+  double trapped_radius = 0.0;  ///< a sphere that rolls without a foot cannot climb out of the widest crack below this
+  bool feasible = false;        ///< one body without a foot of its own serves all paths
+  bool complete = true;         ///< false: ended early
+  std::string answer;           ///< in plain words, one to three sentences
+  std::vector<TrainedPath> paths;
+  std::vector<Crack> cracks;        ///< of the floor that was reached, widest first
+  std::vector<Decisive> decisive;   ///< of the upper end, then of the lower, where there is one
+  std::vector<SizeRegion> regions;  ///< where another size is to be used, and why
+  std::uint64_t places = 0;         ///< free places looked at
+  double seconds = 0.0;             ///< of wall clock; the only member that differs between runs
+};
+
+/// Throws roam::Error for options out of range. A scene with no free place, no floor, or rooms without a way between
+/// them is no error: `answer` says it.
+[[nodiscard]] Training train(const Survey& survey, const TrainOptions& options = {});
+
+}  // namespace roam

@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Places where a small body can be, on a lattice that is made as it is looked at, and how wide a body may be there.
+///
+/// Walking: columns of a square lattice; a place is the foot on the floor. A neighbour's height is found by dropping a
+/// sphere of `widest` that sees only floor below the knee, so that cracks are carried and both ends of the interval
+/// stay independent. Flying: a cubic lattice; a place is the centre.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roam/passage.h"
+#include "roam/survey.h"
+
+namespace roam::training {
+
+/// What is measured at a place: the body's kind, without its radius.
+struct Measure {
+  Mode mode = Mode::walk;
+  double height = 0.0;  ///< 0: sphere
+  double step = 0.3;
+  double widest = 1.0;
+  double narrowest = 0.05;
+};
+
+/// Walking or flying clearance at a place (m), at most measure.widest (or what `height` leaves, see passage.h); 0 where
+/// less than measure.narrowest. Certified: a capsule of that radius less 0.1 mm is free there.
+[[nodiscard]] double clearance_at(const Survey& survey, const Measure& measure, const Vec3& place);
+
+/// The floor under (x, y) that a foot at height about `z` would come to: at most `measure.step` up or down, carried
+/// over cracks; none where there is none.
+[[nodiscard]] std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near);
+
+using NodeId = std::uint32_t;
+inline constexpr NodeId no_node = ~NodeId(0);
+
+struct Node {
+  Vec3 place{0.0};
+  float clearance = 0.0F;
+};
+
+/// A tree over all places reached from the first one: of all ways between two of them, the one in it is a widest.
+/// Grown best first (Prim, with the largest least clearance): see Pollack, "The maximum capacity through a network",
+/// 1960.
+class WidestTree {
+ public:
+  WidestTree(const Survey& survey, const Measure& measure, double spacing);
+
+  /// The place of the lattice at or nearest to `place` (within 1.5 spacings, in sight), made if need be; none where no
+  /// body of `narrowest` can be.
+  [[nodiscard]] std::optional<NodeId> seed(const Vec3& place);
+  /// Grows from `root` until `until` is reached, or (no_node) until everything in reach is. False: ended by `goes_on`,
+  /// which is asked now and then with the number of places.
+  bool grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on = {});
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] const Node& node(NodeId id) const;
+  /// The root of the tree that a node hangs in; no_node where it was seen but not reached.
+  [[nodiscard]] NodeId root(NodeId id) const;
+  [[nodiscard]] NodeId parent(NodeId id) const;
+  /// The places from one to the other through the tree; empty when they hang in different trees.
+  [[nodiscard]] std::vector<NodeId> way(NodeId from, NodeId to) const;
+  /// The neighbours that a body of `narrowest` can go to straight, all of which were looked at.
+  [[nodiscard]] std::span<const NodeId> neighbours(NodeId id) const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace roam::training
