@@ -38,7 +38,7 @@ struct PassageOptions {
   /// Places looked at, at most; then what was found so far is answered and Passage::complete is false.
   std::uint64_t most_places = 20'000'000;
   /// Called now and then with the number of places looked at. Returning false ends the search: as most_places.
-  std::function<bool(std::uint64_t)> progress;
+  std::function<bool(std::uint64_t)> progress = {};
 };
 
 /// The narrowest place of a way.

@@ -25,10 +25,10 @@
 namespace roam {
 
 struct SurveyOptions {
-  double slope_degrees = 45.0;           ///< in [0, 89]: what is at most so steep is floor
-  int threads = 0;                       ///< as BuildOptions::threads
-  bool lossless = false;                 ///< as BuildOptions::lossless
-  std::function<bool(double)> progress;  ///< as BuildOptions::progress
+  double slope_degrees = 45.0;                ///< in [0, 89]: what is at most so steep is floor
+  int threads = 0;                            ///< as BuildOptions::threads
+  bool lossless = false;                      ///< as BuildOptions::lossless
+  std::function<bool(double)> progress = {};  ///< as BuildOptions::progress
 };
 
 class Survey {

@@ -42,7 +42,7 @@ struct TrainOptions {
   int threads = 0;           ///< 0: one per core
   /// Called now and then, from any one thread at a time, with what is being done and how much of it, in [0, 1].
   /// Returning false ends training: what is known by then is answered, with Training::complete false.
-  std::function<bool(const std::string& stage, double done)> progress;
+  std::function<bool(const std::string& stage, double done)> progress = {};
 };
 
 /// One walk or flight along a planned path by a body of one size.
