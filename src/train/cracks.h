@@ -1,9 +1,10 @@
 #pragma once
 /// \file
 /// The lower end: the gaps of a floor that bodies fall into, found from the floor itself.
+///
+/// docs/training.md, "Cracks", has the definitions, the method and what was measured.
 
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "roam/survey.h"
@@ -12,18 +13,29 @@
 namespace roam::training {
 
 struct CrackOptions {
-  double step = 0.3;         ///< ground so much lower still counts as walked on
-  double knee = 0.3;         ///< m above the floor: what is lower is no wall
-  double smallest = 0.05;    ///< r_min: gaps that a disc of this radius does not enter are not looked for
-  double support_max = 1.0;  ///< R_max: a free disc as large is an open drop
-  int threads = 0;
+  double step = 0.3;         ///< m, > 0: ground so much lower still counts as walked on
+  double knee = 0.3;         ///< m above the floor, >= 0.1: what is lower is no wall
+  double smallest = 0.05;    ///< r_min, m, >= 0.02: gaps that a disc of this radius does not enter are not looked for
+  double support_max = 1.0;  ///< R_max, m, > smallest: a free disc as large is an open drop
+  int threads = 0;           ///< 0: one per core
 };
 
-/// All cracks, steps down and open drops along the floor that `reached` (of the feet) stand on, widest crack first.
-/// `is_reached` says whether a place of the floor belongs to what can be walked on; it is asked from several threads.
-/// `goes_on` as TrainOptions::progress, with the fraction done; false ends it with what was found.
-[[nodiscard]] std::vector<Crack> find_cracks(const Survey& survey, const CrackOptions& options,
-                                             const std::function<bool(const Vec3& foot)>& is_reached,
-                                             const std::function<bool(double)>& goes_on = {});
+/// A gap, and where one comes to it.
+struct FoundCrack : Crack {
+  /// Places of the floor's rim along it, each at most 2 * smallest from the next along a triangle's edge, sorted. A way
+  /// of the feet that goes over the gap passes between or over them.
+  std::vector<Vec3> rim;
+};
+
+/// All cracks, steps down and open drops along the floor that is reached, widest crack first (open drops, whose radius
+/// is support_max, before all others). `is_reached` says whether a place of the floor belongs to what can be walked on;
+/// it is asked about places on the edges of floors and at the bottoms of gaps, from several threads. `goes_on` as
+/// TrainOptions::progress, with the fraction done; false ends it with what was found.
+///
+/// The same bits for any number of threads and any order of the triangles. Radii are exact to 0.02 mm where the
+/// survey is lossless.
+[[nodiscard]] std::vector<FoundCrack> find_cracks(const Survey& survey, const CrackOptions& options,
+                                                  const std::function<bool(const Vec3& foot)>& is_reached,
+                                                  const std::function<bool(double)>& goes_on = {});
 
 }  // namespace roam::training
