@@ -22,6 +22,10 @@ TEST(ManipulatorFailures, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
       c.distance = reach;
       return c;
     }
+    roam::Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
+                                    const roam::Floor&) const override {
+      return clearance(body, place, Vec3(0.0), reach);
+    }
     roam::Box bounds() const override { return {Vec3(-1.0), Vec3(1.0)}; }
     double largest_error() const override { return 0.0; }
     std::string object_name(roam::TriangleId) const override { return {}; }

@@ -14,6 +14,7 @@
 #include <osgDB/WriteFile>
 #include <vector>
 
+#include "floor_oracle.h"
 #include "import_files.h"
 #include "osgRoam/SceneSpace.h"
 #include "osgRoam/Triangles.h"
@@ -84,6 +85,24 @@ TEST(OsgSceneSpace, AnswersAsBruteForceDoes) { judge_against_brute_force(11, {},
 
 TEST(OsgSceneSpace, AnswersAsBruteForceDoesFarAway) {
   judge_against_brute_force(12, {.centre = {504123, 5678901, 90}}, 40, 80);
+}
+
+TEST(OsgSceneSpace, FindsTheFloorThatBruteForceFinds) {
+  clutter::Random random(13);
+  const roam::Mesh mesh = floor_oracle::scene(random, Vec3(0.0), 90);
+  osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
+  for (const Vec3& v : mesh.vertices) vertices->push_back({v.x, v.y, v.z});
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setVertexArray(vertices);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices->size())));
+  const osg::Vec3d origin(1000.0, -2000.0, 300.0);
+  const SceneSpace space(geometry, origin);
+  std::vector<roam::Triangle> triangles = floor_oracle::triangles_of(mesh);
+  const Vec3 centre(origin.x(), origin.y(), origin.z());
+  for (roam::Triangle& t : triangles) {
+    for (Vec3& v : t) v += centre;
+  }
+  floor_oracle::judge(space, triangles, centre, 1e-6, 600, 4);
 }
 
 osg::ref_ptr<osg::Geometry> square(const osg::Vec3d& at, double half, const std::string& name) {

@@ -55,6 +55,9 @@ class SceneSpace final : public roam::Space {
   using roam::Space::clearance;
   roam::Clearance clearance(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion,
                             double reach) const override;
+  using roam::Space::floor_clearance;
+  roam::Clearance floor_clearance(const roam::Body& body, const roam::Vec3& place, double reach,
+                                  const roam::Floor& floor) const override;
   /// Of the bounding sphere of the graph; where vertices that are not finite have spoilt that, of all that is loaded or
   /// unknown, which looks at every triangle.
   roam::Box bounds() const override;

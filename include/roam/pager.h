@@ -76,6 +76,9 @@ class Pager final : public LiveSpace {
   using Space::clearance;
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
+  using Space::floor_clearance;
+  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                          const Floor& floor) const override;
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override;
   [[nodiscard]] std::uint64_t revision() const override;

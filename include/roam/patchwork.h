@@ -108,6 +108,9 @@ class Patchwork final : public LiveSpace {
   using Space::clearance;
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
+  using Space::floor_clearance;
+  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                          const Floor& floor) const override;
   /// Of what is known to within error_limit, never less.
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return error_limit; }

@@ -59,6 +59,18 @@ struct Clearance : Proximity {
   bool unknown = false;  ///< what is nearest is not known yet
 };
 
+/// What counts as floor, and which part of it.
+struct Floor {
+  /// Degrees, in [0, 89]. A triangle whose plane, as stored, is at most this far from level is floor, whichever side is
+  /// up. One without area is not.
+  double slope_degrees = 45.0;
+  /// Metres, >= 0. Only what of the floor lies at most this much higher or lower than the plane through `point` with
+  /// the upward `normal` counts; infinite: all of it.
+  double band = std::numeric_limits<double>::infinity();
+  Vec3 point{0.0};             ///< metres
+  Vec3 normal{0.0, 0.0, 1.0};  ///< of any length; z > 0
+};
+
 class Space {
  public:
   /// Largest radius, half height and contact or clearance reach of a query, in metres.
@@ -86,6 +98,19 @@ class Space {
   /// The same for a body at rest.
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& place, double reach) const {
     return clearance(body, place, Vec3(0.0), reach);
+  }
+
+  /// The same where nothing but floor is there to be met: walls and steep things are passed over. With a band, parts of
+  /// triangles are measured, and a vertical capsule that is as high as the band answers how far the floor is seen from
+  /// above. What is unknown counts as floor wherever it is, band or not, and the answer says `unknown`: a caller who
+  /// must know floor from a guess has to wait. Throws roam::Error also for a `floor` that is out of range.
+  [[nodiscard]] virtual Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                                  const Floor& floor) const = 0;
+  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                          double slope_degrees) const {
+    Floor floor;
+    floor.slope_degrees = slope_degrees;
+    return floor_clearance(body, place, reach, floor);
   }
 
   /// First triangle that the ray from + t * motion, t in [0, 1], meets: the sweep of a point, which slips through no

@@ -71,6 +71,9 @@ class World final : public Space {
   using Space::clearance;
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
+  using Space::floor_clearance;
+  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                          const Floor& floor) const override;
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return stats().largest_error_m; }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;

@@ -134,13 +134,20 @@ struct SceneSpace::State {
     }
     for (const auto& candidate : visit.box->getCandidates()) {
       const auto triangle = seen_from(from, candidate.triangle);
-      roam::Contact contact;
-      static_cast<roam::Proximity&>(contact) =
-          motion == roam::Vec3(0.0) ? roam::certified::proximity(body, triangle)
-                                    : roam::certified::approach(body, motion, triangle, 0.0, 1.0).proximity;
-      contact.point += from;
-      contact.triangle = base[candidate.drawable] + 2 * roam::TriangleId{candidate.primitiveIndex} + candidate.half;
-      collector.offer(contact);
+      const auto offer = [&](const roam::certified::LocalTriangle& part) {
+        roam::Contact contact;
+        static_cast<roam::Proximity&>(contact) =
+            motion == roam::Vec3(0.0) ? roam::certified::proximity(body, part)
+                                      : roam::certified::approach(body, motion, part, 0.0, 1.0).proximity;
+        contact.point += from;
+        contact.triangle = base[candidate.drawable] + 2 * roam::TriangleId{candidate.primitiveIndex} + candidate.half;
+        collector.offer(contact);
+      };
+      if (collector.floor() == nullptr) {
+        offer(triangle);
+      } else {
+        for (const auto& part : collector.floor()->pieces(triangle)) offer(part);
+      }
     }
     for (const auto& unknown : visit.visitor.unknown()) {
       roam::Contact contact = roam::unknown::nearest(unknown.box, 0.0, body, from, motion);
@@ -215,6 +222,19 @@ roam::Clearance SceneSpace::clearance(const roam::Body& body, const roam::Vec3& 
   roam::Contact nearest;
   const std::size_t found = contacts(body, from, motion, reach, {&nearest, 1});
   return roam::query::clearance_of(found == 0 ? nullptr : &nearest, reach);
+}
+
+roam::Clearance SceneSpace::floor_clearance(const roam::Body& body, const roam::Vec3& place, double reach,
+                                            const roam::Floor& floor) const {
+  const roam::Vec3 seen = place - _state->origin;
+  roam::Floor moved = floor;
+  moved.point -= _state->origin;
+  roam::Clearance result = roam::query::floor_clearance_of(
+      body, seen, reach, moved, [&](const roam::Vec3& way, roam::query::Collector& collector) {
+        _state->collect(body, seen, way, reach, collector);
+      });
+  if (result.found) result.point += _state->origin;
+  return result;
 }
 
 roam::Box SceneSpace::bounds() const {

@@ -244,6 +244,12 @@ Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& m
   });
 }
 
+Clearance Patchwork::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
+    state_->collect(body, place, way, reach, collector);
+  });
+}
+
 Box Patchwork::bounds() const { return state_->tree.bounds(); }
 
 std::uint64_t Patchwork::revision() const { return state_->revision; }

@@ -69,6 +69,22 @@ class WorldScene {
   index::Place place_;
 };
 
+/// Where the body comes nearest to a triangle that is, or is a part of, the stored one at `place`.
+Contact contact_with(const certified::LocalTriangle& triangle, const index::Index& index, const index::Piece& piece,
+                     const index::Place& place, TriangleId base) {
+  const index::Tile& tile = index.tiles[place.tile];
+  const index::Leaf& leaf = index.blocks[place.leaf].leaf;
+  Contact c;
+  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
+                                   ? certified::proximity(piece.body, triangle)
+                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
+  c.point += piece.start;
+  c.distance -= index::stored_error(tile);
+  c.triangle = base + (index.ids ? index::read_id(index.ids + tile.ids, leaf, static_cast<int>(place.triangle))
+                                 : (TriangleId{place.tile} << index::kTileTriangleBits | (leaf.ids + place.triangle)));
+  return c;
+}
+
 /// What a traversal needs to hand a triangle on to the collector.
 struct Visitor {
   const index::Index& index;
@@ -78,7 +94,13 @@ struct Visitor {
 
   static double visit(void* self, const index::Place& place) {
     const Visitor& v = *static_cast<Visitor*>(self);
-    return v.collector.offer(contact_at(v.index, v.piece, place, v.base));
+    const auto triangle = index::local_triangle(v.index, place, v.piece.start);
+    const FloorOnly* const floor = v.collector.floor();
+    if (!floor) return v.collector.offer(contact_with(triangle, v.index, v.piece, place, v.base));
+    for (const auto& part : floor->pieces(triangle)) {
+      v.collector.offer(contact_with(part, v.index, v.piece, place, v.base));
+    }
+    return v.collector.reach();
   }
 };
 
@@ -126,18 +148,7 @@ bool Collector::known(const Contact& c) {
 }
 
 Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place, TriangleId base) {
-  const index::Tile& tile = index.tiles[place.tile];
-  const index::Leaf& leaf = index.blocks[place.leaf].leaf;
-  const auto triangle = index::local_triangle(index, place, piece.start);
-  Contact c;
-  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
-                                   ? certified::proximity(piece.body, triangle)
-                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
-  c.point += piece.start;
-  c.distance -= index::stored_error(tile);
-  c.triangle = base + (index.ids ? index::read_id(index.ids + tile.ids, leaf, static_cast<int>(place.triangle))
-                                 : (TriangleId{place.tile} << index::kTileTriangleBits | (leaf.ids + place.triangle)));
-  return c;
+  return contact_with(index::local_triangle(index, place, piece.start), index, piece, place, base);
 }
 
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
@@ -182,6 +193,12 @@ std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& moti
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
   return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
+  });
+}
+
+Clearance World::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
+    query::collect(*data_, {body, place, way}, 0, collector);
   });
 }
 

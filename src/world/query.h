@@ -8,6 +8,7 @@
 #include "index/margin.h"
 #include "math/largest.h"
 #include "world/data.h"
+#include "world/floor_only.h"
 
 namespace roam::query {
 
@@ -29,7 +30,9 @@ void check_reach(double reach);
 class Collector {
  public:
   /// `repeats`: the same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
-  Collector(double reach, std::span<Contact> out, bool repeats) : out_(out), reach_(reach), repeats_(repeats) {}
+  /// `floor`: of triangles only this is to be offered.
+  Collector(double reach, std::span<Contact> out, bool repeats, const FloorOnly* floor = nullptr)
+      : out_(out), floor_(floor), reach_(reach), repeats_(repeats) {}
 
   /// Takes a contact or not. Returns how near others must be to matter, from now on.
   double offer(const Contact& contact);
@@ -38,6 +41,7 @@ class Collector {
 
   [[nodiscard]] double reach() const { return reach_; }
   [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] const FloorOnly* floor() const { return floor_; }
 
  private:
   [[nodiscard]] std::span<Contact>::iterator end() const { return out_.begin() + static_cast<std::ptrdiff_t>(count_); }
@@ -45,6 +49,7 @@ class Collector {
   [[nodiscard]] bool known(const Contact& contact);
 
   std::span<Contact> out_;
+  const FloorOnly* floor_;
   double reach_;
   bool repeats_;
   std::size_t count_ = 0;
@@ -92,6 +97,19 @@ template <class Collect>
   // Nearest first at the start: on the way, only what comes nearer still is of interest.
   collect(Vec3(0.0), collector);
   if (motion != Vec3(0.0)) collect(motion, collector);
+  return clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+}
+
+/// Space::floor_clearance, likewise.
+template <class Collect>
+[[nodiscard]] Clearance floor_clearance_of(const Body& body, const Vec3& place, double reach, const Floor& floor,
+                                           const Collect& collect) {
+  check(body, place, Vec3(0.0));
+  check_reach(reach);
+  const FloorOnly only(floor, place);
+  Contact nearest;
+  Collector collector(reach, {&nearest, 1}, true, &only);
+  collect(Vec3(0.0), collector);
   return clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
 }
 

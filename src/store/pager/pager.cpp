@@ -248,6 +248,13 @@ Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motio
   });
 }
 
+Clearance Pager::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  const PagedScene scene(state_->residents);
+  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
+    query::collect_of(scene, {body, place, way}, collector);
+  });
+}
+
 Box Pager::bounds() const { return state_->store->info().bounds; }
 
 double Pager::largest_error() const { return state_->store->info().largest_error_m; }

@@ -1,0 +1,92 @@
+#include "world/floor_only.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+#include "math/largest.h"
+#include "roam/error.h"
+#include "sweep/error_bound.h"
+
+namespace roam::query {
+namespace {
+
+constexpr double slope_limit = 89.0;
+
+/// Rounding of a unit normal's z, so that a ramp exactly at the limit is floor.
+constexpr double cosine_rounding = 1e-9;
+
+/// A corner that a cut makes is off by the rounding of its two ends, of the share between them, and of the sum.
+constexpr double cut_roundings = 8.0;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error("cannot look for floor: " + what); }
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Corners of a flat convex piece in order.
+struct Outline {
+  std::array<Vec3, 6> corner;
+  int corners = 0;
+};
+
+/// What of the outline lies where `height`, of each corner, is at most `limit`.
+template <class Height>
+Outline cut(const Outline& whole, double limit, const Height& height) {
+  Outline rest;
+  for (int i = 0; i < whole.corners; ++i) {
+    const Vec3 &a = whole.corner[i], &b = whole.corner[(i + 1) % whole.corners];
+    const double from = height(a), to = height(b);
+    if (from <= limit) rest.corner[rest.corners++] = a;
+    if ((from <= limit) != (to <= limit)) {
+      const double share = std::clamp((limit - from) / (to - from), 0.0, 1.0);
+      rest.corner[rest.corners++] = a + share * (b - a);
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
+FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : band_(floor.band) {
+  if (!(floor.slope_degrees >= 0.0 && floor.slope_degrees <= slope_limit)) {
+    refuse("the slope limit is " + std::to_string(floor.slope_degrees) + " degrees; it must be between 0 and 89");
+  }
+  const double cosine = std::cos(floor.slope_degrees * (std::numbers::pi / 180.0)) - cosine_rounding;
+  squared_cosine_ = cosine * cosine;
+  if (!(floor.band >= 0.0)) refuse("the band is " + std::to_string(floor.band) + " m; it must be 0 or more");
+  if (std::isinf(floor.band)) return;
+  if (!finite(floor.point)) refuse("the point of the band's plane is not finite");
+  rise_x_ = -floor.normal.x / floor.normal.z;
+  rise_y_ = -floor.normal.y / floor.normal.z;
+  if (!(floor.normal.z > 0.0) || !std::isfinite(rise_x_) || !std::isfinite(rise_y_)) {
+    refuse("the normal of the band's plane does not point up");
+  }
+  const Vec3 point = floor.point - start;
+  level_ = point.z - point.x * rise_x_ - point.y * rise_y_;
+}
+
+FloorPieces FloorOnly::pieces(const certified::LocalTriangle& triangle) const {
+  const Vec3* const corner = triangle.corner;
+  FloorPieces pieces;
+  const Vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const double squared = glm::dot(normal, normal);
+  if (!(squared > 0.0) || normal.z * normal.z < squared_cosine_ * squared) return pieces;
+  const double heights[] = {above(corner[0]), above(corner[1]), above(corner[2])};
+  const auto [lowest, highest] = std::minmax({heights[0], heights[1], heights[2]});
+  if (lowest >= -band_ && highest <= band_) {
+    pieces.push(triangle);
+    return pieces;
+  }
+  if (lowest > band_ || highest < -band_) return pieces;
+  Outline rest{{{corner[0], corner[1], corner[2]}}, 3};
+  rest = cut(rest, band_, [this](const Vec3& p) { return above(p); });
+  rest = cut(rest, band_, [this](const Vec3& p) { return -above(p); });
+  const double reach = std::max({largest(corner[0]), largest(corner[1]), largest(corner[2])});
+  const double error = triangle.corner_error + cut_roundings * certified::unit_roundoff * reach;
+  for (int i = 2; i < rest.corners; ++i) pieces.push({{rest.corner[0], rest.corner[i - 1], rest.corner[i]}, error});
+  return pieces;
+}
+
+}  // namespace roam::query

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// The part of a triangle that counts as floor.
+
+#include <array>
+#include <span>
+
+#include "roam/space.h"
+#include "sweep/certified.h"
+
+namespace roam::query {
+
+/// A triangle cut off on two sides has at most five corners, or six by rounding, and is four triangles.
+class FloorPieces {
+ public:
+  [[nodiscard]] const certified::LocalTriangle* begin() const { return pieces_.data(); }
+  [[nodiscard]] const certified::LocalTriangle* end() const { return pieces_.data() + count_; }
+  void push(const certified::LocalTriangle& piece) { pieces_[count_++] = piece; }
+
+ private:
+  std::array<certified::LocalTriangle, 4> pieces_;
+  std::size_t count_ = 0;
+};
+
+class FloorOnly {
+ public:
+  /// For triangles seen from `start`. Throws roam::Error for a floor that is out of range.
+  FloorOnly(const Floor& floor, const Vec3& start);
+
+  /// What counts of the triangle: nothing, all, or the part in the band.
+  [[nodiscard]] FloorPieces pieces(const certified::LocalTriangle& triangle) const;
+
+ private:
+  /// Metres above the plane of the band.
+  [[nodiscard]] double above(const Vec3& p) const { return p.z - (level_ + p.x * rise_x_ + p.y * rise_y_); }
+
+  double squared_cosine_;
+  double band_;
+  double level_ = 0.0;                  ///< of the band's plane over the start, metres
+  double rise_x_ = 0.0, rise_y_ = 0.0;  ///< of that plane, metres a metre
+};
+
+}  // namespace roam::query
