@@ -2,56 +2,89 @@
 /// \file
 /// What training found out about a scene, kept beside it, so that everybody who roams there has a body that fits.
 ///
+///     const roam::Scene scene = roam::import_scene("dam.ply");
 ///     const std::optional<roam::Profile> profile = roam::find_profile("dam.ply");   // reads dam.ply.roam.json
-///     if (profile) settings = roam::apply(*profile, settings);
+///     if (profile && profile->belongs_to(roam::identity_of(scene.meshes))) settings = roam::apply(*profile, settings);
 ///
-/// docs/training.md describes the file member by member. A reader of format version 1 takes every file of version 1.
+/// Library target roam::train. docs/training.md describes the file member by member. A reader of format version 1
+/// takes every file of version 1, and passes over members that it does not know.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "roam/error.h"
+#include "roam/math.h"
+#include "roam/mesh.h"
 #include "roam/size_region.h"
+#include "roam/store.h"
 #include "roam/walker.h"
 
 namespace roam {
 
+/// By what a scene, or the store that was made of it, is known again.
+struct SceneIdentity {
+  /// Of a scene: XXH3-128 over the corners of all triangles in their order, each three little-endian doubles, in 32
+  /// hexadecimal digits, as `roam info` prints it. The same triangles in another file format have the same hash; names
+  /// do not count. Empty where only the store is known.
+  std::string hash;
+  std::string geometry_hash;    ///< of a store: StoreInfo::geometry_hash; empty where only the scene is known
+  std::uint64_t triangles = 0;  ///< in the scene
+  Box bounds;                   ///< of the scene's triangles, metres
+};
+
+/// Reads every triangle once: about 10 ns each.
+[[nodiscard]] SceneIdentity identity_of(std::span<const Mesh> meshes);
+[[nodiscard]] SceneIdentity identity_of(const StoreInfo& store);
+
 struct Profile {
   static constexpr int version = 1;
 
-  /// Of the scene it was trained on: the hash that `roam info` prints, and the number of triangles.
-  std::string scene_hash;
-  std::uint64_t triangles = 0;
+  SceneIdentity scene;  ///< that was trained on
 
-  Mode mode = Mode::walk;
+  Mode mode = Mode::walk;       ///< walk or fly
   double radius = 0.0;          ///< of the body, m
-  double height = 0.0;          ///< m
+  double height = 0.0;          ///< of the body, m: twice the radius for a sphere
   double support_radius = 0.0;  ///< of the foot, m; 0: none of its own
   double step = 0.3;            ///< m
   double slope_degrees = 45.0;
   std::optional<double> largest;  ///< upper end of the feasible interval, m; none: no opening limits it
   double smallest = 0.0;          ///< lower end, m; 0: no crack
   std::vector<SizeRegion> regions;
-  std::string method;    ///< "paper", "interval" or "roaming" (learned by roam view --adapt)
-  bool complete = true;  ///< false: training was interrupted, and this is the best so far
+  std::string method = "interval";  ///< "paper", "interval" or "roaming" (learned by roam view --adapt)
+  bool complete = true;             ///< false: training was interrupted, and this is the best so far
+
+  /// Whether it is of this scene. Where the hash, or the geometry hash, is known of both, that decides. A scene and a
+  /// store have neither in common: then the number of triangles and the box of them all decide, to the last bit, for
+  /// nothing else of the source is left in a store.
+  [[nodiscard]] bool belongs_to(const SceneIdentity& other) const;
 };
 
-/// Where the profile of a scene is: "dam.ply" has "dam.ply.roam.json"; a store "dam.roam" has "dam.roam.json", and a
-/// folder of tiles "Data" has "Data.roam.json" beside it.
-[[nodiscard]] std::filesystem::path profile_path(const std::filesystem::path& scene);
+/// Throws roam::Error, naming the member, its value and its range, for numbers that no body has.
+void check(const Profile& profile);
 
-/// Throws roam::Error naming file, line or member, and what to do, for what is no profile, of a newer version, or holds
-/// numbers out of range.
+/// Where the profile of a scene is: "dam.ply" has "dam.ply.roam.json" beside it, a folder of tiles "Data/" has
+/// "Data.roam.json", and so have their stores, "dam.ply.roam" and "Data.roam". A store elsewhere, "dam.roam", has
+/// "dam.roam.json".
+[[nodiscard]] std::filesystem::path profile_path(const std::filesystem::path& scene);
+/// Of several files or folders that make one scene: beside the first, named by all: "a.ply+b.ply.roam.json".
+[[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
+
+/// Throws roam::Error naming file, line or member, and what to do, for what is no profile, is of a newer version, or
+/// holds numbers out of range.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
-/// Written under a temporary name and renamed: whole or as it was. Throws roam::Error when it cannot be written.
+/// Written under a temporary name, synced and renamed: whole or as it was. Throws roam::Error when it cannot be
+/// written, and what check throws.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
-/// The profile beside a scene; none when there is no such file.
+/// The profile beside a scene, see profile_path; none when there is no such file. Throws what load_profile throws.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
+[[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
 
 /// A person's settings with the profile's body: its radius, height, step, slope and support; the eye stays where it is,
-/// or at the top of a lower body.
+/// or at the top of a lower body. The regions are for Walker::set_regions.
 [[nodiscard]] WalkerSettings apply(const Profile& profile, const WalkerSettings& settings);
 
 }  // namespace roam

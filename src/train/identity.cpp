@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <bit>
+#include <memory>
+
+#include "roam/profile.h"
+
+namespace roam {
+
+static_assert(std::endian::native == std::endian::little, "the hash is defined over little-endian doubles");
+
+SceneIdentity identity_of(std::span<const Mesh> meshes) {
+  SceneIdentity identity;
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  for (const Mesh& mesh : meshes) {
+    identity.triangles += mesh.triangles.size();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      Triangle triangle = mesh.triangle(i);
+      for (Vec3& corner : triangle) {
+        identity.bounds.include(corner);
+        // -0 and 0 are one place.
+        corner += 0.0;
+      }
+      XXH3_128bits_update(state.get(), triangle.data(), sizeof(triangle));
+    }
+  }
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  identity.hash = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return identity;
+}
+
+SceneIdentity identity_of(const StoreInfo& store) { return {{}, store.geometry_hash, store.triangles, store.bounds}; }
+
+bool Profile::belongs_to(const SceneIdentity& other) const {
+  if (!scene.hash.empty() && !other.hash.empty()) return scene.hash == other.hash;
+  if (!scene.geometry_hash.empty() && !other.geometry_hash.empty()) return scene.geometry_hash == other.geometry_hash;
+  return scene.triangles == other.triangles && scene.bounds.lower == other.bounds.lower &&
+         scene.bounds.upper == other.bounds.upper;
+}
+
+}  // namespace roam

@@ -1,0 +1,352 @@
+// The profile beside a scene: written whole, read strictly, and only for the scene that it was trained on.
+#include "roam/profile.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A room of two triangles, far from the origin.
+std::vector<roam::Mesh> scene() {
+  roam::Mesh mesh;
+  mesh.vertices = {{-13739.1, 253.0, 182.0}, {-13730.0, 253.3, 182.0}, {-13730.0, 260.0, 182.7}, {0.1, 0.2, -0.0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return {mesh};
+}
+
+roam::Profile full_profile() {
+  roam::Profile p;
+  p.scene = roam::identity_of(scene());
+  p.radius = 0.1 + 0.2;  // no round number of digits
+  p.height = 1.8;
+  p.support_radius = 0.45;
+  p.step = 0.25;
+  p.slope_degrees = 50.0;
+  p.largest = 1.0 / 3.0;
+  p.smallest = 0.125;
+  p.regions = {{{{-1.0, -2.0, -3.0}, {1.0, 2.0, 1.0 / 7.0}}, 0.2, 0.0, "door 0.41 m wide"},
+               {{{5.0, 5.0, 0.0}, {6.0, 6.0, 2.0}}, 0.3, 0.7, "a \"split\" \xE2\x80\x93 1.3 m"}};
+  p.method = "paper";
+  p.complete = false;
+  return p;
+}
+
+void expect_same(const roam::Profile& a, const roam::Profile& b) {
+  EXPECT_EQ(a.scene.hash, b.scene.hash);
+  EXPECT_EQ(a.scene.geometry_hash, b.scene.geometry_hash);
+  EXPECT_EQ(a.scene.triangles, b.scene.triangles);
+  EXPECT_EQ(a.scene.bounds.lower, b.scene.bounds.lower);
+  EXPECT_EQ(a.scene.bounds.upper, b.scene.bounds.upper);
+  EXPECT_EQ(a.mode, b.mode);
+  EXPECT_EQ(a.radius, b.radius);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.support_radius, b.support_radius);
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.slope_degrees, b.slope_degrees);
+  EXPECT_EQ(a.largest, b.largest);
+  EXPECT_EQ(a.smallest, b.smallest);
+  EXPECT_EQ(a.method, b.method);
+  EXPECT_EQ(a.complete, b.complete);
+  ASSERT_EQ(a.regions.size(), b.regions.size());
+  for (std::size_t i = 0; i < a.regions.size(); ++i) {
+    EXPECT_EQ(a.regions[i].bounds.lower, b.regions[i].bounds.lower);
+    EXPECT_EQ(a.regions[i].bounds.upper, b.regions[i].bounds.upper);
+    EXPECT_EQ(a.regions[i].radius, b.regions[i].radius);
+    EXPECT_EQ(a.regions[i].support_radius, b.regions[i].support_radius);
+    EXPECT_EQ(a.regions[i].why, b.regions[i].why);
+  }
+}
+
+/// What is said of a file that cannot be used; empty when it can.
+std::string complaint(const std::function<void()>& use) {
+  try {
+    use();
+  } catch (const roam::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
+
+TEST(Profile, IsReadAsItWasWrittenToTheLastBit) {
+  const TestFolder folder;
+  const std::string file = folder.file("dam.ply.roam.json");
+  roam::Profile profile = full_profile();
+  roam::save_profile(profile, file);
+  expect_same(roam::load_profile(file), profile);
+  profile.largest.reset();
+  profile.mode = roam::Mode::fly;
+  profile.regions.clear();
+  profile.scene.hash.clear();
+  profile.scene.geometry_hash = "0123456789abcdef";
+  roam::save_profile(profile, file);
+  expect_same(roam::load_profile(file), profile);
+  EXPECT_EQ(files_in(std::filesystem::path(file).parent_path()).size(), 1u);
+}
+
+TEST(Profile, HasTheMembersThatAreDocumented) {
+  const TestFolder folder;
+  roam::save_profile(full_profile(), folder.file("p.json"));
+  const Json json = Json::parse(folder.read("p.json"));
+  std::vector<std::string> names;
+  for (const auto& [name, value] : json.items()) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"roam_profile", "scene", "mode", "radius", "height", "support_radius",
+                                             "step", "slope", "interval", "regions", "method", "complete"}));
+  EXPECT_EQ(json["roam_profile"], 1);
+  EXPECT_EQ(json["scene"]["triangles"], 2);
+  EXPECT_EQ(json["scene"]["hash"].get<std::string>().size(), 32u);
+  EXPECT_TRUE(json["scene"]["geometry_hash"].is_null());
+  EXPECT_EQ(json["interval"]["min"], 0.125);
+  EXPECT_EQ(json["regions"][0]["why"], "door 0.41 m wide");
+}
+
+TEST(Profile, LiesBesideItsSceneAndItsStore) {
+  const auto path = [](const char* scene) { return roam::profile_path(std::filesystem::path(scene)).string(); };
+  EXPECT_EQ(path("dam.ply"), "dam.ply.roam.json");
+  EXPECT_EQ(path("dam.ply.roam"), "dam.ply.roam.json");
+  EXPECT_EQ(path("dam.ply.roam/"), "dam.ply.roam.json");
+  EXPECT_EQ(path("stores/dam.roam"), "stores/dam.roam.json");
+  EXPECT_EQ(path("/data/Data/"), "/data/Data.roam.json");
+  EXPECT_EQ(path("./Data"), "Data.roam.json");
+  EXPECT_EQ(path("."), std::filesystem::current_path().string() + ".roam.json");
+  const std::vector<std::filesystem::path> two{"x/a.ply", "y/b.ply"};
+  EXPECT_EQ(roam::profile_path(two).string(), "x/a.ply+b.ply.roam.json");
+  const std::vector<std::filesystem::path> many(100, "x/part.ply");
+  EXPECT_EQ(roam::profile_path(many).string(), "x/part.ply+99.roam.json");
+}
+
+TEST(Profile, IsFoundBesideTheSceneOrNotAtAll) {
+  const TestFolder folder;
+  const std::filesystem::path dam = folder.file("dam.ply");
+  EXPECT_FALSE(roam::find_profile(dam).has_value());
+  roam::save_profile(full_profile(), folder.file("dam.ply.roam.json"));
+  ASSERT_TRUE(roam::find_profile(dam).has_value());
+  EXPECT_TRUE(roam::find_profile(folder.file("dam.ply.roam")).has_value());
+  EXPECT_FALSE(roam::find_profile(folder.file("other.ply")).has_value());
+  folder.write("dam.ply.roam.json", "");
+  EXPECT_THROW((void)roam::find_profile(dam), roam::Error);
+}
+
+TEST(Profile, BelongsToItsSceneAlone) {
+  roam::Profile profile;
+  profile.scene = roam::identity_of(scene());
+  EXPECT_TRUE(profile.belongs_to(roam::identity_of(scene())));
+  auto moved = scene();
+  moved[0].vertices[2].x = std::nextafter(moved[0].vertices[2].x, 0.0);
+  EXPECT_FALSE(profile.belongs_to(roam::identity_of(moved)));
+  auto fewer = scene();
+  fewer[0].triangles.pop_back();
+  EXPECT_FALSE(profile.belongs_to(roam::identity_of(fewer)));
+  auto zero = scene();
+  zero[0].vertices[3].z = 0.0;  // as good as -0
+  EXPECT_TRUE(profile.belongs_to(roam::identity_of(zero)));
+}
+
+TEST(Profile, OfASceneBelongsToTheStoreOfTheSameTriangles) {
+  roam::Profile profile;
+  profile.scene = roam::identity_of(scene());
+  roam::StoreInfo store;
+  store.geometry_hash = "0123456789abcdef";
+  store.triangles = profile.scene.triangles;
+  store.bounds = profile.scene.bounds;
+  EXPECT_TRUE(profile.belongs_to(roam::identity_of(store)));
+  roam::Profile of_store;
+  of_store.scene = roam::identity_of(store);
+  EXPECT_TRUE(of_store.belongs_to(roam::identity_of(scene())));
+  EXPECT_TRUE(of_store.belongs_to(roam::identity_of(store)));
+  roam::StoreInfo other = store;
+  other.geometry_hash = "0123456789abcdee";
+  EXPECT_FALSE(of_store.belongs_to(roam::identity_of(other)));
+  other = store;
+  other.triangles = 3;
+  EXPECT_FALSE(profile.belongs_to(roam::identity_of(other)));
+  other = store;
+  other.bounds.upper.z += 1e-9;
+  EXPECT_FALSE(profile.belongs_to(roam::identity_of(other)));
+}
+
+TEST(Profile, GivesAPersonTheBodyThatWasTrained) {
+  const roam::Profile profile = full_profile();
+  roam::WalkerSettings person;
+  person.speed = 3.0;
+  const roam::WalkerSettings body = roam::apply(profile, person);
+  EXPECT_EQ(body.radius, profile.radius);
+  EXPECT_EQ(body.height, 1.8);
+  EXPECT_EQ(body.step, 0.25);
+  EXPECT_EQ(body.slope_degrees, 50.0);
+  EXPECT_EQ(body.eye, 1.6);
+  EXPECT_EQ(body.speed, 3.0);
+  roam::check(body);
+  roam::Profile low = profile;
+  low.height = 1.2;
+  EXPECT_EQ(roam::apply(low, person).eye, 1.2);
+}
+
+/// A change of a good file, and what must be said of it.
+struct Fault {
+  const char* member;
+  std::function<void(Json&)> make;
+};
+
+TEST(Profile, NamesTheMemberThatIsWrong) {
+  const TestFolder folder;
+  const std::string file = folder.file("dam.ply.roam.json");
+  roam::save_profile(full_profile(), file);
+  const Json good = Json::parse(folder.read("dam.ply.roam.json"));
+  const std::vector<Fault> faults{
+      {"\"roam_profile\"", [](Json& j) { j["roam_profile"] = 0; }},
+      {"\"roam_profile\"", [](Json& j) { j["roam_profile"] = "1"; }},
+      {"\"scene\"", [](Json& j) { j["scene"] = Json::array(); }},
+      {"\"scene\"", [](Json& j) { j["scene"]["hash"] = nullptr; }},
+      {"\"scene.hash\"", [](Json& j) { j["scene"]["hash"] = "0123"; }},
+      {"\"scene.hash\"", [](Json& j) { j["scene"]["hash"] = std::string(32, 'G'); }},
+      {"\"scene.hash\"", [](Json& j) { j["scene"].erase("hash"); }},
+      {"\"scene.geometry_hash\"", [](Json& j) { j["scene"]["geometry_hash"] = "xyz"; }},
+      {"\"scene.triangles\"", [](Json& j) { j["scene"]["triangles"] = -2; }},
+      {"\"scene.triangles\"", [](Json& j) { j["scene"]["triangles"] = 2.5; }},
+      {"\"scene.bounds.min\"",
+       [](Json& j) {
+         j["scene"]["bounds"]["min"] = {1, 2};
+       }},
+      {"\"scene.bounds.max\"", [](Json& j) { j["scene"]["bounds"]["max"][1] = "0"; }},
+      {"\"scene.bounds\"", [](Json& j) { j["scene"]["bounds"]["max"][1] = -1e9; }},
+      {"\"mode\"", [](Json& j) { j["mode"] = "ghost"; }},
+      {"radius", [](Json& j) { j["radius"] = 0.0; }},
+      {"radius", [](Json& j) { j["radius"] = -0.3; }},
+      {"radius", [](Json& j) { j["radius"] = 1e6; }},
+      {"\"radius\"", [](Json& j) { j["radius"] = "0.3"; }},
+      {"\"radius\"", [](Json& j) { j["radius"] = nullptr; }},
+      {"height", [](Json& j) { j["height"] = 0.5; }},
+      {"step", [](Json& j) { j["step"] = 1.0; }},
+      {"slope", [](Json& j) { j["slope"] = 90; }},
+      {"\"support_radius\"", [](Json& j) { j["support_radius"] = -0.1; }},
+      {"\"interval.min\"", [](Json& j) { j["interval"]["min"] = -1; }},
+      {"\"interval.max\"", [](Json& j) { j["interval"]["max"] = 0; }},
+      {"\"interval\"", [](Json& j) { j["interval"] = 0.3; }},
+      {"\"regions\"", [](Json& j) { j["regions"] = Json::object(); }},
+      {"\"regions[1]\"", [](Json& j) { j["regions"][1] = 7; }},
+      {"\"regions[1].bounds\"", [](Json& j) { j["regions"][1]["bounds"]["min"][2] = 3; }},
+      {"\"regions[0].radius\"", [](Json& j) { j["regions"][0]["radius"] = 0; }},
+      {"\"regions[0].radius\"", [](Json& j) { j["regions"][0]["radius"] = 1; }},
+      {"\"regions[1].support_radius\"", [](Json& j) { j["regions"][1]["support_radius"] = 1e9; }},
+      {"\"regions[0].why\"", [](Json& j) { j["regions"][0]["why"] = 5; }},
+      {"\"method\"", [](Json& j) { j["method"] = "guessed"; }},
+      {"\"complete\"", [](Json& j) { j["complete"] = 1; }},
+  };
+  for (const auto& [name, value] : good.items()) {
+    const std::string key = name;
+    Json bad = good;
+    bad.erase(key);
+    folder.write("dam.ply.roam.json", bad.dump());
+    const std::string said = complaint([&] { (void)roam::load_profile(file); });
+    EXPECT_TRUE(contains(said, "\"" + key + "\" is missing")) << key << ": " << said;
+  }
+  for (const Fault& fault : faults) {
+    Json bad = good;
+    fault.make(bad);
+    folder.write("dam.ply.roam.json", bad.dump());
+    const std::string said = complaint([&] { (void)roam::load_profile(file); });
+    EXPECT_TRUE(contains(said, file)) << bad.dump();
+    EXPECT_TRUE(contains(said, fault.member)) << said << "\n" << bad.dump();
+    EXPECT_TRUE(contains(said, "train again")) << said;
+  }
+}
+
+TEST(Profile, NamesTheLineOfWhatIsNoJson) {
+  const TestFolder folder;
+  const std::string file = folder.write("p.json", "{\n  \"roam_profile\": 1,\n  oops\n}\n");
+  const std::string said = complaint([&] { (void)roam::load_profile(file); });
+  EXPECT_TRUE(contains(said, file + ": is no JSON") && contains(said, "line 3")) << said;
+  for (const char* text : {"", "[]", "null", "{",
+                           "\x7f"
+                           "ELF",
+                           "{\"roam_profile\": 1e999}"}) {
+    EXPECT_NE(complaint([&] { (void)roam::load_profile(folder.write("q.json", text)); }), "") << text;
+  }
+  // Nested deeper than a stack.
+  EXPECT_NE(complaint([&] { (void)roam::load_profile(folder.write("d.json", std::string(1000000, '['))); }), "");
+  const std::string nested = "{\"roam_profile\":" + std::string(500000, '[') + std::string(500000, ']') + "}";
+  EXPECT_NE(complaint([&] { (void)roam::load_profile(folder.write("e.json", nested)); }), "");
+}
+
+TEST(Profile, OfANewerVersionIsRefusedAndSaysSo) {
+  const TestFolder folder;
+  const std::string file = folder.write("p.json", "{\"roam_profile\": 2, \"all\": \"else is new\"}");
+  const std::string said = complaint([&] { (void)roam::load_profile(file); });
+  EXPECT_TRUE(contains(said, "version 2") && contains(said, "newer roam")) << said;
+}
+
+TEST(Profile, PassesOverMembersThatItDoesNotKnow) {
+  const TestFolder folder;
+  const std::string file = folder.file("p.json");
+  roam::save_profile(full_profile(), file);
+  Json json = Json::parse(folder.read("p.json"));
+  json["seed"] = 7;
+  json["regions"][0]["colour"] = "red";
+  folder.write("p.json", json.dump());
+  expect_same(roam::load_profile(file), full_profile());
+}
+
+TEST(Profile, ThatCannotBeWrittenLeavesWhatWasThere) {
+  const TestFolder folder;
+  const std::string file = folder.file("p.json");
+  roam::save_profile(full_profile(), file);
+  const std::string before = folder.read("p.json");
+  roam::Profile longer = full_profile();
+  for (int i = 0; i < 200; ++i) longer.regions.push_back(longer.regions[0]);
+  // A disk that is full after 4 kB.
+  rlimit old{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+  rlimit small = old;
+  small.rlim_cur = 4096;
+  std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string said = complaint([&] { roam::save_profile(longer, file); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
+  EXPECT_TRUE(contains(said, "cannot write " + file)) << said;
+  EXPECT_EQ(folder.read("p.json"), before);
+  EXPECT_EQ(files_in(std::filesystem::path(file).parent_path()).size(), 1u);
+  EXPECT_TRUE(contains(complaint([&] { roam::save_profile(longer, folder.file("no/p.json")); }), "cannot write"));
+}
+
+TEST(Profile, IsNeverWrittenWithWhatWouldNotBeRead) {
+  const TestFolder folder;
+  roam::Profile profile = full_profile();
+  profile.radius = std::nan("");
+  EXPECT_THROW(roam::save_profile(profile, folder.file("p.json")), roam::Error);
+  profile = full_profile();
+  profile.regions[0].bounds = {};
+  EXPECT_THROW(roam::save_profile(profile, folder.file("p.json")), roam::Error);
+  profile = full_profile();
+  profile.scene = {};
+  EXPECT_THROW(roam::save_profile(profile, folder.file("p.json")), roam::Error);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("p.json")));
+}
+
+TEST(Profile, HasTheRightsOfOtherFiles) {
+  const TestFolder folder;
+  const mode_t before = ::umask(022);
+  roam::save_profile(full_profile(), folder.file("p.json"));
+  ::umask(before);
+  struct stat status {};
+  ASSERT_EQ(::stat(folder.file("p.json").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0644u);
+}
+
+}  // namespace
