@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// What decides, drawn: `roam probe --picture` and `roam train --picture`. For each door, lintel, gap or crack a plan
+/// and a section through it to the same scale, with the body drawn in and the width measured.
+///
+///     picture::PictureFile file("door.png");   // before the long work: it may not be writable
+///     file.write(picture::opening_sheet("dam.ply", openings, survey.meshes()));
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw.h"
+#include "roam/mesh.h"
+#include "roam/walker.h"
+#include "sheet.h"
+
+namespace roam::app::picture {
+
+/// A place that decides, and the body that is asked about.
+struct OpeningView {
+  enum class Kind : std::uint8_t {
+    passage,  ///< something on both sides, or above
+    crack,    ///< a gap of the floor
+  };
+  Kind kind = Kind::passage;
+  std::string heading;  ///< "Door 0.52 m wide"
+  std::string text;     ///< a sentence or two, for people
+  Vec3 point{0.0};      ///< its middle; of a crack at the level of the rim
+  Vec3 direction{0.0};  ///< unit, from one side to the other
+  double width = 0.0;   ///< metres along `direction`
+  /// Level, the way one goes there; needed only where `direction` is upright. 0: not known.
+  Vec3 heading_to{0.0};
+  Mode mode = Mode::walk;
+  double floor = 0.0;  ///< z of the feet there, metres; flying: of the body's lowest point
+  double radius = 0.0;
+  double height = 0.0;          ///< of the body, metres: at least twice the radius
+  double step = 0.3;            ///< on foot: what is lower than this above the feet is walked over
+  double support_radius = 0.0;  ///< of a foot of its own, metres; 0: none
+  bool fits = false;            ///< the body passes, or does not fall: drawn blue; else red
+};
+
+/// Plans and sections one below the other. An empty list makes a sheet of its title alone. Throws roam::Cancelled after
+/// Ctrl-C.
+[[nodiscard]] Sheet opening_sheet(const std::string& title, std::span<const OpeningView> openings,
+                                  std::span<const Mesh> meshes);
+
+}  // namespace roam::app::picture
