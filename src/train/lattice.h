@@ -11,11 +11,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "roam/passage.h"
 #include "roam/survey.h"
+#include "roam/walker.h"
 
 namespace roam::training {
 
@@ -36,20 +36,34 @@ struct Measure {
 /// over cracks; none where there is none.
 [[nodiscard]] std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near);
 
+/// Whether a body of `radius` that is free at two places at most a few spacings apart goes straight from one to the
+/// other, or, on foot, up, across and down as over a kerb: certified by sweeps.
+[[nodiscard]] bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to,
+                                 double radius);
+
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = ~NodeId(0);
 
 struct Node {
   Vec3 place{0.0};
-  float clearance = 0.0F;
+  float clearance = 0.0F;  ///< as clearance_at, rounded down; 0: no body of `narrowest` can be there
 };
+
+/// At most 8 on foot, 26 flying.
+using Neighbours = InlineList<NodeId, 26>;
+
+/// The largest box: no bound.
+inline constexpr Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
+                                Vec3(std::numeric_limits<double>::infinity())};
 
 /// A tree over all places reached from the first one: of all ways between two of them, the one in it is a widest.
 /// Grown best first (Prim, with the largest least clearance): see Pollack, "The maximum capacity through a network",
 /// 1960.
 class WidestTree {
  public:
-  WidestTree(const Survey& survey, const Measure& measure, double spacing);
+  /// `survey` must outlive the tree. Nothing outside `within` is looked at. The lattice lies so that the first place
+  /// that is asked for is one of it.
+  WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within = everywhere);
 
   /// The place of the lattice at or nearest to `place` (within 1.5 spacings, in sight), made if need be; none where no
   /// body of `narrowest` can be.
@@ -65,8 +79,9 @@ class WidestTree {
   [[nodiscard]] NodeId parent(NodeId id) const;
   /// The places from one to the other through the tree; empty when they hang in different trees.
   [[nodiscard]] std::vector<NodeId> way(NodeId from, NodeId to) const;
-  /// The neighbours that a body of `narrowest` can go to straight, all of which were looked at.
-  [[nodiscard]] std::span<const NodeId> neighbours(NodeId id) const;
+  /// The neighbours that a body of `narrowest` can go to straight: all of them where the tree has grown past the place,
+  /// else those that were looked at so far. Who is a neighbour of whom is mutual.
+  [[nodiscard]] Neighbours neighbours(NodeId id) const;
 
  private:
   struct State;

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// The places of a lattice and who is whose neighbour, made where they are asked for. WidestTree grows over it.
+
+#include <cstddef>
+#include <vector>
+
+#include "train/lattice.h"
+#include "train/lattice_table.h"
+
+namespace roam::training {
+
+class LatticeGraph {
+ public:
+  virtual ~LatticeGraph() = default;
+
+  [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
+  /// All neighbours, which are made and measured if need be.
+  virtual Neighbours expand(NodeId id) = 0;
+  /// Those that are known.
+  [[nodiscard]] virtual Neighbours neighbours(NodeId id) const = 0;
+
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  [[nodiscard]] const Node& node(NodeId id) const { return nodes_[id]; }
+
+ protected:
+  std::vector<Node> nodes_;
+};
+
+[[nodiscard]] std::unique_ptr<LatticeGraph> walk_lattice(const Survey& survey, const Measure& measure, double spacing,
+                                                         const Box& within);
+[[nodiscard]] std::unique_ptr<LatticeGraph> fly_lattice(const Survey& survey, const Measure& measure, double spacing,
+                                                        const Box& within);
+
+}  // namespace roam::training

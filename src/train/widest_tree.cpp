@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <queue>
+
+#include "train/lattice_graph.h"
+
+namespace roam::training {
+namespace {
+
+/// How many places are looked past before anybody is asked whether to go on.
+constexpr std::size_t places_between_questions = 256;
+
+/// A step out of the tree that may be taken.
+struct Edge {
+  float width = 0.0F;        ///< the smaller clearance of its two places
+  std::uint64_t number = 0;  ///< of equals the first that was found: ways stay short where everything is wide
+  NodeId from = no_node, to = no_node;
+};
+struct Narrower {
+  bool operator()(const Edge& a, const Edge& b) const {
+    return a.width != b.width ? a.width < b.width : a.number > b.number;
+  }
+};
+
+}  // namespace
+
+struct WidestTree::State {
+  std::unique_ptr<LatticeGraph> graph;
+  std::vector<NodeId> root, parent;  ///< of each place; no_node
+  std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
+  NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
+  std::uint64_t pushed = 0;
+
+  void cover() {
+    root.resize(graph->size(), no_node);
+    parent.resize(graph->size(), no_node);
+  }
+  void push(NodeId from, const Neighbours& neighbours) {
+    cover();
+    for (const NodeId to : neighbours) {
+      if (root[to] == growing) continue;
+      edges.push({std::min(graph->node(from).clearance, graph->node(to).clearance), pushed++, from, to});
+    }
+  }
+  void take(NodeId id, NodeId from) {
+    root[id] = growing;
+    parent[id] = from;
+    push(id, graph->expand(id));
+  }
+  /// Makes `edges` those of the tree that `id` hangs in, or a new tree of it.
+  void turn_to(NodeId id) {
+    cover();
+    if (root[id] != no_node && root[id] == growing) return;
+    edges = {};
+    growing = root[id] == no_node ? id : root[id];
+    if (root[id] == no_node) return take(id, no_node);
+    for (NodeId n = 0; n < static_cast<NodeId>(root.size()); ++n)
+      if (root[n] == growing) push(n, graph->neighbours(n));
+  }
+};
+
+WidestTree::WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within)
+    : state_(std::make_shared<State>()) {
+  state_->graph = measure.mode == Mode::fly ? fly_lattice(survey, measure, spacing, within)
+                                            : walk_lattice(survey, measure, spacing, within);
+}
+
+std::optional<NodeId> WidestTree::seed(const Vec3& place) {
+  const auto id = state_->graph->seed(place);
+  state_->cover();
+  return id;
+}
+
+bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on) {
+  State& s = *state_;
+  s.turn_to(root);
+  for (std::size_t taken = 0; !s.edges.empty(); ++taken) {
+    if (until != no_node && s.root[until] == s.growing) return true;
+    if (goes_on && taken % places_between_questions == 0 && !goes_on(s.graph->size())) return false;
+    const Edge edge = s.edges.top();
+    s.edges.pop();
+    if (s.root[edge.to] != s.growing) s.take(edge.to, edge.from);
+  }
+  return true;
+}
+
+std::size_t WidestTree::size() const { return state_->graph->size(); }
+const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }
+NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }
+NodeId WidestTree::parent(NodeId id) const { return state_->parent[id]; }
+Neighbours WidestTree::neighbours(NodeId id) const { return state_->graph->neighbours(id); }
+
+std::vector<NodeId> WidestTree::way(NodeId from, NodeId to) const {
+  const State& s = *state_;
+  if (s.root[from] == no_node || s.root[from] != s.root[to]) return {};
+  const auto upwards = [&](NodeId id) {
+    std::vector<NodeId> line;
+    for (; id != no_node; id = s.parent[id]) line.push_back(id);
+    return line;
+  };
+  std::vector<NodeId> out = upwards(from), back = upwards(to);
+  NodeId meeting = no_node;
+  while (!out.empty() && !back.empty() && out.back() == back.back()) {
+    meeting = out.back();
+    out.pop_back();
+    back.pop_back();
+  }
+  if (meeting == no_node) return {};
+  out.push_back(meeting);
+  out.insert(out.end(), back.rbegin(), back.rend());
+  return out;
+}
+
+}  // namespace roam::training
