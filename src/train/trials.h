@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// Trials: a real Walker is sent along a planned way, and how it ends is judged as the paper means it.
+
+#include <functional>
+#include <span>
+
+#include "roam/route.h"
+#include "roam/survey.h"
+#include "roam/train.h"
+
+namespace roam::training {
+
+/// What all bodies of one training have in common.
+struct BodyKind {
+  Mode mode = Mode::walk;
+  double height = 0.0;  ///< m, on foot; 0: a sphere
+  double step = 0.3;    ///< m; a sphere climbs at most its radius
+  double slope_degrees = 45.0;
+  double speed = 1.4;  ///< m/s
+};
+
+/// The largest radius that a body of this kind can have: half of what is between its knee and the top of its head.
+[[nodiscard]] double largest_radius(const BodyKind& kind);
+
+/// The settings of such a body. It does not crouch: a lower body is another body.
+[[nodiscard]] WalkerSettings settings_of(const BodyKind& kind, double radius, double support_radius);
+
+/// Sends a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
+///   - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
+///   - a body that was stopped more than a step below the way has fallen into what stops it, however shallow: `fell`.
+/// `goes_on` is asked now and then; false ends the trial, with the outcome so far `held`.
+[[nodiscard]] Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
+                            std::span<const Vec3> way, const std::function<bool()>& goes_on = {});
+
+/// What the paper's two rules ask of an outcome.
+enum class Verdict : std::uint8_t {
+  passed,
+  cannot_enter,  ///< blocked or held: the radius goes down
+  flies_off,     ///< fell or left the scene: the radius goes up
+};
+[[nodiscard]] Verdict verdict(Outcome outcome);
+
+}  // namespace roam::training
