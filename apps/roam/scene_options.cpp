@@ -8,6 +8,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "roam/error.h"
+#include "roam/store.h"
 
 namespace roam::app {
 namespace {
@@ -75,13 +76,19 @@ void SceneOptions::check_there() const {
   std::error_code none;
   for (const auto& scene : scenes) {
     if (!std::filesystem::exists(scene, none)) {
-      throw Error(scene.string() + ": there is no such file or folder. Check the spelling.");
+      if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
+        throw Error(scene.string() + ": cannot be looked at: " + none.message());
+      }
+      const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
+      throw Error(scene.string() + (target.empty() ? ": there is no such file or folder. Check the spelling."
+                                                   : ": is a link to " + target.string() + ", which is not there."));
     }
-    if (std::filesystem::is_directory(scene / "scratch", none) &&
-        std::filesystem::is_directory(scene / "packs", none)) {
-      throw Error(scene.string() +
-                  " is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped");
+    // A store that is not complete, or whose CURRENT is gone, is no folder of photogrammetry: opening it says which.
+    int folders_of_stores = 0;
+    for (const char* name : {"manifests", "packs", "parts"}) {
+      folders_of_stores += std::filesystem::is_directory(scene / name, none) ? 1 : 0;
     }
+    if (folders_of_stores > 1) static_cast<void>(Store::open(scene));
   }
 }
 

@@ -70,14 +70,7 @@ std::uint64_t repair(const VerifyOptions& options) {
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
-  StoreVerification found;
-  try {
-    found = look(options);
-  } catch (const Error& error) {
-    // What says what the store holds is damaged itself. A repair then makes it anew, unless it is of a newer roam.
-    if (options.repair.scenes.empty() || !Store::is_store(options.store)) throw;
-    found.damage.push_back({"the manifest", error.what(), Box{}});
-  }
+  StoreVerification found = look(options);
   std::uint64_t repaired = 0;
   if (!found.damage.empty() && !options.repair.scenes.empty()) {
     if (!options.json) print(text_report(options, found));

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a person can do about it.
-const char* advice(int error) {
+const char* advice(int error, bool reading) {
+  if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
   switch (error) {
     case ENOSPC:
     case EDQUOT:
@@ -46,11 +47,13 @@ const char* advice(int error) {
   }
 }
 
-[[noreturn]] void fail(const char* what, const fs::path& file, int error) {
-  const std::string advised = advice(error);
-  throw Error(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
-                          advised.empty() ? "" : "; ", advised));
+[[noreturn]] void fail(const char* what, const fs::path& file, int error, bool reading = false) {
+  const std::string advised = advice(error, reading);
+  throw FileError(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
+                              advised.empty() ? "" : "; ", advised),
+                  error);
 }
+[[noreturn]] void fail_to_read(const fs::path& file, int error) { fail("read", file, error, true); }
 
 /// Calls a system call again when a signal interrupts it.
 template <class Call>
@@ -94,12 +97,12 @@ constexpr std::size_t kPiece = 1 << 20;
 
 std::string sha256_of_file(const fs::path& file, const std::function<void(std::uint64_t)>& tick) {
   const Descriptor open(again([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); }));
-  if (open.number() < 0) fail("open", file, errno);
+  if (open.number() < 0) fail_to_read(file, errno);
   Sha256 hash;
   std::vector<std::byte> piece(kPiece);
   for (;;) {
     const ssize_t got = again([&] { return ::read(open.number(), piece.data(), piece.size()); });
-    if (got < 0) fail("read", file, errno);
+    if (got < 0) fail_to_read(file, errno);
     if (got == 0) return hash.digits();
     hash.add({piece.data(), static_cast<std::size_t>(got)});
     if (tick) tick(static_cast<std::uint64_t>(got));
@@ -157,17 +160,18 @@ void write_file(const fs::path& file, std::string_view text) {
 
 std::vector<std::byte> read_file(const fs::path& file, std::uint64_t limit) {
   const Descriptor open(again([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); }));
-  if (open.number() < 0) fail("open", file, errno);
+  if (open.number() < 0) fail_to_read(file, errno);
   struct stat status {};
-  if (::fstat(open.number(), &status) != 0) fail("read", file, errno);
+  if (::fstat(open.number(), &status) != 0) fail_to_read(file, errno);
   if (static_cast<std::uint64_t>(status.st_size) > limit) {
-    throw Error(
-        fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", file.string(), status.st_size));
+    throw FileError(
+        fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", file.string(), status.st_size),
+        EFBIG);
   }
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t got = again([&] { return ::read(open.number(), bytes.data() + done, bytes.size() - done); });
-    if (got < 0) fail("read", file, errno);
+    if (got < 0) fail_to_read(file, errno);
     if (got == 0) throw Error(fmt::format("cannot read {}: it became shorter while it was read", file.string()));
     done += static_cast<std::size_t>(got);
   }
@@ -177,14 +181,20 @@ std::vector<std::byte> read_file(const fs::path& file, std::uint64_t limit) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return;
-  fs::create_directories(folder, error);
-  if (error) fail("make the folder", folder, error.value());
-  sync_folder(folder_of(folder));
+  // Each by itself: one that is not synced may be gone after a power cut, with all that is in it.
+  fs::path path;
+  for (const fs::path& name : folder) {
+    path /= name;
+    if (fs::is_directory(path, error)) continue;
+    if (!fs::create_directory(path, error) && error) fail("make the folder", folder, error.value());
+    sync_folder(folder_of(path));
+  }
 }
 
 std::string pack_file(const std::string& hash) { return "packs/" + hash + ".pack"; }
 std::string part_file(const std::string& hash) { return "parts/" + hash + ".part"; }
 std::string manifest_file(const std::string& hash) { return "manifests/" + hash + ".json"; }
+std::string spare_file(const std::string& hash) { return "spare/" + hash + ".json"; }
 
 // -------------------------------------------------------------------------------------------------------------- packs
 
@@ -213,6 +223,11 @@ BuildLock::BuildLock(const fs::path& store) {
   descriptor_ = again([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
   if (descriptor_ < 0) fail("write", file, errno);
   if (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || status.st_nlink == 0) {
+      ::close(std::exchange(descriptor_, -1));
+      throw Error(fmt::format("{} was given up by another build just now; build again", store.string()));
+    }
     const std::string process = std::to_string(::getpid()) + "\n";
     // Only for people: whoever comes next reads it.
     if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(!::pwrite(descriptor_, process.data(), process.size(), 0));

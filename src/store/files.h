@@ -17,6 +17,13 @@
 
 namespace roam::store {
 
+/// What the operating system refused to do with a file.
+class FileError : public Error {
+ public:
+  FileError(const std::string& what, int error) : Error(what), number(error) {}
+  int number;  ///< errno
+};
+
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 /// Of a file's content; `tick` is called with the bytes of each piece that was read, and may throw.
@@ -54,13 +61,14 @@ class NewFile {
 inline constexpr std::string_view temporary_suffix = ".unfinished";
 
 void write_file(const std::filesystem::path& file, std::string_view text);
-/// The whole of a file. Throws roam::Error when it cannot be read or is larger than `limit`.
+/// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t limit);
-/// Makes a folder, and those above it, and syncs the one above. Throws roam::Error.
+/// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
 void make_folder(const std::filesystem::path& folder);
 
 // Where things are in a store.
 inline constexpr const char* current_file = "CURRENT";
+[[nodiscard]] std::string spare_file(const std::string& hash);     ///< spare/<hash>.json, the manifest once more
 [[nodiscard]] std::string pack_file(const std::string& hash);      ///< packs/<hash>.pack
 [[nodiscard]] std::string part_file(const std::string& hash);      ///< parts/<hash>.part
 [[nodiscard]] std::string manifest_file(const std::string& hash);  ///< manifests/<hash>.json

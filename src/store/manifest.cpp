@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t kManifestLimit = 1u << 30;
 constexpr std::uint64_t kCurrentLimit = 4096;
 constexpr std::string_view kCurrentStart = "roam store ";
+constexpr const char* kManifestName = "the manifest";
+constexpr const char* kNoCurrent = "it is none of a store";
 
 Json numbers(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json numbers(const Box& box) { return Json::array({numbers(box.lower), numbers(box.upper)}); }
@@ -158,7 +161,7 @@ Json parse(const std::string& text, const std::string& name) {
 
 void check_version(std::uint32_t version, const std::string& name) {
   if (version > format_version) {
-    throw Error(
+    throw NewerFormat(
         fmt::format("{} is written in version {} of the format, and this roam reads versions up to {}: use a "
                     "newer roam",
                     name, version, format_version));
@@ -174,17 +177,17 @@ std::string named_by(const std::string& current, const std::string& store) {
   const auto end = current.find('\n');
   std::uint32_t version = 0;
   if (!current.starts_with(kCurrentStart) || end == std::string::npos || end > kCurrentStart.size() + 9) {
-    refuse(store, "its file CURRENT is none of a store");
+    throw RootDamage(store, current_file, kNoCurrent);
   }
   for (std::size_t i = kCurrentStart.size(); i < end; ++i) {
-    if (current[i] < '0' || current[i] > '9') refuse(store, "its file CURRENT is none of a store");
+    if (current[i] < '0' || current[i] > '9') throw RootDamage(store, current_file, kNoCurrent);
     version = 10 * version + static_cast<std::uint32_t>(current[i] - '0');
   }
   check_version(version, store);
   std::string named = current.substr(end + 1, 64);
   if (version < 1 || current[kCurrentStart.size()] == '0' || !is_digits(named, 64) ||
       current.substr(end + 65) != "\n") {
-    refuse(store, "its file CURRENT is none of a store");
+    throw RootDamage(store, current_file, kNoCurrent);
   }
   return named;
 }
@@ -254,25 +257,74 @@ Manifest parse_manifest(const std::string& text, const std::string& name) {
   return manifest;
 }
 
+RootDamage::RootDamage(const std::string& store, std::string damaged, std::string reason)
+    : Error(fmt::format("{0} is damaged: {1}: {2}; `roam build` with its scene and `-o {0}` mends it", store, damaged,
+                        reason)),
+      what_is_damaged(std::move(damaged)),
+      why(std::move(reason)) {}
+
+bool holds_store(const std::filesystem::path& folder) {
+  std::error_code none;
+  return std::filesystem::is_directory(folder / "packs", none) ||
+         std::filesystem::is_directory(folder / "manifests", none);
+}
+
+void refuse_to_open(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const std::string name = folder.string();
+  std::error_code none;
+  if (!fs::exists(folder, none)) {
+    throw Error(fmt::format("{} is not there{}; make a store with roam build", name,
+                            fs::is_symlink(folder, none) ? ": it is a link that leads nowhere" : ""));
+  }
+  if (!holds_store(folder)) throw Error(fmt::format("{} is no store; make one with roam build", name));
+  const fs::path current = folder / current_file;
+  if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a link that leads nowhere");
+  if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
+  const bool published = !fs::is_empty(folder / "manifests", none) && !none;
+  if (!published && fs::is_directory(folder / "scratch", none)) {
+    throw Error(fmt::format(
+        "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
+  }
+  throw RootDamage(name, current_file, "it is not there");
+}
+
 Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash, std::uint64_t* text_bytes) {
-  std::string current = text_of(bytes.whole(current_file, kCurrentLimit));
+  const auto whole = [&](const std::string& file, std::uint64_t limit, const char* what) {
+    try {
+      return bytes.whole(file, limit);
+    } catch (const FileError& error) {
+      // What may not be read, or only not now, is not damaged.
+      if (error.number == ENOENT) throw RootDamage(store, what, file + " is not there");
+      if (error.number == EFBIG) throw RootDamage(store, what, file + " is larger than any of its kind");
+      throw;
+    }
+  };
+  std::string current = text_of(whole(current_file, kCurrentLimit, current_file));
   for (;;) {
     const std::string named = named_by(current, store);
     const std::string file = manifest_file(named);
     std::vector<std::byte> content;
     try {
-      content = bytes.whole(file, kManifestLimit);
+      content = whole(file, kManifestLimit, kManifestName);
     } catch (const Error&) {
       // Another may have been published since CURRENT was read, and this one removed.
-      std::string now = text_of(bytes.whole(current_file, kCurrentLimit));
+      std::string now = text_of(whole(current_file, kCurrentLimit, current_file));
       if (now == current) throw;
       current = std::move(now);
       continue;
     }
-    if (sha256(content) != named) refuse(store, file + " is not what it was when it was written");
+    if (sha256(content) != named)
+      throw RootDamage(store, kManifestName, file + " is not what it was when it was written");
     if (hash != nullptr) *hash = named;
     if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
-    return parse_manifest(text_of(content), store + "/" + file);
+    try {
+      return parse_manifest(text_of(content), store + "/" + file);
+    } catch (const NewerFormat&) {
+      throw;
+    } catch (const Error& error) {
+      throw RootDamage(store, kManifestName, error.what());
+    }
   }
 }
 

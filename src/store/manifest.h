@@ -57,6 +57,20 @@ struct Manifest {
   std::vector<std::string> notes;
 };
 
+/// Of a newer format than format_version.
+class NewerFormat : public Error {
+ public:
+  using Error::Error;
+};
+
+/// CURRENT or the manifest that it names is not there or not what was written: nothing else of the store can be found.
+class RootDamage : public Error {
+ public:
+  RootDamage(const std::string& store, std::string damaged, std::string reason);
+  std::string what_is_damaged;  ///< "CURRENT", "the manifest"
+  std::string why;
+};
+
 // JSON text; the same manifest is the same text.
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 [[nodiscard]] std::string to_text(const ShardInfo& shard);
@@ -64,7 +78,14 @@ struct Manifest {
 [[nodiscard]] Manifest parse_manifest(const std::string& text, const std::string& name);
 [[nodiscard]] ShardInfo parse_shard(const std::string& text, const std::string& name);
 
-/// CURRENT, its manifest, checked against its name. Throws roam::Error as Store::open does.
+/// Whether a folder holds what a store consists of, though CURRENT may be gone.
+[[nodiscard]] bool holds_store(const std::filesystem::path& folder);
+/// What is to be said of a folder that Store::is_store is false of. Throws RootDamage where it was a store, roam::Error
+/// where it is to become one, or is none.
+[[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
+
+/// CURRENT, its manifest, checked against its name. Throws RootDamage, NewerFormat, and roam::Error where a file cannot
+/// be read.
 [[nodiscard]] Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash = nullptr,
                                      std::uint64_t* text_bytes = nullptr);
 /// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename, the folder synced. Returns the hash.

@@ -29,10 +29,14 @@ Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Store::~Store() = default;
 
 std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder) {
-  if (!is_store(folder)) {
-    throw Error(fmt::format("{} is no store: it holds no file CURRENT; make one with roam build", folder.string()));
+  if (!is_store(folder)) store::refuse_to_open(folder);
+  try {
+    return open(store::files_of(folder), folder.string());
+  } catch (const store::RootDamage& damage) {
+    // Other programs too call files CURRENT.
+    if (store::holds_store(folder) || damage.what_is_damaged != store::current_file) throw;
+    throw Error(fmt::format("{} is no store: its file CURRENT is none of a store", folder.string()));
   }
-  return open(store::files_of(folder), folder.string());
 }
 
 std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name) {

@@ -23,6 +23,7 @@ class Verifier {
     const Manifest& manifest = state_.manifest;
     std::vector<std::uint64_t> first_page(manifest.shards.size());
     for (std::uint64_t p = state_.pages.size(); p-- > 0;) first_page[state_.pages[p].shard] = p;
+    check_spare();
     tbb::parallel_for(std::size_t{0}, manifest.parts.size(), [&](std::size_t i) { check_part(manifest.parts[i]); });
     tbb::parallel_for(std::size_t{0}, manifest.shards.size(),
                       [&](std::size_t i) { check_shard(manifest.shards[i], first_page[i]); });
@@ -62,6 +63,19 @@ class Verifier {
   void damage(StoreDamage what) {
     const std::lock_guard lock(mutex_);
     report_.damage.push_back(std::move(what));
+  }
+
+  /// Stores of before there were spares have none.
+  void check_spare() {
+    const std::string& hash = state_.info.hash;
+    const std::string file = spare_file(hash);
+    std::error_code none;
+    if (!std::filesystem::exists(folder_ / file, none)) return;
+    try {
+      if (sha256_of_file(folder_ / file) != hash) damage({file, "its SHA-256 is not its name", Box{}});
+    } catch (const Error& error) {
+      damage({file, error.what(), Box{}});
+    }
   }
 
   void check_part(const PartInfo& part) {
@@ -177,7 +191,13 @@ class Verifier {
 
 StoreVerification verify_store(const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  return store::Verifier(folder, progress).run();
+  try {
+    return store::Verifier(folder, progress).run();
+  } catch (const store::RootDamage& damage) {
+    StoreVerification nothing;
+    nothing.damage.push_back({damage.what_is_damaged, damage.why, Box{}});
+    return nothing;
+  }
 }
 
 }  // namespace roam

@@ -62,7 +62,10 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
                                  scene.names(), store.string()));
   }
   const auto& scenes = scene.scenes;
-  if (std::none_of(scenes.begin(), scenes.end(), is_store)) return what;
+  if (std::none_of(scenes.begin(), scenes.end(), is_store)) {
+    scene.check_there();
+    return what;
+  }
   if (scenes.size() > 1 || !store.empty()) {
     throw UsageError("a store is a scene of its own: name the scene, and the store by --store");
   }

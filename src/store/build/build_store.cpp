@@ -2,16 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <future>
 #include <map>
 #include <memory>
-#include <thread>
 
 #include "roam/store_build.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
+#include "store/build/output_folder.h"
 #include "store/build/plan.h"
+#include "store/build/root.h"
 #include "store/build/shard.h"
 #include "store/files.h"
 
@@ -20,21 +20,6 @@ namespace {
 
 using namespace store;
 namespace fs = std::filesystem;
-
-/// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
-/// has become the reader: that is waited for.
-std::unique_ptr<BuildLock> locked(const fs::path& store) {
-  constexpr int tries = 20;
-  constexpr auto pause = std::chrono::milliseconds(50);
-  for (int i = 1;; ++i) {
-    try {
-      return std::make_unique<BuildLock>(store);
-    } catch (const Error&) {
-      if (i == tries) throw;
-      std::this_thread::sleep_for(pause);
-    }
-  }
-}
 
 void make_folders(const fs::path& store) {
   for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {
@@ -81,8 +66,26 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.notes = notes.text();
 }
 
+/// Whole sentences only.
+void note(StoreBuildReport& report, std::string sentence) {
+  if (!sentence.empty()) report.notes.push_back(std::move(sentence));
+}
+
+/// Before anything is planned: what was the root of the store is put right, or out of the way. Returns what was wrong,
+/// for the user.
+std::string mend_or_remove_root(const fs::path& store) {
+  const RootMending mending = mend_root(store);
+  if (mending.wrong.empty()) return "";
+  std::string sentence = fmt::format("{} was damaged: {}; ", store.string(), mending.wrong);
+  if (mending.mended) return sentence + "a copy of its manifest was whole, and what that names is kept";
+  std::error_code error;
+  fs::remove(store / current_file, error);
+  return sentence + "no copy of its manifest was whole, so all of it is built again";
+}
+
 /// Nothing when the store is up to date.
 std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
+  std::string mended = mend_or_remove_root(work.store);
   const double read_before = report.read_seconds;
   std::optional<Plan> plan;
   {
@@ -94,9 +97,10 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   report.plan_seconds -= report.read_seconds - read_before;
   if (plan) {
     describe(*plan, report);
+    note(report, std::move(mended));
     return plan;
   }
-  tidy(work.store);  // a build may have been killed after it had published
+  std::string left = tidy(work.store);  // a build may have been killed after it had published
   report.unchanged = true;
   const Manifest manifest = *manifest_in_force(work.store);
   report.shards = manifest.shards.size();
@@ -107,7 +111,19 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
     notes.add(manifest.parts[i].name, by_part[i]);
   }
   report.notes = notes.text();
+  note(report, std::move(mended));
+  note(report, std::move(left));
   return plan;
+}
+
+/// As plan_locked, of the scene as it is.
+std::optional<Plan> plan_output(Work& work, OutputFolder& output, StoreBuildReport& report) {
+  try {
+    return plan_locked(work, {}, report);
+  } catch (const Cancelled&) {
+    output.keep();  // the same command again goes on from there
+    throw;
+  }
 }
 
 /// A lower bound of the distance between a place and the triangles of a stretch, squared; by the middles of their
@@ -168,24 +184,16 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
 
 void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
   const Timer timer(report.merge_seconds);
-  merge(work, plan);
-}
-
-/// Whether what is in force there was written by a newer roam.
-bool is_newer(const fs::path& store) {
-  const std::vector<std::byte> bytes = read_file(store / current_file, 1 << 20);
-  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  unsigned version = 0;
-  return std::sscanf(text.c_str(), "roam store %9u", &version) == 1 && version > format_version;
+  note(report, merge(work, plan));
 }
 
 }  // namespace
 
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
-  prepare_output(options);
-  const auto lock = locked(work.store);
-  const auto plan = plan_locked(work, {}, report);
+  check_output(options);
+  OutputFolder output(work.store);
+  const auto plan = plan_output(work, output, report);
   return plan ? plan->to_build().size() : 0;
 }
 
@@ -203,7 +211,11 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
-  if (!fs::is_directory(work.store)) throw Error(fmt::format("{} is no folder of a store", work.store.string()));
+  std::error_code error;
+  if (!fs::is_directory(work.store, error)) {
+    throw Error(fmt::format("{} is no folder of a store{}{}", work.store.string(), error ? ": " : "",
+                            error ? error.message() : ""));
+  }
   const auto lock = locked(work.store);
   const Plan plan = read_plan(work.store);
   describe(plan, report);
@@ -213,9 +225,9 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
 StoreBuildReport build_store(const StoreBuildOptions& options) {
   StoreBuildReport report;
   Work work(options);
-  prepare_output(options);
-  const auto lock = locked(work.store);
-  const auto plan = plan_locked(work, {}, report);
+  check_output(options);
+  OutputFolder output(work.store);
+  const auto plan = plan_output(work, output, report);
   if (!plan) return report;
   build_shards(work, *plan, plan->to_build(), report);
   merge_locked(work, *plan, report);
@@ -223,29 +235,22 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 }
 
 std::uint64_t repair_store(const StoreBuildOptions& options) {
-  if (!Store::is_store(options.output)) throw Error(fmt::format("{} is no store", options.output.string()));
+  if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
   const auto lock = locked(options.output);
-  std::optional<Manifest> in_force;
-  try {
-    in_force = manifest_in_force(options.output);
-  } catch (const Error&) {
-    if (is_newer(options.output)) throw;
+  const RootMending root = mend_root(options.output);
+  if (!root.wrong.empty() && !root.mended) {
+    // A repair must give the store that was: how that was read, nothing tells.
+    throw Error(
+        fmt::format("{0} cannot be repaired: {1}, and no copy of the manifest is whole, so nothing tells how "
+                    "it was built; `roam build` with its scene, `-o {0}`, and the --up, --unit, --ignore and "
+                    "--lossless that it was built with, builds it again",
+                    options.output.string(), root.wrong));
   }
+  if (!Store::is_store(options.output)) refuse_to_open(options.output);
+  const Manifest manifest = *manifest_in_force(options.output);
   StoreBuildOptions as_built = options;
-  if (in_force) as_built.lossless = in_force->lossless;
+  as_built.lossless = manifest.lossless;
   Work work(as_built);
-  if (!in_force) {
-    // Nothing tells what the store held. All of it is built again.
-    make_folders(work.store);
-    std::error_code error;
-    fs::remove(work.store / current_file, error);
-    StoreBuildReport report;
-    const auto plan = plan_locked(work, {}, report);
-    build_shards(work, *plan, plan->to_build(), report);
-    merge_locked(work, *plan, report);
-    return report.shards_built;
-  }
-  const Manifest& manifest = *in_force;
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {
     std::error_code error;
@@ -256,6 +261,7 @@ std::uint64_t repair_store(const StoreBuildOptions& options) {
   };
   for (const PartInfo& part : manifest.parts) check(part.file, part_file(part.file));
   for (const ShardInfo& shard : manifest.shards) check(shard.pack, pack_file(shard.pack));
+  keep_spare(work.store, manifest);
   if (damaged.empty()) return 0;
   StoreBuildReport report;
   const auto plan = plan_locked(work, damaged, report);

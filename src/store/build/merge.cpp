@@ -12,6 +12,7 @@
 
 #include "roam/error.h"
 #include "store/build/layout.h"
+#include "store/build/root.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -92,7 +93,7 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 
 }  // namespace
 
-void tidy(const fs::path& store) {
+std::string tidy(const fs::path& store) {
   std::string hash;
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
   std::set<std::string> needed;
@@ -104,7 +105,8 @@ void tidy(const fs::path& store) {
     const std::vector<std::byte> bytes = read_file(entry.path(), 1ull << 30);
     keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name), needed);
   }
-  for (const char* folder : {"packs", "parts"}) {
+  needed.insert(spare_file(keep_spare(store, manifest)));
+  for (const char* folder : {"packs", "parts", "spare"}) {
     for (const auto& entry : fs::directory_iterator(store / folder, error)) {
       const std::string name = std::string(folder) + "/" + entry.path().filename().string();
       if (!needed.contains(name)) fs::remove(entry.path(), error);
@@ -113,17 +115,20 @@ void tidy(const fs::path& store) {
   for (const auto& entry : fs::directory_iterator(store, error)) {
     if (entry.path().filename().string().ends_with(temporary_suffix)) fs::remove(entry.path(), error);
   }
-  remove_scratch(store);
+  return remove_scratch(store);
 }
 
-void remove_scratch(const fs::path& store) {
+std::string remove_scratch(const fs::path& store) {
   std::error_code error;
   // The plan first: without it nothing of the rest is taken for a build in progress.
   fs::remove(plan_file(store), error);
   fs::remove_all(scratch_folder(store), error);
+  if (!error) return "";
+  return fmt::format("{} could not be removed ({}): nothing needs it; remove it, or the next build tries again",
+                     scratch_folder(store).string(), error.message());
 }
 
-void merge(Work& work, const Plan& plan) {
+std::string merge(Work& work, const Plan& plan) {
   std::uint64_t triangles = 0;
   for (const PlannedShard& shard : plan.shards) triangles += shard.there ? 0 : shard.stretch.triangles;
   work.begin(Work::Step::merge, 0, triangles);
@@ -139,8 +144,9 @@ void merge(Work& work, const Plan& plan) {
     manifest.bounds.include(shard.bounds);
     manifest.geometry_hash += shard.geometry_hash;
   }
+  keep_spare(work.store, manifest);
   publish(work.store, manifest);
-  tidy(work.store);
+  return tidy(work.store);
 }
 
 }  // namespace roam::store

@@ -8,13 +8,14 @@
 namespace roam::store {
 
 /// Makes one store of the shards of the plan and puts it in force; then removes what no manifest in force names, and
-/// the scratch folder. The store must be locked.
-void merge(Work& work, const Plan& plan);
+/// the scratch folder. The store must be locked. Returns what tidy does.
+[[nodiscard]] std::string merge(Work& work, const Plan& plan);
 
-/// Removes what no manifest in force names, and the scratch folder. The store must be locked.
-void tidy(const std::filesystem::path& store);
+/// Removes what no manifest in force names, and the scratch folder. The store must be locked. Returns what
+/// remove_scratch does.
+[[nodiscard]] std::string tidy(const std::filesystem::path& store);
 
-/// Removes what builds keep to go on from.
-void remove_scratch(const std::filesystem::path& store);
+/// Removes what builds keep to go on from. Returns a sentence for the user where that cannot be; else nothing.
+std::string remove_scratch(const std::filesystem::path& store);
 
 }  // namespace roam::store

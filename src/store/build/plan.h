@@ -43,8 +43,8 @@ void write_plan(const std::filesystem::path& store, const Plan& plan);
 /// The notes of each part of a store, as PartRecord has them.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);
 
-/// Throws roam::Error when the output cannot be one for this scene; makes its folders.
-void prepare_output(const StoreBuildOptions& options);
+/// Throws roam::Error when the output cannot be one for this scene.
+void check_output(const StoreBuildOptions& options);
 
 /// Reads what has changed and decides the shards. Nothing when the store is up to date. Files (SHA-256) that are
 /// `damaged` count as missing. The store must be locked.

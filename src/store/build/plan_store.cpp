@@ -10,6 +10,8 @@
 #include "roam/error.h"
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
+#include "store/build/merge.h"
+#include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/run.h"
 #include "store/files.h"
@@ -21,19 +23,16 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kPartFileLimit = 1ull << 32;
 
-bool is_inside(const fs::path& inner, const fs::path& outer) {
-  const fs::path relative = fs::weakly_canonical(inner).lexically_relative(fs::weakly_canonical(outer));
-  return !relative.empty() && *relative.begin() != "..";
+fs::path whole_path(const fs::path& path) {
+  std::error_code error;
+  fs::path whole = fs::weakly_canonical(path, error);
+  if (error) throw Error(fmt::format("cannot find out where {} lies: {}", path.string(), error.message()));
+  return whole;
 }
 
-/// Whether there is anything in a folder that no build puts there.
-bool holds_other_things(const fs::path& folder) {
-  static const std::set<std::string> ours{"LOCK", "manifests", "packs", "parts", "scratch", "sources.json"};
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!ours.contains(name) && !name.ends_with(temporary_suffix)) return true;
-  }
-  return false;
+bool is_inside(const fs::path& inner, const fs::path& outer) {
+  const fs::path relative = whole_path(inner).lexically_relative(whole_path(outer));
+  return !relative.empty() && *relative.begin() != "..";
 }
 
 class Planner {
@@ -184,7 +183,10 @@ class Planner {
       }
       work_.tick();
     }
-    if (cells.empty()) throw Error("the scene holds no triangle");
+    if (cells.empty()) {
+      remove_results();
+      throw Error("the scene holds no triangle");
+    }
     std::vector<Stretch> stretches = divide(std::move(cells), [&](std::uint32_t part, const CurveCell& cell, int bits) {
       return refine(part, cell, bits);
     });
@@ -202,6 +204,14 @@ class Planner {
       shard.there = old != before.end() && is_there(*old->second);
       plan_.shards.push_back(std::move(shard));
     }
+  }
+
+  /// Of a scene of which nothing can be made, nothing is kept.
+  void remove_results() const {
+    if (in_force_) return;
+    remove_scratch(work_.store);
+    std::error_code error;
+    for (const PartRecord& part : plan_.parts) fs::remove(work_.store / part_file(part.info.file), error);
   }
 
   /// See Refine. Counts in the runs of the part; a part without runs is noted down and counted as if in one place.
@@ -258,10 +268,13 @@ class Planner {
 
 }  // namespace
 
-void prepare_output(const StoreBuildOptions& options) {
+void check_output(const StoreBuildOptions& options) {
   const fs::path& out = options.output;
   std::error_code error;
   const fs::file_status status = fs::status(out, error);
+  if (!fs::exists(status) && fs::is_symlink(out, error)) {
+    throw Error(fmt::format("{} is a link that leads nowhere; remove it, or choose another output", out.string()));
+  }
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw Error(fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
   }
@@ -275,11 +288,14 @@ void prepare_output(const StoreBuildOptions& options) {
           fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
     }
   }
-  if (fs::is_directory(status) && !Store::is_store(out) && holds_other_things(out)) {
-    throw Error(
-        fmt::format("{} is a folder that holds other things; choose another output, or empty it", out.string()));
+  // Other programs too call files CURRENT.
+  if (fs::is_directory(status) && !(Store::is_store(out) && holds_store(out))) {
+    const std::string other = other_thing_in(out);
+    if (!other.empty()) {
+      throw Error(fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
+                              out.string(), other));
+    }
   }
-  make_folder(out);
 }
 
 std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {

@@ -1,0 +1,105 @@
+#include "store/build/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "roam/error.h"
+#include "store/build/layout.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* lock_name = "LOCK";
+
+/// Whether a build puts something of this name into the folder of a store.
+bool is_ours(const std::string& name) {
+  static const std::set<std::string> ours{current_file, lock_name, "manifests",    "packs",
+                                          "parts",      "scratch", "sources.json", "spare"};
+  return ours.contains(name) || name.ends_with(temporary_suffix);
+}
+
+/// Whether there is anything that read_part, build_shard or merge has finished.
+bool holds_results(const fs::path& store) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(store / current_file, error)) || fs::exists(plan_file(store), error)) return true;
+  for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
+    for (const auto& entry : fs::directory_iterator(store / folder, error)) {
+      if (!entry.path().filename().string().ends_with(temporary_suffix)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::unique_ptr<BuildLock> locked(const fs::path& store) {
+  constexpr int tries = 20;
+  constexpr auto pause = std::chrono::milliseconds(50);
+  for (int i = 1;; ++i) {
+    try {
+      return std::make_unique<BuildLock>(store);
+    } catch (const Error&) {
+      if (i == tries) throw;
+      std::this_thread::sleep_for(pause);
+    }
+  }
+}
+
+std::string other_thing_in(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::string name = entry.path().filename().string();
+    if (!is_ours(name)) return name;
+  }
+  if (error) throw Error(fmt::format("cannot read the folder {}: {}", folder.string(), error.message()));
+  return "";
+}
+
+OutputFolder::OutputFolder(fs::path store) : store_(std::move(store)) {
+  std::error_code error;
+  fs::path path = fs::absolute(store_, error).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  // A link that leads nowhere is there, too.
+  while (!fs::exists(fs::symlink_status(path, error)) && path != path.parent_path()) {
+    made_.insert(path);
+    path = path.parent_path();
+  }
+  const bool had_lock = fs::exists(store_ / lock_name, error);
+  try {
+    make_folder(store_);
+    lock_ = locked(store_);
+  } catch (const Error&) {
+    remove_made_folders();
+    throw;
+  }
+  for (const auto& entry : fs::directory_iterator(store_, error)) there_.insert(entry.path().filename().string());
+  if (!had_lock) there_.erase(lock_name);
+}
+
+OutputFolder::~OutputFolder() {
+  if (keeps_ || holds_results(store_)) return;
+  // What cannot be removed stays: what went wrong before is what is told.
+  std::error_code error;
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(store_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (is_ours(name) && !there_.contains(name)) ours.push_back(entry.path());
+  }
+  for (const fs::path& path : ours) fs::remove_all(path, error);
+  remove_made_folders();
+}
+
+/// As far as they are empty: others may have put things there.
+void OutputFolder::remove_made_folders() const {
+  std::error_code error;
+  std::for_each(made_.rbegin(), made_.rend(), [&](const fs::path& folder) { fs::remove(folder, error); });
+}
+
+}  // namespace roam::store

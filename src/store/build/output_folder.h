@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// The folder that a build writes into.
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "store/files.h"
+
+namespace roam::store {
+
+/// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
+/// has become the reader: that is waited for.
+[[nodiscard]] std::unique_ptr<BuildLock> locked(const std::filesystem::path& store);
+
+/// The folder of a store, made where it is not there, and locked. What builds put there goes again with this, unless
+/// keep() was called, it was there before, or there is something that a later build goes on from.
+class OutputFolder {
+ public:
+  /// Throws roam::Error.
+  explicit OutputFolder(std::filesystem::path store);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  void keep() { keeps_ = true; }
+
+ private:
+  void remove_made_folders() const;
+
+  std::filesystem::path store_;
+  std::set<std::filesystem::path> made_;  ///< folders that were not there before, the store's and those above it
+  std::set<std::string> there_;           ///< what was in the store before
+  std::unique_ptr<BuildLock> lock_;
+  bool keeps_ = false;
+};
+
+/// The name of something in a folder that no build puts there; "" where there is nothing. Throws roam::Error.
+[[nodiscard]] std::string other_thing_in(const std::filesystem::path& folder);
+
+}  // namespace roam::store

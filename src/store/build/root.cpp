@@ -1,0 +1,97 @@
+#include "store/build/root.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kManifestLimit = 1u << 30;
+
+/// Manifests that are what they were when they were written, the newest first.
+std::vector<fs::path> whole_manifests(const fs::path& store) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+  std::error_code error;
+  for (const char* folder : {"manifests", "spare"}) {
+    for (const auto& entry : fs::directory_iterator(store / folder, error)) {
+      if (!entry.is_regular_file(error) || entry.path().extension() != ".json") continue;
+      if (sha256_of_file(entry.path()) != entry.path().stem().string()) continue;
+      found.emplace_back(entry.last_write_time(error), entry.path());
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<fs::path> files;
+  for (auto& [time, file] : found) files.push_back(std::move(file));
+  return files;
+}
+
+/// Whether there is, or was, a root at all. A build that was never published has none.
+bool has_root(const fs::path& store) {
+  try {
+    if (!Store::is_store(store)) refuse_to_open(store);
+  } catch (const RootDamage&) {
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+std::string wrong_with_root(const fs::path& store) {
+  try {
+    if (!Store::is_store(store)) refuse_to_open(store);
+    static_cast<void>(read_manifest(*files_of(store), store.string()));
+    return "";
+  } catch (const RootDamage& damage) {
+    return damage.what_is_damaged + ": " + damage.why;
+  }
+}
+
+}  // namespace
+
+std::string keep_spare(const fs::path& store, const Manifest& manifest) {
+  const std::string text = to_text(manifest);
+  const std::string hash = sha256(std::as_bytes(std::span(text)));
+  const fs::path file = store / spare_file(hash);
+  std::error_code error;
+  if (!fs::exists(file, error) || sha256_of_file(file) != hash) {
+    make_folder(store / "spare");
+    write_file(file, text);
+  }
+  return hash;
+}
+
+RootMending mend_root(const fs::path& store) {
+  RootMending mending;
+  if (!has_root(store)) return mending;
+  mending.wrong = wrong_with_root(store);
+  if (mending.wrong.empty()) return mending;
+  if (!holds_store(store)) {
+    throw Error(
+        fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
+  }
+  for (const fs::path& copy : whole_manifests(store)) {
+    const std::vector<std::byte> bytes = read_file(copy, kManifestLimit);
+    std::optional<Manifest> manifest;
+    try {
+      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, copy.string());
+    } catch (const NewerFormat&) {
+      throw;
+    } catch (const Error&) {
+      continue;  // whole, and of no use
+    }
+    publish(store, *manifest);
+    mending.mended = true;
+    break;
+  }
+  return mending;
+}
+
+}  // namespace roam::store
