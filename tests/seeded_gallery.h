@@ -119,7 +119,8 @@ inline Gallery build(std::vector<Door> doors, std::vector<Split> splits) {
 }
 
 inline Gallery gallery(std::uint64_t seed) {
-  scenes::Random random(seed);
+  // Streams of neighbouring seeds are one another shifted; take ones that are far apart.
+  scenes::Random random(scenes::Random(seed).bits());
   std::vector<int> order{0, 0, 0, 1, 1, 1};  // a door or a split
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
   std::vector<Door> doors;

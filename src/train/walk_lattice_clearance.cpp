@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <utility>
 
 #include "train/walk_lattice_place.h"
 
@@ -14,15 +11,10 @@ namespace {
 constexpr double slack = 5e-5;
 /// Metres. Each answer that is not free takes at least this off.
 constexpr double least_cut = 2e-5;
-/// Points that a search keeps: each query adds one, most end after three.
+/// Queries of one search, at most: most end after three.
 constexpr std::size_t most_cuts = 48;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-/// A point that a body must not contain: how far beside its axis, and how high above the place.
-struct Cut {
-  double aside = 0.0, height = 0.0;
-};
 
 /// The largest radius of a capsule between two fixed heights that leaves a point outside, which lies `aside` of the
 /// axis, `above` the bottom and `below` the top.
@@ -37,7 +29,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   const Vec3 centre = centre_of(measure, place, {});
   double radius = largest;
   for (std::size_t i = 0; i < most_cuts && radius >= least; ++i) {
-    // Nested bodies: what one that is too large touches bounds all that are free, and fewer than ten queries are left.
+    // Nested bodies: what one that is too large touches bounds all that are free.
     const Clearance c = survey.world().clearance(body_of(measure, radius - slack), centre, 0.0);
     if (!c.found) return Stand{radius, 0.0};
     const double limit = capsule_limit(std::hypot(c.point.x - centre.x, c.point.y - centre.y),
@@ -47,60 +39,44 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   return std::nullopt;
 }
 
-/// The middle of the widest range of lifts in [0, step] at which a sphere contains none of the points; none: there is
-/// no such range.
-std::optional<double> free_lift(std::span<const Cut> cuts, double step, double radius) {
-  std::array<std::pair<double, double>, most_cuts> taken;
-  std::size_t count = 0;
-  for (const Cut& c : cuts) {
-    if (c.aside >= radius) continue;
-    const double half = std::sqrt(radius * radius - c.aside * c.aside);
-    taken[count++] = {c.height - radius - half, c.height - radius + half};
+/// The largest sphere at one lift, and from where it is held: the upward part of the unit vector from what it touches.
+struct Held {
+  double radius = 0.0, upward = 0.0;
+};
+
+/// Spheres with one lowest point are nested. Ends as soon as the radius is less than `least`.
+Held sphere_lifted(const Survey& survey, const Measure& measure, const Vec3& place, double lift, double largest,
+                   double least) {
+  Held held{largest, 0.0};
+  const double lowest = place.z + lift;
+  for (std::size_t i = 0; i < most_cuts && held.radius >= least; ++i) {
+    const Vec3 centre(place.x, place.y, lowest + held.radius);
+    const Clearance c = survey.world().clearance(body_of(measure, held.radius - slack), centre, 0.0);
+    if (!c.found) return held;
+    const double aside = std::hypot(c.point.x - place.x, c.point.y - place.y), above = c.point.z - lowest;
+    const double limit = above > 0.0 ? (aside * aside + above * above) / (2.0 * above) : unlimited;
+    held.radius = std::min(limit, held.radius - std::max(least_cut, -c.distance));
+    held.upward = (lowest + held.radius - c.point.z) / std::max(held.radius, least_cut);
   }
-  std::sort(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(count));
-  std::optional<double> best;
-  double widest = -1.0, begin = 0.0;
-  const auto offer = [&](double end) {
-    if (end - begin > widest && end >= begin) {
-      widest = end - begin;
-      best = 0.5 * (begin + end);
-    }
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    offer(std::min(taken[i].first, step));
-    begin = std::max(begin, taken[i].second);
-  }
-  offer(step);
-  return best;
+  if (held.radius >= least) held.radius = 0.0;
+  return held;
 }
 
-/// The largest sphere that some lift keeps off all points.
-Stand largest_free(std::span<const Cut> cuts, double step, double largest) {
-  if (const auto lift = free_lift(cuts, step, largest)) return {largest, *lift};
-  // A sphere that is free stays so when it shrinks onto its lowest point.
-  double free = 0.0, taken = largest;
-  while (taken - free > 1e-7) {
-    const double middle = 0.5 * (free + taken);
-    (free_lift(cuts, step, middle) ? free : taken) = middle;
-  }
-  return {free, free_lift(cuts, step, free).value_or(0.0)};
-}
-
+/// A sphere is lifted away from what holds it from below and lowered from what holds it from above.
 std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, const Vec3& place, double largest,
                                double least) {
-  std::array<Cut, most_cuts> cuts;
-  Stand stand{largest, 0.5 * measure.step};
-  for (std::size_t count = 0; count < most_cuts && stand.radius >= least;) {
-    const Vec3 centre = centre_of(measure, place, stand);
-    const Clearance c = survey.world().clearance(body_of(measure, stand.radius - slack), centre, 0.0);
-    if (!c.found) return stand;
-    cuts[count++] = {std::hypot(c.point.x - centre.x, c.point.y - centre.y), c.point.z - place.z};
-    Stand next = largest_free({cuts.data(), count}, measure.step, stand.radius);
-    if (next.radius > stand.radius - least_cut && next.lift == stand.lift)
-      next.radius = stand.radius - std::max(least_cut, -c.distance);
-    stand = next;
+  constexpr double level = 0.01;      // an upward part as small: walls, from which no lift leads away
+  constexpr double fine_lift = 2e-5;  // m
+  std::optional<Stand> best;
+  double low = 0.0, high = measure.step;
+  for (;;) {
+    const double lift = 0.5 * (low + high);
+    const double wanted = best ? best->radius + least_cut : least;
+    const Held held = sphere_lifted(survey, measure, place, lift, largest, wanted);
+    if (held.radius >= wanted) best = Stand{held.radius, lift};
+    if (held.radius >= largest || std::abs(held.upward) < level || high - low < fine_lift) return best;
+    (held.upward > 0.0 ? low : high) = lift;
   }
-  return std::nullopt;
 }
 
 }  // namespace
