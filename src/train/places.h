@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,49 +13,79 @@
 
 namespace roam::training {
 
+/// What a component is taken for; docs/training.md has the rules.
+enum class Verdict : std::uint8_t {
+  inside,   ///< a part of the scene that is meant to be walked in
+  backs,    ///< looks at the backs of triangles: outside of what is walked in, or within rock
+  on_top,   ///< of something: open to the sky over another component, or one falls from it into a larger one
+  smaller,  ///< than another that is inside, where windings cannot be trusted to tell
+};
+
+/// "inside", "backs", "on top" or "smaller".
+[[nodiscard]] const char* name(Verdict verdict);
+
 /// Places that hang together for a body of `narrowest`.
 struct Component {
   NodeId root = no_node;
-  std::vector<NodeId> nodes;
-  double back_share = 0.0;  ///< of places from which most rays hit backs of triangles: outside, or within rock
-  bool inside = true;       ///< taken for a part of the scene that is meant to be walked in
+  std::vector<NodeId> nodes;  ///< ascending
+  double back_share = 0.0;    ///< of places from which most rays that hit something hit the backs of triangles
+  double open_share = 0.0;    ///< of places from which most rays upwards meet nothing
+  bool whole = true;          ///< false: ended early, by `most_places` or `goes_on`
+  bool inside = true;         ///< verdict == Verdict::inside
+  Verdict verdict = Verdict::inside;
 };
 
-/// All components of the scene: sampled on its floors by area (flying: in its box), each grown whole in `tree`, most
-/// places first. Which are outside is voted by component, where the triangles' windings can be trusted (shared edges
-/// run both ways); else only the one with the most places is inside. docs/training.md has the rules.
+/// All components of the scene: sampled on its floors by area and by triangle (flying: in its box too), each grown
+/// whole in `tree`, most places first. At least one is inside, where there is any.
+/// `most_places`: a component that is open to the sky is not grown beyond so many places, others not beyond ten times
+/// as many. `goes_on` is asked now and then with the fraction of the samples that were looked at; false ends it with
+/// what was found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                                      std::uint64_t seed,
-                                                     const std::function<bool(double)>& goes_on = {});
+                                                     const std::function<bool(double)>& goes_on = {},
+                                                     std::uint64_t most_places = 2'000'000);
 
-/// A part of a component in which a body of `radius` moves freely.
+/// Asks for the rooms of a component without naming a radius: see find_rooms.
+inline constexpr double any_radius = std::numeric_limits<double>::infinity();
+
+/// A part of a component in which a body moves freely.
 struct Room {
-  std::vector<NodeId> nodes;
-  NodeId widest = no_node;  ///< its place of most clearance: where a path begins or ends
+  std::vector<NodeId> nodes;  ///< ascending; each place of a component is in one room or one neck
+  NodeId widest = no_node;    ///< its place of most clearance
 };
 /// What joins rooms and only a smaller body passes.
 struct Neck {
-  std::vector<NodeId> nodes;
-  std::vector<std::uint32_t> rooms;  ///< that it touches, ascending
+  std::vector<NodeId> nodes;         ///< ascending, not empty
+  std::vector<std::uint32_t> rooms;  ///< that it touches, ascending, at least two
   double radius = 0.0;               ///< of the widest way through it between two of them, at lattice precision
 };
 struct Rooms {
-  std::vector<Room> rooms;
-  std::vector<Neck> necks;
-  [[nodiscard]] std::size_t dead_ends() const;  ///< rooms that one neck touches
+  std::vector<Room> rooms;  ///< most places first
+  std::vector<Neck> necks;  ///< widest first
+  /// Rooms from which necks lead to one other room only.
+  [[nodiscard]] std::size_t dead_ends() const;
 };
 
-/// Rooms are connected places of clearance >= `radius`; necks those in [narrowest, radius) farther than `radius`, in
-/// sight, from any of them (morphological opening: Serra, "Image Analysis and Mathematical Morphology", 1982), or every
-/// foot of a wall would be one. A dead end that only a smaller body enters is a room of its own.
+/// The rooms of a component for a body of `radius`, and the necks between them. Connected places of clearance >=
+/// `radius` are a room, whatever is narrow within; and so is what lies behind a neck of less than 0.8 of its own
+/// clearance, even where all of it is less than `radius`. With `any_radius` only the second rule counts: rooms are
+/// what comes apart when a body grows, at whatever radius that is.
+///
+/// A neck is where the basins of two rooms meet, with all of the passage to both sides that is farther than `radius`,
+/// in sight, from where a body of `radius` can be (morphological opening: Serra, "Image Analysis and Mathematical
+/// Morphology", 1982). Necks between the same rooms that lie within a body's width of each other are one.
 [[nodiscard]] Rooms find_rooms(const Survey& survey, const Measure& measure, const WidestTree& tree,
-                               const Component& component, double radius);
+                               const Component& component, double radius = any_radius);
 
-/// Pairs of places between which paths are planned: `count` of them (0: 5, or the dead ends where there are more),
-/// every room on one of them and every neck crossed, drawn by `seed`. Each end is at the widest place within 2 m.
+/// Pairs of places between which paths are planned, joined by the tree's own way.
 struct Ends {
   NodeId from = no_node, to = no_node;
 };
+
+/// Draws `count` pairs (0: 5, or the dead ends where there are more), by `seed`: every room lies on the way between
+/// two of them, as far as so many pairs can do that, and so does each neck that is the widest between its rooms. Each
+/// end is at the widest place of its room within 2 m. What is left over goes where no path has been yet. Empty when
+/// the component has but one place.
 [[nodiscard]] std::vector<Ends> draw_paths(const WidestTree& tree, const Component& component, const Rooms& rooms,
                                            int count, std::uint64_t seed);
 

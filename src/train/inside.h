@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// What of a scene is meant to be walked in, told from what lies on top of it, behind it and within its walls.
+
+#include <vector>
+
+#include "train/places.h"
+
+namespace roam::training {
+
+/// What rays from a place in all directions meet.
+struct Surroundings {
+  bool backs = false;  ///< most that meet something meet the back of a triangle
+  bool open = false;   ///< most of those upwards meet nothing
+};
+[[nodiscard]] Surroundings look_around(const Survey& survey, const Vec3& eye);
+
+/// Where a body looks from: the middle of what is free over a place.
+[[nodiscard]] Vec3 eye_over(const Measure& measure, const Node& node);
+
+/// The share of shared edges along which the two triangles run opposite ways, as those of a surface with a front and a
+/// back do. Edges of more than two triangles count as wrong, triangles that are there twice, the same way round, as
+/// one. 0 where less than half of all edges are shared: then nothing is known.
+[[nodiscard]] double winding_share(const Survey& survey);
+
+/// Sets shares and verdicts of components, most places first, whose nodes are known.
+void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, std::vector<Component>& components);
+
+}  // namespace roam::training
