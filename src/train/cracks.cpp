@@ -1,0 +1,136 @@
+#include "train/cracks.h"
+
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "train/disjoint_sets.h"
+#include "train/void_measure.h"
+
+namespace roam::training {
+
+namespace {
+
+/// Of the work, by time: finding voids. Measuring them is the rest.
+constexpr double kFindShare = 0.8;
+
+/// From the floor that a disc touches first to what it touches most nearly opposite.
+Vec3 across(const FloorPlan& plan, const Disc& disc) {
+  std::vector<NearFloor> near;
+  plan.touching(disc.centre, 2.0 * disc.radius, 0.02 * disc.radius, near);
+  const auto away = [&](const NearFloor& n) {
+    const Vec3 d = disc.centre - n.point;
+    const double length = std::hypot(d.x, d.y);
+    return length > 0.0 ? Vec3(d.x / length, d.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
+  };
+  const Vec3 first = away(near.front());
+  NearFloor other = near.front();
+  double least = 1.0;
+  for (const NearFloor& n : near) {
+    const Vec3 from = away(n);
+    if (const double along = first.x * from.x + first.y * from.y; along < least) {
+      least = along;
+      other = n;
+    }
+  }
+  // Beside a wall there is floor on one side only.
+  Vec3 direction = least < 0.0 ? other.point - near.front().point : first;
+  direction /= std::hypot(direction.x, direction.y);
+  direction.z = 0.0;
+  return direction.x < 0.0 || (direction.x == 0.0 && direction.y < 0.0) ? -direction : direction;
+}
+
+FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
+                    const std::function<bool(const Vec3& foot)>& is_reached) {
+  FoundCrack crack;
+  const std::optional<Vec3> bottom = probe.bottom(measured.disc.centre);
+  crack.kind = bottom && is_reached(*bottom) ? Crack::Kind::step_down : Crack::Kind::crack;
+  crack.point = measured.disc.centre;
+  crack.radius = measured.disc.radius;
+  crack.direction = across(probe.plan(), measured.disc);
+  crack.rim = measured.rim;
+  return crack;
+}
+
+/// Discs that overlap at about one level belong to one drop.
+std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<RimPlace>& open) {
+  const double reach = options.support_max;
+  DisjointSets sets(open.size());
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares;
+  for (std::uint32_t i = 0; i < open.size(); ++i) {
+    const Vec3& c = open[i].disc.centre;
+    for (int k = 0; k < 9; ++k) {
+      const auto near = squares.find(square_at(c.x + (k % 3 - 1) * reach, c.y + (k / 3 - 1) * reach, reach));
+      if (near == squares.end()) continue;
+      for (const std::uint32_t other : near->second) {
+        const Vec3 apart = open[other].disc.centre - c;
+        if (std::hypot(apart.x, apart.y) <= reach && std::abs(apart.z) <= options.step) sets.unite(i, other);
+      }
+    }
+    squares[square_at(c.x, c.y, reach)].push_back(i);
+  }
+  std::map<std::uint32_t, FoundCrack> drops;
+  for (std::uint32_t i = 0; i < open.size(); ++i) {
+    FoundCrack& drop = drops[sets.find(i)];
+    if (drop.rim.empty()) {
+      drop.kind = Crack::Kind::open_drop;
+      drop.point = open[i].disc.centre;
+      drop.radius = options.support_max;
+      const Vec3 out = drop.point - open[i].rim;
+      const double length = std::hypot(out.x, out.y);
+      drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
+    }
+    drop.rim.push_back(open[i].rim);
+  }
+  std::vector<FoundCrack> all;
+  for (auto& [set, drop] : drops) all.push_back(std::move(drop));
+  return all;
+}
+
+std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
+                             const std::function<bool(const Vec3& foot)>& is_reached,
+                             const std::function<bool(double)>& goes_on) {
+  const VoidProbe probe(survey, options);
+  std::atomic<bool> ended{false};
+  std::function<bool(double)> finding;
+  if (goes_on) finding = [&](double done) { return goes_on(kFindShare * done); };
+  const std::vector<RimPlace> voids = find_voids(survey, options, probe, is_reached, finding, ended);
+  std::vector<RimPlace> open, rest;
+  for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
+  std::vector<FoundCrack> cracks;
+  for (const MeasuredVoid& measured : measure_voids(options, probe, OpenDrops(options, open), rest, ended)) {
+    if (measured.disc.radius >= probe.open()) {
+      for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc});
+    } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {
+      cracks.push_back(crack_of(probe, measured, is_reached));
+    }
+  }
+  for (FoundCrack& drop : drops_of(options, open)) cracks.push_back(std::move(drop));
+  for (FoundCrack& crack : cracks) {
+    std::sort(crack.rim.begin(), crack.rim.end(), comes_before);
+    crack.rim.erase(std::unique(crack.rim.begin(), crack.rim.end()), crack.rim.end());
+  }
+  std::sort(cracks.begin(), cracks.end(), [](const FoundCrack& a, const FoundCrack& b) {
+    return a.radius != b.radius ? a.radius > b.radius : comes_before(a.point, b.point);
+  });
+  if (goes_on && !ended) goes_on(1.0);
+  return cracks;
+}
+
+}  // namespace
+
+std::vector<FoundCrack> find_cracks(const Survey& survey, const CrackOptions& options,
+                                    const std::function<bool(const Vec3& foot)>& is_reached,
+                                    const std::function<bool(double)>& goes_on) {
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
+  std::vector<FoundCrack> cracks;
+  arena.execute([&] { cracks = find(survey, options, is_reached, goes_on); });
+  return cracks;
+}
+
+}  // namespace roam::training

@@ -1,0 +1,292 @@
+#include "train/void_measure.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <tuple>
+
+#include "train/disjoint_sets.h"
+
+namespace roam::training {
+
+namespace {
+
+constexpr double kWindow = 4.0;         ///< m around a rim's disc that one flood fills
+constexpr double kSpacingShare = 0.7;   ///< of the probe's radius: each place of a ridge has a cell within half of it
+constexpr double kSinkMargin = 0.003;   ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
+constexpr std::size_t kMostDiscs = 32;  ///< of one flood that are grown
+
+std::uint64_t square_number(std::int64_t x, std::int64_t y) {
+  return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
+}
+
+double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// A place of the lattice at the level of one void.
+struct Cell {
+  std::int64_t x = 0, y = 0;
+  double level = 0.0;
+  double distance = 0.0;  ///< of floor
+  std::uint32_t flood = 0;
+  bool inside = false;  ///< of the flood; else floor, a wall, filled up, or an open drop
+};
+
+/// The voids of one part of the scene that no other part's floods come to.
+class Floods {
+ public:
+  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops)
+      : options_(options), probe_(probe), drops_(drops), spacing_(kSpacingShare * probe.radius()) {}
+
+  void add(const RimPlace& place) {
+    if (drops_.cover(place.disc.centre)) return;
+    std::optional<std::uint32_t> flood = flood_at(place.disc.centre);
+    if (!flood) flood = fill(place.disc.centre);
+    rims_[*flood].push_back(place.rim);
+  }
+
+  std::vector<MeasuredVoid> measured() {
+    std::map<std::uint32_t, MeasuredVoid> voids;
+    for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
+      MeasuredVoid& whole = voids[sets_.find(flood)];
+      const Disc& disc = discs_[flood];
+      if (disc.radius > whole.disc.radius ||
+          (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
+        whole.disc = disc;
+      whole.rim.insert(whole.rim.end(), rims_[flood].begin(), rims_[flood].end());
+    }
+    std::vector<MeasuredVoid> all;
+    for (auto& [set, whole] : voids) {
+      if (whole.disc.radius > 0.0) all.push_back(std::move(whole));
+    }
+    return all;
+  }
+
+ private:
+  Vec3 place_of(std::int64_t x, std::int64_t y, double level) const {
+    return {double(x) * spacing_, double(y) * spacing_, level};
+  }
+  Vec3 place_of(const Cell& cell) const { return place_of(cell.x, cell.y, cell.level); }
+  double half_diagonal() const { return 0.5 * std::numbers::sqrt2 * spacing_; }
+
+  /// The cell of a flood at about the level, or what was looked at on just this level.
+  Cell* find(std::int64_t x, std::int64_t y, double level) {
+    const auto square = cells_.find(square_number(x, y));
+    if (square == cells_.end()) return nullptr;
+    for (Cell& cell : square->second) {
+      const double apart = std::abs(cell.level - level);
+      if (cell.x == x && cell.y == y && apart <= (cell.inside ? options_.step : 0.0)) return &cell;
+    }
+    return nullptr;
+  }
+
+  /// The four places of the lattice about a place, the nearest first.
+  std::array<Cell, 4> about(const Vec3& place) const {
+    const auto x = std::int64_t(std::floor(place.x / spacing_)), y = std::int64_t(std::floor(place.y / spacing_));
+    std::array<Cell, 4> cells{{{.x = x, .y = y}, {.x = x + 1, .y = y}, {.x = x, .y = y + 1}, {.x = x + 1, .y = y + 1}}};
+    for (Cell& cell : cells) cell.level = place.z;
+    std::sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
+      const double to_a = level_distance(place_of(a), place), to_b = level_distance(place_of(b), place);
+      return std::tie(to_a, a.x, a.y) < std::tie(to_b, b.x, b.y);
+    });
+    return cells;
+  }
+
+  std::optional<std::uint32_t> flood_at(const Vec3& place) {
+    for (const Cell& near : about(place)) {
+      const Cell* cell = find(near.x, near.y, place.z);
+      if (cell && cell->inside && probe_.sees(place, place_of(near))) return cell->flood;
+    }
+    return std::nullopt;
+  }
+
+  /// Floods the void about `seed`; answers the flood's number.
+  std::uint32_t fill(const Vec3& seed) {
+    const std::uint32_t flood = sets_.add();
+    rims_.emplace_back();
+    std::deque<Cell> open;
+    std::vector<Cell> filled;
+    const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
+      if (level_distance(place_of(x, y, seed.z), seed) > kWindow) return;
+      if (const std::optional<Cell> cell = entered(from, x, y, seed.z, flood)) {
+        open.push_back(*cell);
+        filled.push_back(*cell);
+      }
+    };
+    for (const Cell& near : about(seed)) enter(seed, near.x, near.y);
+    while (!open.empty()) {
+      const Cell cell = open.front();
+      open.pop_front();
+      const Vec3 from = place_of(cell);
+      enter(from, cell.x + 1, cell.y);
+      enter(from, cell.x - 1, cell.y);
+      enter(from, cell.x, cell.y + 1);
+      enter(from, cell.x, cell.y - 1);
+    }
+    discs_.push_back(largest(seed, filled));
+    return flood;
+  }
+
+  /// The cell at (x, y) if it is new to all floods and belongs to this one. What another has joins the two.
+  std::optional<Cell> entered(const Vec3& from, std::int64_t x, std::int64_t y, double level, std::uint32_t flood) {
+    Cell* cell = find(x, y, level);
+    if (cell && cell->inside) {
+      if (cell->flood != flood && probe_.sees(from, place_of(*cell) + Vec3(0.0, 0.0, level - cell->level)))
+        sets_.unite(cell->flood, flood);
+      return std::nullopt;
+    }
+    const Vec3 place = place_of(x, y, level);
+    if (!cell) {
+      std::vector<Cell>& square = cells_[square_number(x, y)];
+      square.push_back({x, y, level, probe_.plan().nearest(place, options_.support_max).distance, flood, false});
+      cell = &square.back();
+    }
+    // A ridge where the probe just fits has cells on it with so much less.
+    const double least = probe_.radius() - half_diagonal();
+    if (cell->distance < least || drops_.cover(place)) return std::nullopt;
+    const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
+    if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
+    cell->level = level;
+    cell->flood = flood;
+    cell->inside = true;
+    return *cell;
+  }
+
+  bool is_highest(const Cell& cell) {
+    for (std::int64_t x = cell.x - 1; x <= cell.x + 1; ++x) {
+      for (std::int64_t y = cell.y - 1; y <= cell.y + 1; ++y) {
+        if (const Cell* near = find(x, y, cell.level); near && near->distance > cell.distance) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Grown from what was climbed to and from the best cells that none beside them exceeds. Of discs that grow into an
+  /// open drop, or come to lie in one, nothing remains: that is measured without them. Radius 0 where nothing is left;
+  /// open where the whole void is.
+  Disc largest(const Vec3& seed, std::vector<Cell>& cells) {
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+      return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    });
+    Disc best = grown(seed);
+    std::vector<Vec3> starts;
+    const bool open = best.radius >= probe_.open();
+    if (open || drops_.cover(best.centre)) best.radius = 0.0;
+    const Disc drop = open ? grown(seed) : Disc{};
+    for (const Cell& cell : cells) {
+      if (cell.distance + half_diagonal() <= best.radius || starts.size() == kMostDiscs) break;
+      const Vec3 start = place_of(cell);
+      const bool again = std::any_of(starts.begin(), starts.end(), [&](const Vec3& other) {
+        return level_distance(other, start) < 0.5 * cell.distance;
+      });
+      if (again || !is_highest(cell)) continue;
+      starts.push_back(start);
+      const Disc disc = grown(start);
+      if (disc.radius < probe_.open() && disc.radius > best.radius && !drops_.cover(disc.centre)) best = disc;
+    }
+    return best.radius > 0.0 ? best : drop;
+  }
+
+  /// First by what sees well; then, where that kept off a wall, as close to it as need be.
+  Disc grown(const Vec3& start) const {
+    constexpr double finest = 0.1 * VoidProbe::precision;
+    const double sphere = probe_.radius() - kSinkMargin;
+    const Disc disc = grow(probe_.plan(), start, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+      return probe_.sees(from, to) && probe_.sinks(to, sphere);
+    });
+    return grow(probe_.plan(), disc.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+      return level_distance(disc.centre, to) < 2.0 * probe_.sight() && probe_.sees_closely(from, to);
+    });
+  }
+
+  const CrackOptions& options_;
+  const VoidProbe& probe_;
+  const OpenDrops& drops_;
+  double spacing_;
+  std::unordered_map<std::uint64_t, std::vector<Cell>> cells_;
+  DisjointSets sets_;
+  std::vector<Disc> discs_;              ///< of each flood
+  std::vector<std::vector<Vec3>> rims_;  ///< likewise
+};
+
+/// Places in parts that are farther from each other than two floods reach, in the order of their first places.
+std::vector<std::vector<RimPlace>> apart(const std::vector<RimPlace>& places) {
+  constexpr double side = 2.0 * kWindow + 0.5;
+  std::unordered_map<std::uint64_t, std::uint32_t> squares;
+  DisjointSets sets;
+  std::vector<std::uint32_t> square_of;
+  for (const RimPlace& place : places) {
+    const Vec3& c = place.disc.centre;
+    const auto [square, is_new] = squares.try_emplace(square_at(c.x, c.y, side), std::uint32_t(sets.size()));
+    if (is_new) sets.add();
+    square_of.push_back(square->second);
+    for (int k = 0; is_new && k < 9; ++k) {
+      const auto beside = squares.find(square_at(c.x + (k % 3 - 1) * side, c.y + (k / 3 - 1) * side, side));
+      if (beside != squares.end()) sets.unite(beside->second, square->second);
+    }
+  }
+  std::vector<std::vector<RimPlace>> parts;
+  std::unordered_map<std::uint32_t, std::size_t> part_of;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [part, is_new] = part_of.try_emplace(sets.find(square_of[i]), parts.size());
+    if (is_new) parts.emplace_back();
+    parts[part->second].push_back(places[i]);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::uint64_t square_at(double x, double y, double side) {
+  return square_number(std::int64_t(std::floor(x / side)), std::int64_t(std::floor(y / side)));
+}
+
+OpenDrops::OpenDrops(const CrackOptions& options, const std::vector<RimPlace>& open)
+    : reach_(options.support_max), step_(options.step) {
+  // Discs nearer to one another than this cover the same.
+  const double apart = 0.2 * options.smallest;
+  std::unordered_map<std::uint64_t, std::vector<double>> seen;
+  for (const RimPlace& place : open) {
+    const Vec3& c = place.disc.centre;
+    std::vector<double>& levels = seen[square_at(c.x, c.y, apart)];
+    if (std::any_of(levels.begin(), levels.end(), [&](double z) { return std::abs(z - c.z) <= apart; })) continue;
+    levels.push_back(c.z);
+    centres_[square_at(c.x, c.y, reach_)].push_back(c);
+  }
+}
+
+bool OpenDrops::cover(const Vec3& place) const {
+  if (centres_.empty()) return false;
+  for (int k = 0; k < 9; ++k) {
+    const auto near = centres_.find(square_at(place.x + (k % 3 - 1) * reach_, place.y + (k / 3 - 1) * reach_, reach_));
+    if (near == centres_.end()) continue;
+    for (const Vec3& centre : near->second) {
+      if (level_distance(centre, place) <= reach_ && std::abs(centre.z - place.z) <= step_) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
+                                        const std::vector<RimPlace>& places, const std::atomic<bool>& ended) {
+  const std::vector<std::vector<RimPlace>> parts = apart(places);
+  std::vector<std::vector<MeasuredVoid>> measured(parts.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    Floods floods(options, probe, drops);
+    for (const RimPlace& place : parts[i]) {
+      if (ended) return;
+      floods.add(place);
+    }
+    measured[i] = floods.measured();
+  });
+  std::vector<MeasuredVoid> all;
+  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
+  return all;
+}
+
+}  // namespace roam::training

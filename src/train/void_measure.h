@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// How wide a void is: flooded on a lattice, for a climb alone stops on the ridge of an arm and a flood alone is
+/// coarse.
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "train/voids.h"
+
+namespace roam::training {
+
+/// Where the discs of open drops lie.
+class OpenDrops {
+ public:
+  OpenDrops(const CrackOptions& options, const std::vector<RimPlace>& open);
+  /// Within support_max of the centre of an open disc at about the same level.
+  [[nodiscard]] bool cover(const Vec3& place) const;
+
+ private:
+  double reach_, step_;
+  std::unordered_map<std::uint64_t, std::vector<Vec3>> centres_;
+};
+
+/// A void that was measured: the largest disc of all its arms.
+struct MeasuredVoid {
+  Disc disc;
+  std::vector<Vec3> rim;
+};
+
+/// The voids of rim places whose climbs ended below probe.open(), and those that turned out to be as large after all.
+/// Places that `drops` cover belong to them and are left out.
+[[nodiscard]] std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe,
+                                                      const OpenDrops& drops, const std::vector<RimPlace>& places,
+                                                      const std::atomic<bool>& ended);
+
+/// The number of a square of the plan, `side` wide; squares 2^32 apart share one.
+[[nodiscard]] std::uint64_t square_at(double x, double y, double side);
+
+}  // namespace roam::training
