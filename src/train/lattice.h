@@ -79,6 +79,10 @@ class WidestTree {
   [[nodiscard]] NodeId parent(NodeId id) const;
   /// The places from one to the other through the tree; empty when they hang in different trees.
   [[nodiscard]] std::vector<NodeId> way(NodeId from, NodeId to) const;
+  /// A widest way that enters no place that is `blocked`, if one is wider than `least`: whatever the tree is, and
+  /// without changing it. Makes and measures places that it needs; `goes_on` as in grow, and empty when that ends it.
+  [[nodiscard]] std::vector<NodeId> way_round(NodeId from, NodeId to, const std::function<bool(const Node&)>& blocked,
+                                              double least, const std::function<bool(std::uint64_t)>& goes_on = {});
   /// The neighbours that a body of `narrowest` can go to straight: all of them where the tree has grown past the place,
   /// else those that were looked at so far. Who is a neighbour of whom is mutual.
   [[nodiscard]] Neighbours neighbours(NodeId id) const;

@@ -8,9 +8,9 @@ namespace roam::training {
 namespace {
 
 /// Metres. A body is asked for with its radius less this, so that what it just touches does not count.
-constexpr double slack = 5e-5;
+constexpr double slack = 2e-5;
 /// Metres. Each answer that is not free takes at least this off.
-constexpr double least_cut = 2e-5;
+constexpr double least_cut = 1e-5;
 /// Queries of one search, at most: most end after three.
 constexpr std::size_t most_cuts = 48;
 

@@ -89,6 +89,36 @@ NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }
 NodeId WidestTree::parent(NodeId id) const { return state_->parent[id]; }
 Neighbours WidestTree::neighbours(NodeId id) const { return state_->graph->neighbours(id); }
 
+std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::function<bool(const Node&)>& blocked,
+                                          double least, const std::function<bool(std::uint64_t)>& goes_on) {
+  LatticeGraph& graph = *state_->graph;
+  std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
+  std::vector<NodeId> before(graph.size(), no_node);
+  std::uint64_t pushed = 0;
+  before[from] = from;
+  for (NodeId at = from; at != to;) {
+    const Neighbours neighbours = graph.expand(at);
+    before.resize(graph.size(), no_node);
+    for (const NodeId next : neighbours) {
+      const float width = std::min(graph.node(at).clearance, graph.node(next).clearance);
+      if (before[next] != no_node || width <= least || blocked(graph.node(next))) continue;
+      edges.push({width, pushed++, at, next});
+    }
+    while (!edges.empty() && before[edges.top().to] != no_node) edges.pop();
+    if (edges.empty()) return {};
+    if (goes_on && pushed % places_between_questions == 0 && !goes_on(graph.size())) return {};
+    const Edge edge = edges.top();
+    edges.pop();
+    before[edge.to] = edge.from;
+    at = edge.to;
+  }
+  state_->cover();
+  std::vector<NodeId> way{to};
+  while (way.back() != from) way.push_back(before[way.back()]);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
 std::vector<NodeId> WidestTree::way(NodeId from, NodeId to) const {
   const State& s = *state_;
   if (s.root[from] == no_node || s.root[from] != s.root[to]) return {};

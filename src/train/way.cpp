@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string>
+
+#include "roam/passage.h"
+#include "train/refine.h"
+#include "train/walk_lattice_place.h"
+#include "train/way_ends.h"
+
+namespace roam {
+namespace {
+
+using namespace training;
+
+/// Of the spacing: how much narrower than it is a way may look on the lattice, half a diagonal.
+constexpr double lattice_error = 0.72;
+/// Ways through other openings that are looked for, at most.
+constexpr int most_others = 32;
+/// Metres: a bound as near as this to the radius proves it.
+constexpr double proof = 5e-3;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error("cannot look for a way: " + what); }
+
+void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
+  const auto positive = [](double value, const char* what) {
+    if (!(value > 0.0 && value <= Space::reach_limit))
+      refuse(fmt::format("{} is {} m; it must be more than 0 and at most 1000 m", what, value));
+  };
+  for (const Vec3& p : {from, to}) {
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(p[k]) <= Space::coordinate_limit)) refuse("a place is not a point within 1e9 m of the origin");
+  }
+  if (o.mode == Mode::ghost) refuse("a ghost passes everything; say walk or fly");
+  positive(o.widest, "the widest radius");
+  positive(o.narrowest, "the narrowest radius");
+  positive(o.spacing, "the spacing");
+  if (!(o.narrowest < o.widest)) refuse("the narrowest radius must be less than the widest");
+  if (o.mode == Mode::fly) return;
+  if (!(o.step >= 0.0 && o.step <= Space::reach_limit)) refuse("the step must be between 0 and 1000 m");
+  if (o.height == 0.0) return;
+  if (!(o.height >= o.step + 2.0 * o.narrowest && o.height <= Space::reach_limit))
+    refuse(fmt::format("a body {} m high leaves no room above the step for the narrowest radius", o.height));
+}
+
+/// One search with one step.
+class Search {
+ public:
+  Search(const Survey& survey, const PassageOptions& options, const Measure& measure)
+      : survey_(survey), options_(options), measure_(measure), tree_(survey, measure, options.spacing) {}
+
+  Passage run(const Vec3& from, const Vec3& to) {
+    from_ = end_at(from);
+    to_ = end_at(to);
+    const auto a = tree_.seed(from_), b = tree_.seed(to_);
+    Passage best;
+    best.bound = end_bound();
+    if (a && b) {
+      (void)tree_.grow(*a, *b, goes_on());
+      const std::vector<NodeId> way = tree_.way(*a, *b);
+      if (!way.empty()) {
+        best = refined(way);
+        others(*a, *b, best);
+      } else if (!ended_) {
+        (void)tree_.grow(*b, no_node, goes_on());
+        best.opening = gap_between(tree_, *a, *b);
+      }
+    }
+    best.proven = best.found && best.bound - best.radius <= proof;
+    best.complete = !ended_;
+    best.places = tree_.size();
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Vec3 end_at(const Vec3& point) const {
+    const auto place = free_end(survey_, measure_, point);
+    if (!place) {
+      refuse(fmt::format(
+          "no body with a radius of {} m fits at ({}, {}, {}) or within sight of it; choose a place with free space "
+          "around it{}",
+          measure_.narrowest, point.x, point.y, point.z, measure_.mode == Mode::walk ? " and floor below" : ""));
+    }
+    return *place;
+  }
+  /// What fits at the ends bounds every way, and so does what the height leaves.
+  [[nodiscard]] double end_bound() const {
+    const double limit = largest_radius(measure_);
+    const double ends = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
+    if (ends < limit) return ends;
+    return limit < measure_.widest ? limit : std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] std::function<bool(std::uint64_t)> goes_on() {
+    return [this](std::uint64_t places) {
+      ended_ = ended_ || places >= options_.most_places || (options_.progress && !options_.progress(places));
+      return !ended_;
+    };
+  }
+  [[nodiscard]] Passage refined(const std::vector<NodeId>& way) const {
+    std::vector<Vec3> places{from_};
+    for (const NodeId id : way) places.push_back(tree_.node(id).place);
+    places.push_back(to_);
+    Passage passage = refine(survey_, measure_, options_.spacing, places);
+    passage.bound = end_bound();
+    return passage;
+  }
+  /// Ways round the openings that were found, as long as one may be wider.
+  void others(NodeId a, NodeId b, Passage& best) {
+    std::vector<Opening> found;
+    Passage last = best;
+    while (last.limited && last.opening && best.limited && best.radius + proof < best.bound && !ended_ &&
+           found.size() < most_others) {
+      found.push_back(*last.opening);
+      const double around = best.radius + options_.spacing;
+      const auto blocked = [&](const Node& node) {
+        return std::any_of(found.begin(), found.end(), [&](const Opening& o) {
+          const Vec3 off = o.point - node.place;
+          const double above = measure_.mode == Mode::walk ? std::max(off.z - tall(), std::min(0.0, off.z)) : off.z;
+          return std::hypot(off.x, off.y) < around && std::abs(above) < around;
+        });
+      };
+      const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
+      const std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
+      if (way.empty()) return;
+      last = refined(way);
+      if (last.found && last.radius > best.radius) best = last;
+    }
+  }
+  [[nodiscard]] double tall() const { return measure_.height > 0.0 ? measure_.height : 2.0 * measure_.widest; }
+
+  const Survey& survey_;
+  const PassageOptions& options_;
+  const Measure measure_;
+  WidestTree tree_;
+  Vec3 from_{0.0}, to_{0.0};
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
+  check(from, to, options);
+  Measure measure{options.mode, options.mode == Mode::fly ? 0.0 : options.height, options.step, options.widest,
+                  options.narrowest};
+  const bool rolls = options.mode == Mode::walk && options.height == 0.0;
+  if (rolls) measure.step = std::min(options.step, options.widest);
+  for (;;) {
+    Passage passage = Search(survey, options, measure).run(from, to);
+    // A sphere climbs at most its radius: the largest that gets through with the step that is its own. Less climbs
+    // less, so this comes down to it.
+    constexpr double same_step = 1e-4;
+    if (!rolls || !passage.found || passage.radius >= measure.step - same_step) return passage;
+    measure.step = passage.radius;
+  }
+}
+
+}  // namespace roam
