@@ -14,7 +14,7 @@ using Ending = PaperResult::Ending;
 /// The radius that passed most paths; of several the smallest, which enters most.
 double most_passed(const std::vector<Trial>& trials) {
   std::map<double, std::size_t> passed;
-  for (const Trial& trial : trials) passed[trial.radius] += verdict(trial.outcome) == Verdict::passed ? 1 : 0;
+  for (const Trial& trial : trials) passed[trial.radius] += judged(trial.outcome) == Judgement::passed ? 1 : 0;
   double best = 0.0;
   std::size_t most = 0;
   for (const auto& [radius, count] : passed) {
@@ -32,17 +32,17 @@ class Adjustment {
 
   /// Takes a trial in; the next radius, or none when the bounds leave nothing to try.
   std::optional<double> next(const Trial& trial) {
-    const Verdict said = verdict(trial.outcome);
-    if (said == Verdict::cannot_enter && (!result_.blocked || trial.radius < result_.blocked->radius))
+    const Judgement said = judged(trial.outcome);
+    if (said == Judgement::cannot_enter && (!result_.blocked || trial.radius < result_.blocked->radius))
       result_.blocked = trial;
-    if (said == Verdict::flies_off && (!result_.fallen || trial.radius > result_.fallen->radius))
+    if (said == Judgement::flies_off && (!result_.fallen || trial.radius > result_.fallen->radius))
       result_.fallen = trial;
     if (result_.blocked && result_.fallen) {
       const double low = result_.fallen->radius, high = result_.blocked->radius;
       if (high - low <= options_.precision) return ended(Ending::contradiction);
       return 0.5 * (low + high);
     }
-    if (said == Verdict::cannot_enter) {
+    if (said == Judgement::cannot_enter) {
       if (trial.radius <= options_.smallest) return ended(Ending::too_small);
       return std::max(options_.smallest, 0.5 * trial.radius);
     }
@@ -87,7 +87,7 @@ PaperResult adjust_radius(std::size_t paths, const PaperOptions& options,
       break;
     }
     result.trials.push_back(*trial);
-    if (verdict(trial->outcome) == Verdict::passed) {
+    if (judged(trial->outcome) == Judgement::passed) {
       passed_with[path] = radius;
       continue;
     }

@@ -98,18 +98,18 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   return trial;
 }
 
-Verdict verdict(Outcome outcome) {
+Judgement judged(Outcome outcome) {
   switch (outcome) {
     case Outcome::reached:
-      return Verdict::passed;
+      return Judgement::passed;
     case Outcome::blocked:
     case Outcome::held:
-      return Verdict::cannot_enter;
+      return Judgement::cannot_enter;
     case Outcome::left_scene:
     case Outcome::fell:
-      return Verdict::flies_off;
+      return Judgement::flies_off;
   }
-  return Verdict::cannot_enter;
+  return Judgement::cannot_enter;
 }
 
 }  // namespace roam::training

@@ -34,11 +34,11 @@ struct BodyKind {
                             std::span<const Vec3> way, const std::function<bool()>& goes_on = {});
 
 /// What the paper's two rules ask of an outcome.
-enum class Verdict : std::uint8_t {
+enum class Judgement : std::uint8_t {
   passed,
   cannot_enter,  ///< blocked or held: the radius goes down
   flies_off,     ///< fell or left the scene: the radius goes up
 };
-[[nodiscard]] Verdict verdict(Outcome outcome);
+[[nodiscard]] Judgement judged(Outcome outcome);
 
 }  // namespace roam::training

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// What training found, in plain words.
+
+#include <span>
+#include <string>
+
+#include "roam/train.h"
+#include "train/interval.h"
+#include "train/layout.h"
+#include "train/paper.h"
+
+namespace roam::training {
+
+/// "a radius of 0.3 m", and the foot, where there is one.
+[[nodiscard]] std::string body_words(double radius, double support_radius);
+
+/// Why nothing could be trained: no triangle, no floor, no free place.
+[[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options);
+
+/// Of Method::interval.
+[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training,
+                                          std::span<const Contradiction> contradictions);
+
+/// Of Method::paper.
+[[nodiscard]] std::string paper_answer(const PaperResult& result, const Training& training);
+
+/// What is said besides where training ended early, during `stage`.
+[[nodiscard]] std::string ended_early(const std::string& stage);
+
+}  // namespace roam::training

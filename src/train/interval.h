@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// The feasible interval of a layout: its ends from widest ways and cracks, the body that is chosen from it, and the
+/// trials that prove it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/train.h"
+#include "train/crossings.h"
+#include "train/layout.h"
+#include "train/stages.h"
+
+namespace roam::training {
+
+/// Part of the upper end that a body gets: 1 cm less on each side of a door of 0.7 m is for turning into it.
+inline constexpr double inside_share = 0.97;
+/// Part of the upper end that certainly no body passes with.
+inline constexpr double outside_share = 1.02;
+/// m. A foot is so much larger than a crack's half width, and a trial's foot that is to fall so much smaller.
+inline constexpr double foot_margin = 0.02;
+
+/// A gap on a path.
+struct PathCrossing {
+  std::size_t path = 0;
+  Crossing crossing;
+};
+
+/// What the ends were found from.
+struct Evidence {
+  std::vector<FoundCrack> cracks;        ///< along the floor that was reached
+  std::vector<PathCrossing> crossings;   ///< of gaps that are cracks
+  std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
+  std::optional<std::size_t> widest;     ///< the crack that decides the lower end
+  double widest_anywhere = 0.0;          ///< m, radius of the widest crack, on a path or not
+};
+
+/// Looks for the cracks of what was reached, and fills in paths, cracks, both ends, trapped_radius and decisive.
+[[nodiscard]] Evidence find_ends(const Survey& survey, const TrainOptions& options, const Layout& layout,
+                                 Stages& stages, Training& training);
+
+/// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
+[[nodiscard]] double trapped_below(double crack_radius, double step);
+
+/// Chooses radius and support_radius from the ends, and says whether the interval is feasible:
+///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of
+///     3 % to the upper end and 8 % to the lower, so that the rims carry it;
+///   - where no radius is in the interval, the person's or the largest that passes, and a foot;
+///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm.
+void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training);
+
+/// What a trial said against what was found out from the scene.
+struct Contradiction {
+  std::string what;  ///< a sentence
+};
+
+/// Sends bodies along all paths with the chosen size, and with sizes just inside and just outside both ends past the
+/// opening or over the crack that decides; adds the trials to the paths.
+[[nodiscard]] std::vector<Contradiction> prove(const Survey& survey, const BodyKind& kind, const Layout& layout,
+                                               const Evidence& evidence, Stages& stages, Training& training);
+
+}  // namespace roam::training

@@ -1,0 +1,131 @@
+#include "train/layout.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <tuple>
+
+#include "train/refine.h"
+
+namespace roam::training {
+
+namespace {
+
+/// m. No narrower way is looked for: nothing that a person or a device on wheels could be sent through.
+constexpr double narrowest = 0.05;
+
+/// How many paths each component gets, 0 for as many as it needs, or none: each its dead ends where it is not said how
+/// many, else one each, as far as they go round, and the largest the rest.
+std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
+  std::vector<std::optional<int>> counts(layout.components.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (asked == 0) {
+      counts[i] = i == 0 ? 0 : std::max(1, static_cast<int>(layout.rooms[i].dead_ends()));
+    } else if (static_cast<int>(i) < asked) {
+      counts[i] = 1;
+    }
+  }
+  if (asked > 0 && !counts.empty()) *counts[0] += std::max(0, asked - static_cast<int>(counts.size()));
+  return counts;
+}
+
+void refine_paths(const Survey& survey, double spacing, Layout& layout, Stages& stages) {
+  stages.begin("planning paths");
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t(0), layout.paths.size(), [&](std::size_t i) {
+    PlannedPath& path = layout.paths[i];
+    if (!stages.ended()) {
+      std::vector<Vec3> places;
+      for (const NodeId id : layout.tree.way(path.ends.from, path.ends.to))
+        places.push_back(layout.tree.node(id).place);
+      path.passage = refine(survey, layout.measure, spacing, places);
+    }
+    stages.at(static_cast<double>(++done) / static_cast<double>(layout.paths.size()));
+  });
+  std::erase_if(layout.paths, [](const PlannedPath& path) { return path.passage.way.size() < 2; });
+}
+
+}  // namespace
+
+Measure measure_of(const TrainOptions& options) {
+  Measure measure;
+  measure.mode = options.mode;
+  measure.height = options.mode == Mode::walk ? options.height : 0.0;
+  measure.step = options.step;
+  measure.widest = options.radius_max;
+  measure.narrowest = std::min(narrowest, 0.5 * options.radius_max);
+  return measure;
+}
+
+BodyKind kind_of(const Survey& survey, const TrainOptions& options) {
+  BodyKind kind;
+  kind.mode = options.mode;
+  kind.height = options.mode == Mode::walk ? options.height : 0.0;
+  kind.step = options.step;
+  kind.slope_degrees = survey.slope_degrees();
+  kind.speed = options.speed;
+  return kind;
+}
+
+Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages) {
+  const Measure measure = measure_of(options);
+  Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, 0, {}};
+  stages.begin("looking for places");
+  for (Component& component :
+       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); })) {
+    if (component.inside) {
+      layout.components.push_back(std::move(component));
+    } else {
+      ++layout.left_out;
+    }
+  }
+  for (const Component& component : layout.components)
+    layout.rooms.push_back(find_rooms(survey, measure, layout.tree, component));
+  const std::vector<std::optional<int>> counts = shares(layout, options.paths);
+  for (std::size_t i = 0; i < layout.components.size(); ++i) {
+    if (!counts[i]) continue;
+    for (const Ends& ends :
+         draw_paths(layout.tree, layout.components[i], layout.rooms[i], *counts[i], options.seed + i))
+      layout.paths.push_back({i, ends, {}});
+  }
+  refine_paths(survey, options.spacing, layout, stages);
+  return layout;
+}
+
+Reached::Reached(const Layout& layout, double spacing)
+    : tree_(&layout.tree),
+      side_(std::max(2.0 * spacing, 0.5 * layout.measure.widest)),
+      beside_(1.1 * spacing),
+      level_(layout.measure.step) {
+  for (const Component& component : layout.components) {
+    for (const NodeId id : component.nodes) {
+      const Node& node = tree_->node(id);
+      cells_.push_back({cell(node.place.x), cell(node.place.y), id});
+    }
+  }
+  std::sort(cells_.begin(), cells_.end(),
+            [](const Cell& a, const Cell& b) { return std::tie(a.x, a.y, a.node) < std::tie(b.x, b.y, b.node); });
+}
+
+std::int64_t Reached::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
+
+bool Reached::operator()(const Vec3& foot) const {
+  // No node farther than half of `widest` need be asked: there are others nearer by, unless the way there is closed.
+  const std::int64_t x = cell(foot.x), y = cell(foot.y);
+  for (std::int64_t dx = -1; dx <= 1; ++dx) {
+    auto at = std::lower_bound(
+        cells_.begin(), cells_.end(), std::pair(x + dx, y - 1),
+        [](const Cell& c, const auto& key) { return std::tie(c.x, c.y) < std::tie(key.first, key.second); });
+    for (; at != cells_.end() && at->x == x + dx && at->y <= y + 1; ++at) {
+      const Node& node = tree_->node(at->node);
+      const double apart = std::hypot(foot.x - node.place.x, foot.y - node.place.y);
+      if (apart <= std::max(beside_, static_cast<double>(node.clearance)) && std::abs(foot.z - node.place.z) <= level_)
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace roam::training

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// What of a scene is roamed: its components, their rooms, and the paths that are planned through them.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/train.h"
+#include "train/lattice.h"
+#include "train/places.h"
+#include "train/stages.h"
+#include "train/trials.h"
+
+namespace roam::training {
+
+struct PlannedPath {
+  std::size_t component = 0;  ///< of Layout::components
+  Ends ends;
+  Passage passage;  ///< between them, refined
+};
+
+struct Layout {
+  Measure measure;
+  WidestTree tree;
+  std::vector<Component> components;  ///< that are roamed
+  std::vector<Rooms> rooms;           ///< of each
+  std::size_t left_out = 0;           ///< components that are not, for they are outside or on top of something
+  std::vector<PlannedPath> paths;
+};
+
+/// What is measured for a training.
+[[nodiscard]] Measure measure_of(const TrainOptions& options);
+[[nodiscard]] BodyKind kind_of(const Survey& survey, const TrainOptions& options);
+
+/// Components, rooms and paths; where `stages` says to end, what was found by then.
+[[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);
+
+/// Whether a place of the floor is one that bodies come to: it lies within the clearance of a place of the components,
+/// or hardly more than a spacing beside one, at its level.
+class Reached {
+ public:
+  Reached(const Layout& layout, double spacing);
+  [[nodiscard]] bool operator()(const Vec3& foot) const;
+
+ private:
+  struct Cell {
+    std::int64_t x, y;
+    NodeId node;
+  };
+  [[nodiscard]] std::int64_t cell(double at) const;
+
+  const WidestTree* tree_;
+  double side_, beside_, level_;
+  std::vector<Cell> cells_;  ///< sorted by x, y, node
+};
+
+}  // namespace roam::training

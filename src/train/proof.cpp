@@ -1,0 +1,156 @@
+// The trials that prove the ends of an interval: sizes just inside must come through, sizes just outside must not.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <glm/geometric.hpp>
+
+#include "train/interval.h"
+
+namespace roam::training {
+
+namespace {
+
+/// m of the way on both sides of an opening or a crack that a trial goes along at least.
+constexpr double run_up = 1.5;
+/// m, at most: there a body that is to be stopped by an opening has found room to stand before it.
+constexpr double longest_run_up = 12.0;
+
+/// A trial that is to be made, and what it must come to.
+struct Attempt {
+  std::size_t path = 0;
+  double radius = 0.0, support_radius = 0.0;
+  std::vector<Vec3> way;
+  Judgement expected = Judgement::passed;
+  std::string why;  ///< "just inside the opening"
+};
+
+std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
+
+std::string size_text(const Attempt& attempt) {
+  if (attempt.support_radius > attempt.radius)
+    return fmt::format("radius {:.3f} m on a foot of {:.3f} m", attempt.radius, attempt.support_radius);
+  return fmt::format("radius {:.3f} m", attempt.radius);
+}
+
+const char* words(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::passed:
+      return "come through";
+    case Judgement::cannot_enter:
+      return "be stopped";
+    case Judgement::flies_off:
+      return "fall";
+  }
+  return "";
+}
+
+class Proof {
+ public:
+  Proof(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Training& training)
+      : survey_(survey), kind_(kind), layout_(layout), evidence_(evidence), training_(training) {
+    foot_ = evidence.widest_anywhere > 0.0 ? evidence.widest_anywhere + foot_margin : 0.0;
+  }
+
+  /// The chosen body on every path, then the sizes beside the ends.
+  std::vector<Attempt> attempts() {
+    std::vector<Attempt> all;
+    for (std::size_t i = 0; i < training_.paths.size(); ++i)
+      all.push_back({i, training_.radius, training_.support_radius, training_.paths[i].way, Judgement::passed,
+                     "the chosen body"});
+    for (std::size_t i = 0; i < training_.paths.size(); ++i) add_opening(i, all);
+    for (const PathCrossing& crossing : evidence_.crossings) {
+      if (evidence_.cracks[crossing.crossing.crack].radius == training_.paths[crossing.path].smallest)
+        add_crack(crossing, all);
+    }
+    return all;
+  }
+
+ private:
+  void add_opening(std::size_t path, std::vector<Attempt>& all) {
+    const Passage& passage = layout_.paths[path].passage;
+    if (!training_.paths[path].largest || !passage.opening) return;
+    const double largest = *training_.paths[path].largest, outside = outside_share * largest;
+    const double place = nearest_along(passage.way, passage.opening->point);
+    all.push_back({path, inside_share * largest, foot_, stretch(passage.way, place, run_up), Judgement::passed,
+                   "just inside the opening"});
+    std::vector<Vec3> before = stretch(passage.way, place, run_up);
+    for (double reach = run_up; reach <= longest_run_up && !fits(before.front(), outside); reach += 0.5 * run_up)
+      before = stretch(passage.way, place, reach);
+    all.push_back({path, outside, foot_, std::move(before), Judgement::cannot_enter, "just outside the opening"});
+  }
+
+  void add_crack(const PathCrossing& crossing, std::vector<Attempt>& all) {
+    const Crack& crack = evidence_.cracks[crossing.crossing.crack];
+    const TrainedPath& path = training_.paths[crossing.path];
+    const double passes = path.largest ? inside_share * *path.largest : training_.radius;
+    const double small = crack.radius - foot_margin, body = std::min(passes, small);
+    if (!(body > 0.0)) return;
+    std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
+    all.push_back({crossing.path, body, crack.radius + foot_margin, way, Judgement::passed, "a foot just wide enough"});
+    all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
+                   "a foot just too small"});
+  }
+
+  [[nodiscard]] bool fits(const Vec3& place, double radius) const {
+    return clearance_at(survey_, layout_.measure, place) >= std::min(radius, 0.999 * layout_.measure.widest);
+  }
+
+  /// m along a way, of its place nearest to a point, seen from above when walking.
+  [[nodiscard]] double nearest_along(const std::vector<Vec3>& way, Vec3 point) const {
+    double best = 0.0, least = std::numeric_limits<double>::infinity(), gone = 0.0;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const Vec3 along = way[i] - way[i - 1];
+      const double length = glm::length(along);
+      const double part =
+          length > 0.0 ? std::clamp(glm::dot(point - way[i - 1], along) / (length * length), 0.0, 1.0) : 0.0;
+      const double apart = glm::distance(point, way[i - 1] + part * along);
+      if (apart < least) {
+        least = apart;
+        best = gone + part * length;
+      }
+      gone += length;
+    }
+    return best;
+  }
+
+  const Survey& survey_;
+  const BodyKind& kind_;
+  const Layout& layout_;
+  const Evidence& evidence_;
+  Training& training_;
+  double foot_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<Contradiction> prove(const Survey& survey, const BodyKind& kind, const Layout& layout,
+                                 const Evidence& evidence, Stages& stages, Training& training) {
+  stages.begin("trials");
+  const std::vector<Attempt> attempts = Proof(survey, kind, layout, evidence, training).attempts();
+  std::vector<Trial> trials(attempts.size());
+  std::atomic<std::size_t> done{0};
+  const auto progress = [&] { return stages.at(static_cast<double>(done) / static_cast<double>(attempts.size())); };
+  tbb::parallel_for(std::size_t(0), attempts.size(), [&](std::size_t i) {
+    const Attempt& attempt = attempts[i];
+    if (stages.ended()) return;
+    trials[i] = try_way(survey, kind, attempt.radius, attempt.support_radius, attempt.way, progress);
+    ++done;
+    progress();
+  });
+  std::vector<Contradiction> contradictions;
+  if (stages.ended()) return contradictions;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const Attempt& attempt = attempts[i];
+    trials[i].path = attempt.path;
+    training.paths[attempt.path].trials.push_back(trials[i]);
+    if (judged(trials[i].outcome) == attempt.expected) continue;
+    contradictions.push_back({fmt::format("On path {} a trial with {} ({}) should {}, but it {} at {}.",
+                                          attempt.path + 1, size_text(attempt), attempt.why, words(attempt.expected),
+                                          name(trials[i].outcome), at(trials[i].at))});
+  }
+  return contradictions;
+}
+
+}  // namespace roam::training

@@ -1,0 +1,127 @@
+#include "roam/train.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "train/answer.h"
+#include "train/interval.h"
+#include "train/layout.h"
+#include "train/paper.h"
+#include "train/stages.h"
+#include "train/trials.h"
+
+namespace roam {
+
+namespace {
+
+using namespace training;
+
+/// m, of the body that is answered where nothing is known.
+constexpr double usual_radius = 0.3;
+/// The paper's number of paths.
+constexpr int usual_paths = 5;
+/// m: the smallest radius that the paper's procedure tries, and the largest step or height of anybody.
+constexpr double smallest_radius = 0.05;
+constexpr double most_metres = 100.0;
+
+void check(const TrainOptions& options) {
+  const auto in = [](const char* what, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      throw Error(fmt::format("training: the {} is {:g}; it must be from {:g} to {:g}", what, value, low, high));
+  };
+  if (options.mode == Mode::ghost) throw Error("training: a ghost passes everywhere; train to walk or to fly");
+  in("largest radius", options.radius_max, 0.01, most_metres);
+  in("largest support radius", options.support_max, 0.1, most_metres);
+  in("step", options.step, 0.0, most_metres);
+  in("spacing", options.spacing, 0.02, most_metres);
+  in("speed", options.speed, 0.01, 1e4);
+  in("number of paths", options.paths, 0, 10'000);
+  if (options.mode == Mode::walk && options.height != 0.0) {
+    in("height", options.height, 0.1, most_metres);
+    if (options.height <= options.step + 2.0 * smallest_radius)
+      throw Error(
+          fmt::format("training: a body {:g} m high that steps up {:g} m has nothing left above its knee; "
+                      "take a smaller step or height 0, a sphere",
+                      options.height, options.step));
+  }
+}
+
+/// A body where nothing was found out.
+void take_usual_body(const TrainOptions& options, const BodyKind& kind, Training& training) {
+  training.radius = std::min({usual_radius, options.radius_max, largest_radius(kind)});
+}
+
+void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,
+                   Stages& stages, Training& training) {
+  const Evidence evidence = find_ends(survey, options, layout, stages, training);
+  choose_body(kind, options, evidence, training);
+  std::vector<Contradiction> contradictions;
+  if (!stages.ended()) contradictions = prove(survey, kind, layout, evidence, stages, training);
+  training.answer = interval_answer(layout, training, contradictions);
+}
+
+void follow_paper(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,
+                  Stages& stages, Training& training) {
+  stages.begin("roaming the paths");
+  for (const PlannedPath& path : layout.paths) {
+    const std::vector<Vec3>& way = path.passage.way;
+    training.paths.push_back({.from = way.front(), .to = way.back(), .way = way, .largest = {}, .trials = {}});
+  }
+  PaperOptions how;
+  how.largest = std::min(options.radius_max, largest_radius(kind));
+  how.smallest = std::min(smallest_radius, how.largest);
+  std::size_t furthest = 0;
+  const PaperResult result =
+      adjust_radius(layout.paths.size(), how, [&](std::size_t path, double radius) -> std::optional<Trial> {
+        furthest = std::max(furthest, path);
+        const auto progress = [&] {
+          return stages.at(static_cast<double>(furthest) / static_cast<double>(layout.paths.size()));
+        };
+        if (!progress()) return std::nullopt;
+        Trial trial = try_way(survey, kind, radius, 0.0, training.paths[path].way, progress);
+        trial.path = path;
+        return stages.ended() ? std::nullopt : std::optional(trial);
+      });
+  for (const Trial& trial : result.trials) training.paths[trial.path].trials.push_back(trial);
+  training.feasible = result.ending == PaperResult::Ending::settled;
+  training.radius = result.radius;
+  if (!(training.radius > 0.0)) take_usual_body(options, kind, training);
+  if (result.fallen) training.smallest = result.fallen->radius;
+  if (result.blocked) training.largest = result.blocked->radius;
+  training.answer = paper_answer(result, training);
+}
+
+}  // namespace
+
+Training train(const Survey& survey, const TrainOptions& options) {
+  check(options);
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  Stages stages(options.progress);
+  Training training;
+  const BodyKind kind = kind_of(survey, options);
+  TrainOptions laid = options;
+  if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
+  const Layout layout = lay_out(survey, laid, stages);
+  for (const Component& component : layout.components) training.places += component.nodes.size();
+  if (layout.components.empty()) {
+    take_usual_body(options, kind, training);
+    training.answer = stages.ended() ? "No place was found." : nothing_to_train(survey, options);
+  } else if (options.method == Method::paper) {
+    follow_paper(survey, options, kind, layout, stages, training);
+  } else {
+    find_interval(survey, options, kind, layout, stages, training);
+  }
+  training.complete = !stages.ended();
+  if (!training.complete) training.answer += ended_early(stages.stage());
+  training.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return training;
+}
+
+}  // namespace roam
