@@ -47,6 +47,11 @@ struct WalkerSettings {
   /// Metres, > 0, <= Space::reach_limit / 4. Half the least width the body needs. Too large: kept out of rooms that a
   /// person enters; too small: falls through cracks that a person steps over.
   double radius = 0.3;
+  /// Metres, in [0, Space::reach_limit / 4]. Of a foot that is wider than the body: in walk mode it carries the body
+  /// over every crack of the floor in which no disc of this radius finds room, held at the height of the floor. The
+  /// foot touches nothing: whatever the body passes, it passes too. Half the width of the widest crack and 2 mm more
+  /// will do. 0, or not more than `radius`: none of its own. docs/walking.md says what is a crack and what a pit.
+  double support_radius = 0.0;
   /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4.
   double height = 1.8;
   /// Camera above the lowest point when standing, metres, in [0, height]. Lowered in proportion when crouched.
@@ -117,6 +122,7 @@ enum class EventKind : std::uint8_t {
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
   met_unknown,   ///< touched, stands on or is in what is not known yet (see space.h): solid until it is known
   slowed,        ///< the wish was faster than Space::speed_limit() and was followed at that speed
+  carried,       ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -189,6 +195,7 @@ struct StepReport {
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   double elapsed = 0.0;          ///< seconds that were simulated: dt, or less when throttled
   bool grounded = false;         ///< stands on something (walk mode)
+  bool carried = false;          ///< stands on its foot over a crack: see WalkerSettings::support_radius
   bool blocked = false;          ///< ended this step unable to go on in the wished direction; contacts.back() is why
   bool held = false;             ///< see EventKind::held
   bool met_unknown = false;      ///< see EventKind::met_unknown
@@ -207,9 +214,14 @@ struct Stance {
   double rise_speed = 0.0;     ///< upward, m/s; 0 on the ground
   bool grounded = false;
   bool firm = false;     ///< grounded within the slope limit: not on a rim, not wedged between slopes
+  bool carried = false;  ///< grounded by its foot alone, over a crack
   bool unknown = false;  ///< grounded on what is not known yet
   bool stood = false;    ///< has stood on ground since it was placed
   bool fallen = false;   ///< the present fall has been reported
+  /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
+  Vec3 floor_point{0.0};
+  Vec3 floor_normal{0.0, 0.0, 1.0};
+  bool floor_seen = false;
 };
 
 class Walker {

@@ -6,6 +6,7 @@
 #include "motion/ground.h"
 #include "motion/planes.h"
 #include "motion/slide.h"
+#include "motion/support.h"
 #include "motion/walking.h"
 
 namespace roam::walking {
@@ -33,6 +34,7 @@ Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
 void land(Move& move, Stance& stance, const Footing& ground) {
   stand_on(move, stance, ground);
   move.note(EventKind::landed);
+  if (has_foot(move)) forget_other_storeys(move, stance);
 }
 
 }  // namespace
@@ -61,8 +63,17 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   double left = 1.0;
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
     const Vec3 before = move.place;
-    const Advance a = move.advance(motion * left, seconds * left);
-    left -= a.fraction * left;
+    double share = left;
+    const std::optional<double> until_foot =
+        has_foot(move) && whole.z <= 0.0 ? carried_after(move, stance, motion * left) : std::nullopt;
+    if (until_foot) share *= *until_foot;
+    const Advance a = move.advance(motion * share, seconds * share);
+    left -= a.fraction * share;
+    if (until_foot && !a.touched) {
+      land_on_foot(move, stance);
+      move.note(EventKind::landed);
+      return true;
+    }
     if (!a.touched) break;
     if (a.embedded) return false;
     move.touch(a.contact, a.gap);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "motion/planes.h"
+#include "motion/support.h"
 
 namespace roam::walking {
 namespace {
@@ -97,7 +99,7 @@ void stand_on(Move& move, Stance& stance, const Footing& ground) {
   stance.grounded = stance.stood = true;
   stance.firm = ground.firm;
   stance.unknown = ground.unknown;
-  stance.fallen = false;
+  stance.fallen = stance.carried = false;
 }
 
 namespace {
@@ -133,6 +135,7 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
   // On a rim the body has sunk below the level that it stands on.
   const double sunk = stance.grounded && !stance.firm ? std::max(0.0, stance.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
+  const bool look_for_foot = has_foot(move) && !see_floor(move, stance, reach, horizontal);
   const Vec3 down(0.0, 0.0, -1.0);
   const Impact s = move.space.sweep(move.body(), move.place, down * reach);
   std::optional<Footing> ground;
@@ -143,10 +146,14 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     lowered.place.z -= std::max(0.0, s.time * reach - move.skin / s.normal.z);
     ground = footing_here(lowered, stance);
   }
+  if (look_for_foot) {
+    const double drop = ground ? s.time * reach - move.skin / s.normal.z : std::numeric_limits<double>::infinity();
+    if (carry(move, stance, drop, reach)) return;
+  }
   if (!ground) {
     if (stance.grounded && s.hit && step_off(move, stance, s)) return;
     if (stance.grounded) move.note(EventKind::airborne);
-    stance.grounded = stance.firm = false;
+    stance.grounded = stance.firm = stance.carried = false;
     return;
   }
   const double to_ground = s.time * reach;

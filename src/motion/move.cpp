@@ -124,7 +124,7 @@ void Move::touch(const Impact& contact, double gap) {
 }
 
 void Move::note(EventKind kind, const Vec3& point) {
-  const bool seldom = kind == EventKind::fell || kind > EventKind::stood;
+  const bool seldom = kind == EventKind::fell || (kind > EventKind::stood && kind != EventKind::carried);
   if (seldom || report.events.size() < events_of_motion) report.events.push({kind, point});
 }
 

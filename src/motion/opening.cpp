@@ -71,13 +71,14 @@ std::optional<Opening> measure_opening(const Space& space, const Body& body, con
       const double lean =
           std::max(std::abs(glm::dot(a.normal, frame.upward)), std::abs(glm::dot(b.normal, frame.upward)));
       if (lean < post && face_each_other(a, b, place, frame.sideways)) {
-        consider(a, b, {glm::length(apart - frame.upward * glm::dot(apart, frame.upward)), false});
+        consider(a, b,
+                 {glm::length(apart - frame.upward * glm::dot(apart, frame.upward)), false, 0.5 * (a.point + b.point)});
       }
       // The floor is touched below the body, and what hangs too low ahead of it: one above the other, not two posts
       // whose contacts lean a little up and down.
       const double height = std::abs(glm::dot(apart, frame.upward));
       if (height > std::abs(glm::dot(apart, frame.sideways)) && face_each_other(a, b, place, frame.upward)) {
-        consider(a, b, {height, true});
+        consider(a, b, {height, true, 0.5 * (a.point + b.point)});
       }
     }
   }

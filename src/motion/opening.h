@@ -11,6 +11,7 @@ namespace roam::walking {
 struct Opening {
   double size = 0.0;       ///< metres
   bool is_height = false;  ///< between what is below and what is above, not from side to side
+  Vec3 middle{0.0};        ///< half way between the two points
 };
 
 /// The opening ahead of a blocked body, see Blockage::opening: the least distance of two points that the body touches

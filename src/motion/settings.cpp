@@ -35,6 +35,7 @@ void demand(const char* what, double value, const char* unit, const Range& range
 
 void check(const WalkerSettings& s) {
   demand("radius", s.radius, "m", {0.0, length_limit, true}, "");
+  demand("support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no foot of its own");
   demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
          "a body is at least two radii high, and then a sphere");
   demand("eye height", s.eye, "m", {0.0, s.height, false}, "the eye is in the body");
@@ -103,6 +104,8 @@ const char* name(EventKind kind) {
       return "met_unknown";
     case EventKind::slowed:
       return "slowed";
+    case EventKind::carried:
+      return "carried";
   }
   return "unknown";
 }

@@ -42,6 +42,7 @@ double fine_stride_seconds(const Move& move, const Vec3& velocity) { return stri
 bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   const double start = move.time, wish = glm::length(velocity);
   const Vec3 origin = move.place;
+  const bool was_carried = stance.carried;
   PlaneSet walls, grounds;
   grounds.add(stance.ground);
   Vec3 v = velocity;
@@ -87,9 +88,10 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   const Vec3 gone = move.place - origin;
   keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
   // What rolls off a rim goes on down as it came, at most as steeply as a rim carries: thrown off level it would cross
-  // cracks that it does not bridge.
+  // cracks that it does not bridge. What its foot carries no more has no rim below it that could show it the way.
   if (!stance.grounded && seconds > 0.0) {
-    const double down = std::max((move.place.z - origin.z) / seconds, -wish * rim_tangent);
+    const double steepest = -wish * rim_tangent;
+    const double down = was_carried ? steepest : std::max((move.place.z - origin.z) / seconds, steepest);
     stance.rise_speed = std::min(0.0, down);
   }
   move.time = start + seconds;

@@ -84,6 +84,7 @@ void Walker::finish() {
   report_.to = position_;
   report_.height = height_;
   report_.grounded = stance_.grounded;
+  report_.carried = stance_.carried;
   clearance_ = 0.0;
   if (mode_ != Mode::ghost && !held_) {
     const double reach = std::min(settings_.clearance_reach, nearest_);

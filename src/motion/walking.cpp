@@ -21,7 +21,7 @@ void jump(Move& move, Stance& stance) {
   const double lift = move.settings.gravity * move.settings.jump_height;
   if (!stance.grounded || !(lift > 0.0)) return;
   stance.rise_speed = std::sqrt(2.0 * lift);
-  stance.grounded = stance.firm = false;
+  stance.grounded = stance.firm = stance.carried = false;
   move.note(EventKind::jumped);
 }
 
@@ -53,7 +53,7 @@ Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const L
       return Ending::embedded;
     }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
-    if (stance.firm) {
+    if (stance.firm && !stance.carried) {
       last.place = move.place;
       last.height = move.height;
     } else if (!stance.grounded && below_everything(move)) {

@@ -1,0 +1,153 @@
+#include "motion/free_disc.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace roam::walking {
+namespace {
+
+/// A square that is smaller than this part of the foot's radius, or than this in metres where that is more, is not
+/// divided any further: half its diagonal is what the answer may be off by, 0.28 mm for a foot of 2 m.
+constexpr double least_half_part = 1e-4;
+constexpr double least_half = 2e-4;
+
+/// Squares that are looked at, in all, and what floor is asked for of them. A straight crack that is 2 mm narrower than
+/// a foot of 0.6 m takes some 3000 and 150.
+constexpr int square_limit = 1 << 15;
+constexpr int query_limit = 1 << 12;
+
+/// Known points of the floor, the last found ones.
+constexpr std::size_t points_kept = 64;
+
+/// What is hidden behind walls is left out in squares of this part of the radius, and smaller ones, of which neither
+/// the middle nor a corner is in sight.
+constexpr double hidden_part = 0.125;
+
+/// The radius of what looks for walls: a ray can slip through where two walls meet, metres.
+constexpr double sight_radius = 0.01;
+
+/// Room for the depth-first part: three brothers wait at each of at most 16 halvings.
+constexpr std::size_t stack_size = 64;
+
+/// A square of centres, seen from the axis.
+struct Square {
+  double x, y, half;
+};
+
+struct Point {
+  double x, y;
+};
+
+/// Branch and bound over the centre of the disc. A point of the floor rules out all centres that are nearer to it than
+/// the radius, so a square is settled as soon as one known point is that near to all of it; else the floor nearest to
+/// its middle is asked for, and it is divided.
+class Search {
+ public:
+  Search(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis)
+      : space_(space), plane_(plane), foot_(foot), axis_(axis) {
+    const double rise = std::hypot(plane.normal.x, plane.normal.y) / plane.normal.z;
+    column_ = {0.0, std::min(carrying_band + foot.radius * rise, Space::reach_limit)};
+    floor_ = {foot.slope_degrees, carrying_band, plane.point, plane.normal};
+    smallest_ = std::max(least_half, least_half_part * foot.radius);
+  }
+
+  enum class Answer : std::uint8_t { none, free, hidden };
+
+  /// `free`: there is a disc, or it is not settled. With `past_walls` walls are not looked for before a disc is found;
+  /// `hidden`: where one would be, a wall may stand before its centre, and it was not looked for another.
+  Answer run(bool past_walls) {
+    std::array<Square, stack_size> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0.0, 0.0, foot_.radius};
+    for (int count = 0; depth > 0; ++count) {
+      if (count >= square_limit || queries_ >= query_limit) return Answer::free;
+      const Square square = stack[--depth];
+      if (!meets_domain(square) || settled(square)) continue;
+      if (ask(square.x, square.y)) {
+        if (settled(square)) continue;
+      } else if (std::hypot(square.x, square.y) <= foot_.radius) {
+        if (in_sight(square.x, square.y)) return Answer::free;
+        if (past_walls) return Answer::hidden;
+      }
+      if (!past_walls && square.half <= hidden_part * foot_.radius && hidden(square)) continue;
+      if (square.half <= smallest_) return past_walls ? Answer::hidden : Answer::free;
+      const double half = 0.5 * square.half;
+      if (depth + 4 > stack.size()) return Answer::free;
+      for (const double dx : {-half, half}) {
+        for (const double dy : {-half, half}) stack[depth++] = {square.x + dx, square.y + dy, half};
+      }
+    }
+    return Answer::none;
+  }
+
+ private:
+  [[nodiscard]] bool meets_domain(const Square& s) const {
+    const double x = std::max(0.0, std::abs(s.x) - s.half), y = std::max(0.0, std::abs(s.y) - s.half);
+    return x * x + y * y <= foot_.radius * foot_.radius;
+  }
+
+  [[nodiscard]] bool settled(const Square& s) const {
+    const double squared = foot_.radius * foot_.radius;
+    return std::any_of(points_.begin(), points_.begin() + std::min(found_, points_.size()), [&](const Point& p) {
+      const double x = std::abs(s.x - p.x) + s.half, y = std::abs(s.y - p.y) + s.half;
+      return x * x + y * y < squared;
+    });
+  }
+
+  [[nodiscard]] Vec3 over(double x, double y) const {
+    Vec3 place(axis_.x + x, axis_.y + y, 0.0);
+    place.z = plane_.level(place);
+    return place;
+  }
+
+  /// Whether there is floor nearer than the radius; its nearest point is remembered.
+  bool ask(double x, double y) {
+    ++queries_;
+    const Clearance near = space_.floor_clearance(column_, over(x, y), foot_.radius, floor_);
+    if (!near.found) return false;
+    const Point point{near.point.x - axis_.x, near.point.y - axis_.y};
+    points_[found_++ % points_.size()] = point;
+    return std::hypot(point.x - x, point.y - y) < foot_.radius;
+  }
+
+  [[nodiscard]] bool in_sight(double x, double y) const {
+    const Vec3 knee(0.0, 0.0, foot_.knee);
+    const Vec3 from = over(0.0, 0.0) + knee, to = over(x, y) + knee;
+    return !space_.sweep({std::min(sight_radius, 0.25 * foot_.radius)}, from, to - from).hit;
+  }
+
+  [[nodiscard]] bool hidden(const Square& s) const {
+    if (in_sight(s.x, s.y)) return false;
+    for (const double dx : {-s.half, s.half}) {
+      for (const double dy : {-s.half, s.half}) {
+        if (in_sight(s.x + dx, s.y + dy)) return false;
+      }
+    }
+    return true;
+  }
+
+  const Space& space_;
+  const FloorPlane& plane_;
+  const Foot& foot_;
+  Vec3 axis_;
+  Body column_;
+  Floor floor_;
+  double smallest_;
+  std::array<Point, points_kept> points_;
+  std::size_t found_ = 0;
+  int queries_ = 0;
+};
+
+}  // namespace
+
+bool free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis) {
+  Search search(space, plane, foot, axis);
+  const Search::Answer first = search.run(true);
+  // Walls only make fewer discs count: they are looked for only where there is one.
+  return first == Search::Answer::none   ? false
+         : first == Search::Answer::free ? true
+                                         : search.run(false) != Search::Answer::none;
+}
+
+}  // namespace roam::walking

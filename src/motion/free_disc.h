@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Whether a level disc fits into a gap of the floor: what a foot that is as large would fall through.
+
+#include "roam/space.h"
+
+namespace roam::walking {
+
+/// A plane that the floor around goes on in.
+struct FloorPlane {
+  Vec3 point{0.0};
+  Vec3 normal{0.0, 0.0, 1.0};  ///< z > 0
+
+  /// z of the plane over a place, metres.
+  [[nodiscard]] double level(const Vec3& place) const {
+    return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
+  }
+};
+
+/// Floor that is at most so much higher or lower than the plane carries, metres.
+constexpr double carrying_band = 0.25;
+
+struct Foot {
+  double radius = 0.0;         ///< of the disc, metres, > 0
+  double slope_degrees = 0.0;  ///< what is at most so steep is floor
+  /// Metres above the plane: what is as high is a wall, and a gap behind it does not count.
+  double knee = 0.0;
+};
+
+/// Whether a disc of the foot's radius, seen from above, holds `axis` and is free of floor within carrying_band of the
+/// plane; its centre must be in sight from the axis at the height of the knee. Where it is not settled, because a disc
+/// fits to within a millimetre or after more work than is sensible, the answer is that it is free.
+[[nodiscard]] bool free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis);
+
+}  // namespace roam::walking

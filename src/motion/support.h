@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// The foot that carries a body over cracks: WalkerSettings::support_radius.
+
+#include <optional>
+
+#include "motion/move.h"
+
+namespace roam::walking {
+
+/// Whether the body has a foot of its own.
+[[nodiscard]] bool has_foot(const Move& move);
+
+/// Looks for floor under the axis, not farther than `reach` metres below the lowest point, and remembers its plane.
+/// `horizontal`: metres since it was looked for last.
+bool see_floor(const Move& move, Stance& stance, double reach, double horizontal);
+
+/// Holds the body where its foot carries it, when what it stands on else lies `drop` metres lower than it is (negative:
+/// higher; infinite: it stands on nothing) and that is lower than the floor around. Not farther than `reach` down.
+/// Returns whether it does.
+bool carry(Move& move, Stance& stance, double drop, double reach);
+
+/// The part of `motion`, in the air, after which the foot carries the body; nothing when it does not.
+[[nodiscard]] std::optional<double> carried_after(const Move& move, Stance& stance, const Vec3& motion);
+
+/// Stands where carried_after() ended.
+void land_on_foot(Move& move, Stance& stance);
+
+/// After landing on real ground: the floor that was seen last carries nobody on another level.
+void forget_other_storeys(const Move& move, Stance& stance);
+
+}  // namespace roam::walking

@@ -1,0 +1,499 @@
+// The foot that carries a body over cracks: where it does, where it must not, at any speed.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "floor_oracle.h"
+#include "roam/error.h"
+#include "walker_judged.h"
+
+namespace {
+
+using namespace scenes;
+
+/// A slim person, with a foot.
+WalkerSettings person(double support_radius, double radius = 0.3) {
+  WalkerSettings s;
+  s.radius = radius;
+  s.support_radius = support_radius;
+  return s;
+}
+
+/// A floor with a split across it from x = 0 on, its sides `depth` deep, and a bottom; `rise`: of the far side.
+Mesh split(double width, double depth = 50.0, double rise = 0.0) {
+  Mesh m;
+  add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
+  add_floor(m, width, -10.0, 20.0, 10.0, rise);
+  add_wall(m, 0.0, -10.0, 0.0, 10.0, -depth, 0.0);
+  add_wall(m, width, -10.0, width, 10.0, -depth, rise);
+  add_floor(m, 0.0, -10.0, width, 10.0, -depth);
+  return m;
+}
+
+void turn(Mesh& mesh, double degrees) {
+  const double a = degrees * std::numbers::pi / 180.0;
+  for (Vec3& v : mesh.vertices) v = {std::cos(a) * v.x - std::sin(a) * v.y, std::sin(a) * v.x + std::cos(a) * v.y, v.z};
+}
+
+void tilt(Mesh& mesh, double degrees) {
+  const double a = degrees * std::numbers::pi / 180.0;
+  for (Vec3& v : mesh.vertices) v = {std::cos(a) * v.x - std::sin(a) * v.z, v.y, std::sin(a) * v.x + std::cos(a) * v.z};
+}
+
+constexpr std::array speeds{0.4, 1.4, 7.0, 50.0};
+constexpr std::array steps{1.0 / 240.0, 1.0 / 60.0, 1.0 / 25.0};
+
+/// How a walk towards +x over a crack ended.
+struct Crossing {
+  bool across = false;
+  bool fell = false;
+  double lowest = 0.0;   ///< of the feet, up to the far side
+  double highest = 0.0;  ///< likewise
+  int carried = 0;       ///< steps
+};
+
+Crossing cross(Walk& w, const Vec3& velocity, double dt, double goal) {
+  Crossing c;
+  const double speed = glm::length(velocity), way = goal - w.walker.position().x;
+  const int most = static_cast<int>(2.0 * way / (std::abs(velocity.x) * dt)) + 60;
+  (void)speed;
+  for (int i = 0; i < most && w.walker.position().x < goal; ++i) {
+    const StepReport& r = w.step(velocity, dt);
+    c.carried += r.carried ? 1 : 0;
+    c.lowest = std::min(c.lowest, w.feet());
+    c.highest = std::max(c.highest, w.feet());
+    c.fell |= r.has(EventKind::fell) || w.feet() < -1.0;
+    if (c.fell) return c;
+  }
+  c.across = w.walker.position().x >= goal;
+  return c;
+}
+
+TEST(Support, CarriesASlimBodyOverASplitAtAnySpeed) {
+  for (const double width : {0.62, 0.8, 1.25}) {
+    const Mesh m = split(width);
+    for (const double more : {0.002, 0.02, 0.4}) {
+      for (const double speed : speeds) {
+        for (const double dt : steps) {
+          Walk w(m, person(0.5 * width + more), Mode::walk, {-0.7, 0.1, 0.95});
+          const Crossing c = cross(w, {speed, 0.0, 0.0}, dt, width + 0.5);
+          EXPECT_TRUE(c.across) << width << " " << more << " " << speed << " " << dt;
+          EXPECT_GT(c.lowest, -near_ground);
+          EXPECT_LT(c.highest, near_ground);
+          EXPECT_EQ(w.count(EventKind::airborne), 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(Support, LetsABodyFallWhereTheFootIsTooSmallAtAnySpeed) {
+  for (const double width : {0.8, 1.0, 1.25}) {
+    const Mesh m = split(width);
+    for (const double less : {0.002, 0.02}) {
+      for (const double speed : speeds) {
+        for (const double dt : steps) {
+          Walk w(m, person(0.5 * width - less), Mode::walk, {-0.7, 0.1, 0.95});
+          EXPECT_TRUE(cross(w, {speed, 0.0, 0.0}, dt, width + 0.5).fell)
+              << width << " " << less << " " << speed << " " << dt;
+          EXPECT_EQ(w.count(EventKind::carried), 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(Support, OfNoMoreThanTheBodyChangesNothing) {
+  const Mesh m = split(0.5);
+  std::vector<Vec3> first;
+  for (const double foot : {0.0, 0.1, 0.3}) {
+    Walk w(m, person(foot), Mode::walk, {-1.0, 0.1, 0.95});
+    std::vector<Vec3> way;
+    for (int i = 0; i < 120; ++i) way.push_back(w.step({1.4, 0.1, 0.0}).to);
+    if (first.empty()) first = way;
+    EXPECT_EQ(way, first);
+  }
+}
+
+TEST(Support, CarriesInEveryDirection) {
+  for (const double degrees : {17.0, 45.0, 90.0, 211.0}) {
+    Mesh m = split(1.25);
+    turn(m, degrees);
+    const double a = degrees * std::numbers::pi / 180.0;
+    const Vec3 across(std::cos(a), std::sin(a), 0.0), along(-std::sin(a), std::cos(a), 0.0);
+    for (const double oblique : {0.0, 0.7, 2.0}) {
+      Walk w(m, person(0.645), Mode::walk, -0.7 * across + Vec3(0.0, 0.0, 0.95));
+      for (int i = 0; i < 300 && glm::dot(w.walker.position(), across) < 1.8; ++i) {
+        w.step(1.4 * across + oblique * along);
+        ASSERT_GT(w.feet(), -near_ground) << degrees << " " << oblique;
+      }
+      EXPECT_GE(glm::dot(w.walker.position(), across), 1.8);
+    }
+  }
+}
+
+TEST(Support, FindsAHigherOrLowerFarSide) {
+  for (const double rise : {-0.2, -0.1, 0.1, 0.2}) {
+    for (const double speed : speeds) {
+      const Mesh m = split(1.25, 50.0, rise);
+      Walk w(m, person(0.645), Mode::walk, {-0.7, 0.1, 0.95});
+      const Crossing c = cross(w, {speed, 0.0, 0.0}, frame, 2.5);
+      EXPECT_TRUE(c.across) << rise << " " << speed;
+      w.go({0.0, 0.0, 0.0}, 0.2);
+      EXPECT_NEAR(w.feet(), rise, near_ground) << rise << " " << speed;
+      EXPECT_FALSE(w.walker.report().carried);
+    }
+  }
+}
+
+TEST(Support, GoesOnInThePlaneOfARamp) {
+  for (const double degrees : {-20.0, 20.0}) {
+    for (const double turned : {0.0, 35.0, 90.0}) {  // down the ramp, obliquely, along its contour
+      Mesh m = split(1.25);
+      turn(m, turned);
+      tilt(m, degrees);
+      const double a = turned * std::numbers::pi / 180.0, rise = std::tan(degrees * std::numbers::pi / 180.0);
+      const Vec3 across(std::cos(a), std::sin(a), 0.0);
+      const Vec3 start = -1.0 * across;
+      Walk w(m, person(0.645), Mode::walk, {start.x, start.y, rise * start.x + 1.1});
+      w.go(Vec3(0.0), 0.3);
+      for (int i = 0; i < 300 && glm::dot(w.walker.position(), across) < 2.3; ++i) {
+        w.step(1.4 * across);
+        const Vec3 feet = w.walker.feet();
+        // A ball on a ramp touches it beside its lowest point.
+        const double lifted = 0.3 * (std::sqrt(1.0 + rise * rise) - 1.0);
+        ASSERT_NEAR(feet.z, rise * feet.x + lifted, 0.02) << degrees << " " << turned << " at " << i;
+      }
+      EXPECT_GE(glm::dot(w.walker.position(), across), 2.3);
+      EXPECT_GT(w.count(EventKind::carried), 0);
+    }
+  }
+}
+
+TEST(Support, WalksOverSlats) {
+  Mesh m;
+  add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
+  for (int i = 0; i < 20; ++i) add_box(m, {0.7 + 0.75 * i, -10.0, -0.05}, {0.75 + 0.75 * i, 10.0, 0.0});
+  for (const double speed : speeds) {
+    Walk w(m, person(0.37, 0.25), Mode::walk, {-1.0, 0.0, 0.95});
+    const Crossing c = cross(w, {speed, 0.0, 0.0}, frame, 14.0);
+    EXPECT_TRUE(c.across) << speed;
+    EXPECT_GT(c.lowest, -near_ground);
+  }
+}
+
+Mesh stairs(double riser, double tread) {
+  Mesh m;
+  add_floor(m, -10.0, -5.0, 0.0, 5.0, 0.0);
+  for (int i = 1; i <= 8; ++i) {
+    const double x = tread * (i - 1);
+    add_wall(m, x, -5.0, x, 5.0, riser * (i - 1), riser * i);
+    add_floor(m, x, -5.0, x + tread, 5.0, riser * i);
+  }
+  add_floor(m, 8 * tread, -5.0, 8 * tread + 0.8, 5.0, 8 * riser);
+  add_floor(m, 8 * tread + 2.0, -5.0, 8 * tread + 10.0, 5.0, 8 * riser);  // a split of 1.2 m on the landing
+  return m;
+}
+
+TEST(Support, ClimbsStairsAsWithoutAndCrossesASplitAboveThem) {
+  const Mesh m = stairs(0.17, 0.29);
+  Walk with(m, person(0.62), Mode::walk, {-1.0, 0.0, 0.95}), without(m, person(0.0), Mode::walk, {-1.0, 0.0, 0.95});
+  for (int i = 0; i < 500 && with.walker.position().x < 2.5; ++i) {
+    with.step({1.0, 0.0, 0.0});
+    without.step({1.0, 0.0, 0.0});
+    ASSERT_EQ(with.walker.position(), without.walker.position()) << i;
+  }
+  EXPECT_EQ(with.count(EventKind::carried), 0);
+  EXPECT_TRUE(cross(with, {1.0, 0.0, 0.0}, frame, 5.5).across);
+  EXPECT_NEAR(with.feet(), 8 * 0.17, near_ground);
+  // And down again.
+  for (int i = 0; i < 800 && with.walker.position().x > -1.0; ++i) with.step({-1.0, 0.0, 0.0});
+  EXPECT_NEAR(with.feet(), 0.0, near_ground);
+  EXPECT_EQ(with.count(EventKind::fell), 0);
+  EXPECT_EQ(with.count(EventKind::airborne), 0);
+}
+
+TEST(Support, StandsOnABlockInTheSplit) {
+  for (const double top : {-0.2, 0.0, 0.15}) {
+    Mesh m = split(1.6);
+    add_box(m, {0.55, -10.0, -50.0}, {1.05, 10.0, top});
+    for (const double speed : speeds) {
+      Walk w(m, person(0.32), Mode::walk, {-0.7, 0.0, 0.95});
+      EXPECT_TRUE(cross(w, {speed, 0.0, 0.0}, frame, 2.5).across) << top << " " << speed;
+    }
+    Walk w(m, person(0.32), Mode::walk, {-0.7, 0.0, 0.95});
+    EXPECT_TRUE(cross(w, {1.4, 0.0, 0.0}, frame, 0.8).across);
+    EXPECT_NEAR(w.feet(), top, near_ground);
+    EXPECT_FALSE(w.walker.report().carried);
+  }
+}
+
+/// Walks over the edge with and without a foot: nothing must be different.
+void must_not_carry(const Mesh& m, double support_radius, const Vec3& start, const Vec3& velocity, const char* what) {
+  for (const double dt : steps) {
+    Walk with(m, person(support_radius), Mode::walk, start), without(m, person(0.0), Mode::walk, start);
+    for (int i = 0; i < static_cast<int>(4.0 / dt); ++i) {
+      with.step(velocity, dt);
+      without.step(velocity, dt);
+      ASSERT_EQ(with.walker.position(), without.walker.position()) << what << ", step " << i << " of " << dt << " s";
+    }
+    EXPECT_EQ(with.count(EventKind::carried), 0) << what;
+  }
+}
+
+TEST(Support, NeverOverhangsACliffAPitOrTheEndOfTheFloor) {
+  Mesh cliff;
+  add_floor(cliff, -20.0, -10.0, 0.0, 10.0, 0.0);
+  add_wall(cliff, 0.0, -10.0, 0.0, 10.0, -30.0, 0.0);
+  add_floor(cliff, 0.0, -10.0, 30.0, 10.0, -30.0);
+  Mesh end;
+  add_floor(end, -20.0, -10.0, 0.0, 10.0, 0.0);
+  for (const double speed : speeds) {
+    must_not_carry(cliff, 1.0, {-0.7, 0.1, 0.95}, {speed, 0.0, 0.0}, "cliff");
+    must_not_carry(split(3.0, 5.0), 1.0, {-0.7, 0.1, 0.95}, {speed, 0.3 * speed, 0.0}, "pit");
+    must_not_carry(split(3.0, 0.6), 1.45, {-0.7, 0.1, 0.95}, {speed, 0.0, 0.0}, "shallow pit");
+    must_not_carry(end, 1.0, {-0.7, 0.1, 0.95}, {speed, 0.0, 0.0}, "end of the floor");
+  }
+}
+
+TEST(Support, NeverOverhangsALedgeThatIsAFootHigh) {
+  Mesh m;
+  add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
+  add_wall(m, 0.0, -10.0, 0.0, 10.0, -0.4, 0.0);
+  add_floor(m, 0.0, -10.0, 20.0, 10.0, -0.4);
+  must_not_carry(m, 0.7, {-0.7, 0.1, 0.95}, {1.4, 0.0, 0.0}, "ledge");
+}
+
+/// A corridor of `width` along x whose floor ends at its walls, with a split from x = 0 on.
+Mesh corridor(double width, double gap) {
+  Mesh m;
+  const double half = 0.5 * width;
+  add_floor(m, -10.0, -half, 0.0, half, 0.0);
+  add_floor(m, gap, -half, 10.0, half, 0.0);
+  for (const double y : {-half, half}) add_wall(m, -10.0, y, 10.0, y, -5.0, 3.0);
+  return m;
+}
+
+TEST(Support, CarriesBesideTheWallsOfACorridorWhoseFloorEndsThere) {
+  const Mesh m = corridor(2.0, 1.25);
+  for (const double y : {0.0, 0.3, 0.69, -0.69}) {
+    for (const double more : {0.002, 0.02, 0.2}) {
+      Walk w(m, person(0.625 + more), Mode::walk, {-0.7, y, 0.95});
+      const Crossing c = cross(w, {1.4, 0.3 * y, 0.0}, frame, 2.0);
+      EXPECT_TRUE(c.across) << y << " " << more;
+      EXPECT_GT(c.lowest, -near_ground) << y << " " << more;
+    }
+  }
+}
+
+TEST(Support, NeverOverhangsAPitBetweenNearWalls) {
+  must_not_carry(corridor(1.0, 4.0), 0.7, {-0.7, 0.0, 0.95}, {1.4, 0.0, 0.0}, "pit in a corridor");
+  must_not_carry(corridor(1.0, 1.5), 0.7, {-0.7, 0.1, 0.95}, {7.0, 0.0, 0.0}, "wide split in a corridor");
+}
+
+TEST(Support, DoesNotCarryOverAHoleJoinedToAnOpenDrop) {
+  Mesh m;  // a slot of 0.7 m that opens into a pit of 4 m
+  add_floor(m, -10.0, -10.0, 10.0, -0.35, 0.0);
+  add_floor(m, -10.0, 0.35, 10.0, 10.0, 0.0);
+  add_floor(m, -10.0, -0.35, -4.0, 0.35, 0.0);
+  Mesh pit = m;
+  pit.vertices.clear();
+  pit.triangles.clear();
+  add_floor(pit, -10.0, -10.0, 0.0, -0.35, 0.0);
+  add_floor(pit, -10.0, 0.35, 0.0, 10.0, 0.0);
+  add_floor(pit, -10.0, -0.35, -4.0, 0.35, 0.0);
+  // Along the slot it is carried, up to where a disc of its foot finds room.
+  Walk w(pit, person(0.45), Mode::walk, {-5.0, 0.0, 0.95});
+  for (int i = 0; i < 600 && !w.walker.report().has(EventKind::fell); ++i) w.step({1.4, 0.0, 0.0});
+  EXPECT_TRUE(w.walker.report().has(EventKind::fell));
+  EXPECT_GT(w.count(EventKind::carried), 0);
+  // A disc of 0.45 m reaches back over the slot by what its rim bulges in: less than 0.3 m.
+  EXPECT_GT(w.walker.position().x, -0.3);
+  EXPECT_LT(w.walker.position().x, 0.5);
+}
+
+TEST(Support, CrossesCrossingsAndTJointsByTheirOwnMeasure) {
+  Mesh cross_of;  // two splits of 0.5 m: the largest disc between the four corners has a radius of 0.354 m
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      add_floor(cross_of, x > 0 ? 0.25 : -10.0, y > 0 ? 0.25 : -10.0, x > 0 ? 10.0 : -0.25, y > 0 ? 10.0 : -0.25, 0.0);
+    }
+  }
+  for (const double foot : {0.345, 0.360}) {
+    for (const double speed : speeds) {
+      Walk w(cross_of, person(foot, 0.2), Mode::walk, {-1.0, -0.02, 0.95});
+      const Crossing c = cross(w, {speed, 0.02 * speed, 0.0}, frame, 1.0);
+      EXPECT_EQ(c.across, foot > 0.354) << foot << " " << speed;
+    }
+  }
+}
+
+TEST(Support, CrossesAManholeThatIsSmallerThanTheFoot) {
+  Mesh m;  // a square hole of 0.8 m
+  add_floor(m, -10.0, -10.0, -0.4, 10.0, 0.0);
+  add_floor(m, 0.4, -10.0, 10.0, 10.0, 0.0);
+  add_floor(m, -0.4, -10.0, 0.4, -0.4, 0.0);
+  add_floor(m, -0.4, 0.4, 0.4, 10.0, 0.0);
+  for (const double foot : {0.395, 0.405}) {
+    for (const double speed : speeds) {
+      for (const double dt : steps) {
+        Walk w(m, person(foot), Mode::walk, {-1.0, 0.02, 0.95});
+        const Crossing c = cross(w, {speed, 0.0, 0.0}, dt, 1.0);
+        EXPECT_EQ(c.across, foot > 0.4) << foot << " " << speed << " " << dt;
+        EXPECT_EQ(c.fell, foot < 0.4) << foot << " " << speed << " " << dt;
+      }
+    }
+  }
+}
+
+TEST(Support, StandsStillTurnsRoundAndCrouchesOverACrack) {
+  Mesh m = split(1.25);
+  add_box(m, {-0.2, -10.0, 1.3}, {1.45, 10.0, 1.6});  // a beam over the crack
+  Walk w(m, person(0.645), Mode::walk, {-1.0, 0.0, 0.95});
+  EXPECT_TRUE(cross(w, {1.0, 0.0, 0.0}, frame, 0.6).across);
+  EXPECT_TRUE(w.walker.report().carried);
+  EXPECT_TRUE(w.walker.crouched());
+  const Vec3 rest = w.walker.position();
+  w.go(Vec3(0.0), 5.0);
+  EXPECT_EQ(w.walker.position(), rest);
+  w.go({0.0, 1.0, 0.0}, 1.0);
+  EXPECT_TRUE(w.walker.report().carried);
+  for (int i = 0; i < 200 && w.walker.position().x > -1.0; ++i) w.step({-1.0, 0.0, 0.0});
+  EXPECT_NEAR(w.feet(), 0.0, near_ground);
+  EXPECT_FALSE(w.walker.report().carried);
+  EXPECT_FALSE(w.walker.crouched());
+  EXPECT_EQ(w.count(EventKind::carried), 1);
+  EXPECT_EQ(w.count(EventKind::airborne), 0);
+}
+
+TEST(Support, JumpsFromACrackAndOntoIt) {
+  const Mesh m = split(1.25);
+  for (const double dt : steps) {
+    Walk w(m, person(0.645), Mode::walk, {-1.0, 0.0, 0.95});
+    EXPECT_TRUE(cross(w, {1.0, 0.0, 0.0}, dt, 0.6).across);
+    double highest = 0.0;
+    w.step(Vec3(0.0), dt, true);
+    for (double t = 0.0; t < 1.5; t += dt) {
+      w.step(Vec3(0.0), dt);
+      highest = std::max(highest, w.feet());
+      ASSERT_GT(w.feet(), -near_ground);
+    }
+    EXPECT_GT(highest, 0.4);
+    EXPECT_TRUE(w.walker.report().carried);
+    EXPECT_GT(w.count(EventKind::landed), 0);
+    EXPECT_EQ(w.count(EventKind::fell), 0);
+    // From the floor, and down over the middle of the crack.
+    Walk onto(m, person(0.645), Mode::walk, {-0.3, 0.0, 0.95});
+    onto.step({1.4, 0.0, 0.0}, dt, true);
+    for (double t = 0.0; t < 1.0; t += dt) onto.step({t < 0.6 ? 1.4 : 0.0, 0.0, 0.0}, dt);
+    EXPECT_TRUE(onto.walker.report().carried) << dt;
+    EXPECT_NEAR(onto.feet(), 0.0, near_ground);
+  }
+}
+
+TEST(Support, LandsOnACrackThatItNeverSawTheFloorOf) {
+  Mesh m = split(1.25);
+  add_box(m, {-3.0, -1.0, 0.0}, {0.05, 1.0, 2.0});  // to jump down from, over the crack
+  for (const double dt : steps) {
+    Walk w(m, person(0.645), Mode::walk, {-0.5, 0.0, 2.95});
+    for (double t = 0.0; t < 2.0; t += dt) w.step({w.feet() > 1.0 ? 1.0 : 0.0, 0.0, 0.0}, dt);
+    EXPECT_NEAR(w.feet(), 0.0, near_ground) << dt;
+    EXPECT_GT(w.walker.position().x, 0.3);
+    EXPECT_TRUE(w.walker.report().carried);
+  }
+  Walk put(split(1.25), person(0.645), Mode::walk, {0.6, 0.0, 0.91});
+  EXPECT_TRUE(put.walker.report().carried);
+  EXPECT_NEAR(put.feet(), 0.0, near_ground);
+}
+
+TEST(Support, StepsOverARoughFloorWithACrack) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    Mesh m = rough_tiling(80, seed);
+    // Bumps of up to 3 cm, and a split of 1 m between x = 0 and 1.
+    Mesh cut;
+    for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+      roam::Triangle t = m.triangle(i);
+      const double left = std::max({t[0].x, t[1].x, t[2].x});
+      for (Vec3& v : t) {
+        v.z = 0.015 * (std::sin(9.0 * v.x + static_cast<double>(seed)) + std::cos(11.0 * v.y));
+        if (left > 1e-6) v.x += 1.0;
+      }
+      add_triangle(cut, t[0], t[1], t[2]);
+    }
+    for (const double speed : speeds) {
+      Walk w(cut, person(0.52), Mode::walk, {-2.0, random.between(-2.0, 2.0), 1.0});
+      const Crossing c = cross(w, {speed, 0.0, 0.0}, frame, 3.0);
+      EXPECT_TRUE(c.across) << seed << " " << speed;
+      EXPECT_GT(c.lowest, -0.12) << seed << " " << speed;
+    }
+  }
+}
+
+TEST(Support, IsRefusedOutOfRange) {
+  for (const double foot : {-0.1, 250.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(roam::check(person(foot)), roam::Error) << foot;
+  }
+  EXPECT_NO_THROW(roam::check(person(250.0)));
+}
+
+/// Whether a disc of `radius` that holds the axis is free of floor, tried place by place.
+bool brute_free_disc(std::span<const roam::Triangle> floor, double level, const Vec3& axis, double radius) {
+  constexpr double spacing = 0.02;
+  for (double x = -radius; x <= radius; x += spacing) {
+    for (double y = -radius; y <= radius; y += spacing) {
+      if (x * x + y * y > radius * radius) continue;
+      const Vec3 centre(axis.x + x, axis.y + y, level);
+      const roam::Floor band{floor_oracle::slope_limit, 0.25, centre, Vec3(0.0, 0.0, 1.0)};
+      if (floor_oracle::distance(floor, {0.0, 0.25}, centre, band, 9.0) >= radius) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Support, CarriesNowhereAFreeDiscHasRoomInRandomHoles) {
+  int carried = 0, fallen = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    // Level slabs with gaps of all widths between them, at slightly different heights.
+    Mesh m;
+    double x = -4.0;
+    while (x < 6.0) {
+      const double end = x + random.between(0.3, 1.2);
+      double y = -3.0;
+      while (y < 3.0) {
+        const double top = y + random.between(0.5, 3.0);
+        add_floor(m, x, y, end, top, random.between(-0.05, 0.05));
+        y = top + (random.chance(0.5) ? random.between(0.1, 1.2) : 0.0);
+      }
+      x = end + (random.chance(0.5) ? random.between(0.1, 1.2) : 0.0);
+    }
+    add_floor(m, -6.0, -1.0, -3.6, 1.0, 0.0);
+    const std::vector<roam::Triangle> floor = floor_oracle::triangles_of(m);
+    const double foot = random.between(0.3, 0.7), speed = std::pow(10.0, random.between(-0.4, 1.7));
+    const double dt = random.between(1.0 / 240.0, 1.0 / 25.0);
+    Walk w(m, person(foot, 0.2), Mode::walk, {-5.0, 0.0, 0.95});
+    for (int i = 0; i < 3000 && w.walker.position().x < 5.0; ++i) {
+      const StepReport& r = w.step({speed, 0.3 * speed * std::sin(0.02 * i), 0.0}, dt);
+      if (r.carried) {
+        ++carried;
+        // A millimetre for what storing may cost.
+        if (i % 7 == 0) {
+          ASSERT_FALSE(brute_free_disc(floor, w.feet(), r.to, foot + 1e-3)) << seed << " " << i;
+        }
+      }
+      if (r.has(EventKind::fell)) {
+        ++fallen;
+        break;
+      }
+    }
+  }
+  EXPECT_GT(carried, 200);
+  EXPECT_GT(fallen, 5);
+}
+
+}  // namespace
