@@ -3,8 +3,8 @@
 
 #include "progress.h"
 #include "report.h"
+#include "roam/profile.h"
 #include "roam/store.h"
-#include "scene_hash.h"
 #include "scene_options.h"
 #include "verbs.h"
 
@@ -48,7 +48,7 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene) {
           {"bytes", stats.bytes},
           {"bytes_per_triangle", static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles)},
           {"largest_error_m", stats.largest_error_m},
-          {"hash", scene_hash(scene.meshes)},
+          {"hash", identity_of(scene.meshes).hash},
           {"read_s", scene.read_seconds},
           {"build_s", scene.build_seconds},
           {"import", import_report(scene.report)}};
@@ -72,7 +72,7 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   line("largest error", fmt::format("{:.3g} m between a vertex and its place in the index", stats.largest_error_m));
   line("time",
        fmt::format("read in {}, indexed in {}", short_time(scene.read_seconds), short_time(scene.build_seconds)));
-  line("hash", scene_hash(scene.meshes));
+  line("hash", identity_of(scene.meshes).hash);
   return text;
 }
 
