@@ -20,17 +20,17 @@ constexpr double kFindShare = 0.8;
 
 /// From the floor that a disc touches first to what it touches most nearly opposite.
 Vec3 across(const FloorPlan& plan, const Disc& disc) {
-  std::vector<NearFloor> near;
+  std::vector<NearPlace> near;
   plan.touching(disc.centre, 2.0 * disc.radius, 0.02 * disc.radius, near);
-  const auto away = [&](const NearFloor& n) {
+  const auto away = [&](const NearPlace& n) {
     const Vec3 d = disc.centre - n.point;
     const double length = std::hypot(d.x, d.y);
     return length > 0.0 ? Vec3(d.x / length, d.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
   };
   const Vec3 first = away(near.front());
-  NearFloor other = near.front();
+  NearPlace other = near.front();
   double least = 1.0;
-  for (const NearFloor& n : near) {
+  for (const NearPlace& n : near) {
     const Vec3 from = away(n);
     if (const double along = first.x * from.x + first.y * from.y; along < least) {
       least = along;
@@ -51,7 +51,8 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
   crack.kind = bottom && is_reached(*bottom) ? Crack::Kind::step_down : Crack::Kind::crack;
   crack.point = measured.disc.centre;
   crack.radius = measured.disc.radius;
-  crack.direction = across(probe.plan(), measured.disc);
+  crack.direction = across(probe.floor(), measured.disc);
+  crack.foot = measured.foot;
   crack.rim = measured.rim;
   return crack;
 }
@@ -79,7 +80,7 @@ std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<
     if (drop.rim.empty()) {
       drop.kind = Crack::Kind::open_drop;
       drop.point = open[i].disc.centre;
-      drop.radius = options.support_max;
+      drop.radius = drop.foot = options.support_max;
       const Vec3 out = drop.point - open[i].rim;
       const double length = std::hypot(out.x, out.y);
       drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
@@ -104,7 +105,7 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
   std::vector<FoundCrack> cracks;
   for (const MeasuredVoid& measured : measure_voids(options, probe, OpenDrops(options, open), rest, ended)) {
     if (measured.disc.radius >= probe.open()) {
-      for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc});
+      for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});
     } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {
       cracks.push_back(crack_of(probe, measured, is_reached));
     }

@@ -22,6 +22,9 @@ struct CrackOptions {
 
 /// A gap, and where one comes to it.
 struct FoundCrack : Crack {
+  /// m, at least `radius`: a foot that carries even the thinnest body, which comes closer to walls and so, where a gap
+  /// runs along or obliquely into a wall, farther from floor. To the spacing of a lattice, 3 cm for a radius of 5 cm.
+  double foot = 0.0;
   /// Places of the floor's rim along it, each at most 2 * smallest from the next along a triangle's edge, sorted. A way
   /// of the feet that goes over the gap passes between or over them.
   std::vector<Vec3> rim;

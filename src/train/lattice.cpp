@@ -44,10 +44,12 @@ bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& fro
   const Vec3 a = centre_of(measure, from, at_from), b = centre_of(measure, to, at_to);
   if (free_way(world, body, a, b)) return true;
   if (measure.mode == Mode::fly) return false;
-  const double top = std::max(a.z, b.z);
-  const Vec3 above_a(a.x, a.y, top), above_b(b.x, b.y, top);
-  return free_way(world, body, a, above_a) && free_way(world, body, above_a, above_b) &&
-         free_way(world, body, above_b, b);
+  const auto goes_at = [&](double height) {
+    const Vec3 from_a(a.x, a.y, height), to_b(b.x, b.y, height);
+    return free_way(world, body, a, from_a) && free_way(world, body, from_a, to_b) && free_way(world, body, to_b, b);
+  };
+  // Over a kerb at the height of the higher place; and a sphere, which may lift anywhere, under a lintel at the lower.
+  return goes_at(std::max(a.z, b.z)) || (measure.height == 0.0 && goes_at(std::min(a.z, b.z)));
 }
 
 }  // namespace roam::training

@@ -32,7 +32,8 @@ double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.
 struct Cell {
   std::int64_t x = 0, y = 0;
   double level = 0.0;
-  double distance = 0.0;  ///< of floor
+  double distance = 0.0;  ///< of floor or wall
+  double floor = 0.0;     ///< of floor
   std::uint32_t flood = 0;
   bool inside = false;  ///< of the flood; else floor, a wall, filled up, or an open drop
 };
@@ -45,8 +46,8 @@ class Floods {
 
   void add(const RimPlace& place) {
     if (drops_.cover(place.disc.centre)) return;
-    std::optional<std::uint32_t> flood = flood_at(place.disc.centre);
-    if (!flood) flood = fill(place.disc.centre);
+    std::optional<std::uint32_t> flood = flood_at(place.outside);
+    if (!flood) flood = fill(place.outside);
     rims_[*flood].push_back(place.rim);
   }
 
@@ -54,6 +55,7 @@ class Floods {
     std::map<std::uint32_t, MeasuredVoid> voids;
     for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
       MeasuredVoid& whole = voids[sets_.find(flood)];
+      whole.foot = std::max({whole.foot, discs_[flood].radius, feet_[flood]});
       const Disc& disc = discs_[flood];
       if (disc.radius > whole.disc.radius ||
           (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
@@ -109,6 +111,7 @@ class Floods {
   std::uint32_t fill(const Vec3& seed) {
     const std::uint32_t flood = sets_.add();
     rims_.emplace_back();
+    feet_.push_back(0.0);
     std::deque<Cell> open;
     std::vector<Cell> filled;
     const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
@@ -142,8 +145,10 @@ class Floods {
     }
     const Vec3 place = place_of(x, y, level);
     if (!cell) {
+      const double floor = probe_.floor().nearest(place, options_.support_max).distance;
+      const double body = probe_.body().nearest_wall(place, floor).distance;
       std::vector<Cell>& square = cells_[square_number(x, y)];
-      square.push_back({x, y, level, probe_.plan().nearest(place, options_.support_max).distance, flood, false});
+      square.push_back({x, y, level, body, floor, flood, false});
       cell = &square.back();
     }
     // A ridge where the probe just fits has cells on it with so much less.
@@ -151,6 +156,7 @@ class Floods {
     if (cell->distance < least || drops_.cover(place)) return std::nullopt;
     const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
     if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
+    if (cell->distance >= probe_.radius()) feet_[flood] = std::max(feet_[flood], cell->floor);
     cell->level = level;
     cell->flood = flood;
     cell->inside = true;
@@ -192,15 +198,21 @@ class Floods {
     return best.radius > 0.0 ? best : drop;
   }
 
-  /// First by what sees well; then, where that kept off a wall, as close to it as need be.
+  /// The largest body that goes in near `start`, and a foot that carries it there. Where walls leave no room for a body
+  /// as wide as the gap, it takes the foot that carries the widest bodies that they let in.
   Disc grown(const Vec3& start) const {
     constexpr double finest = 0.1 * VoidProbe::precision;
+    constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
+    constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
     const double sphere = probe_.radius() - kSinkMargin;
-    const Disc disc = grow(probe_.plan(), start, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+    const auto stays = [&](const Vec3& from, const Vec3& to) {
       return probe_.sees(from, to) && probe_.sinks(to, sphere);
-    });
-    return grow(probe_.plan(), disc.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
-      return level_distance(disc.centre, to) < 2.0 * probe_.sight() && probe_.sees_closely(from, to);
+    };
+    const Disc body = grow(probe_.body(), start, probe_.open(), finest, stays);
+    if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
+    return grow(probe_.floor(), body.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+      const double room = widest_share * body.radius;
+      return stays(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
     });
   }
 
@@ -212,6 +224,7 @@ class Floods {
   DisjointSets sets_;
   std::vector<Disc> discs_;              ///< of each flood
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
+  std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
 };
 
 /// Places in parts that are farther from each other than two floods reach, in the order of their first places.

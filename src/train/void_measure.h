@@ -26,6 +26,7 @@ class OpenDrops {
 /// A void that was measured: the largest disc of all its arms.
 struct MeasuredVoid {
   Disc disc;
+  double foot = 0.0;
   std::vector<Vec3> rim;
 };
 

@@ -15,6 +15,8 @@ namespace {
 
 /// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
 constexpr double kStepSlack = 0.003;
+/// Of the probe: the sphere that looks about at knee height.
+constexpr double kSightShare = 0.2;
 /// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
 constexpr double kClimbPrecision = 0.004;
 /// Two corners of an edge nearer than this in the plan have no side.
@@ -28,13 +30,15 @@ VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
       step_(options.step + kStepSlack),
       radius_(0.9 * options.smallest),
       outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
-      plan_(survey, step_) {}
+      floor_(survey, step_),
+      body_(survey, floor_, options.knee) {}
 
 bool VoidProbe::has_floor(const Vec3& place) const {
   return survey_.floor().ray(place + Vec3(0.0, 0.0, step_), Vec3(0.0, 0.0, -2.0 * step_)).hit;
 }
 
-bool VoidProbe::passes(const Vec3& from, const Vec3& to, double sphere) const {
+bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
+  const double sphere = kSightShare * radius_;
   const Vec3 knee = from + Vec3(0.0, 0.0, options_.knee);
   Impact met = survey_.world().sweep({sphere, 0.0}, knee, to - from);
   // A sphere that came to touch a wall may not be let go again: a smaller one is.
@@ -48,11 +52,10 @@ bool VoidProbe::sinks(const Vec3& place, double radius) const {
 }
 
 std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
-  const Vec3 knee = place + Vec3(0.0, 0.0, options_.knee);
-  const double depth = knee.z - survey_.world().bounds().lower.z + 1.0;
-  const Impact down = survey_.world().sweep({radius_, 0.0}, knee, {0.0, 0.0, -depth});
+  const double depth = place.z - survey_.world().bounds().lower.z + 1.0;
+  const Impact down = survey_.world().ray(place, {0.0, 0.0, -depth});
   if (!down.hit) return std::nullopt;
-  return knee - Vec3(0.0, 0.0, down.time * depth + radius_);
+  return place - Vec3(0.0, 0.0, down.time * depth);
 }
 
 namespace {
@@ -81,7 +84,7 @@ class Rims {
     for (double i = 0.5; i < parts; i += 1.0) {
       const Vec3 rim = a + (i / parts) * along;
       const Vec3 outside = rim + probe_.outside() * out;
-      if (is_void(rim, out, outside)) found.push_back({rim, climb(outside)});
+      if (is_void(rim, out, outside)) found.push_back({rim, outside, climb(outside)});
     }
   }
 
@@ -93,7 +96,7 @@ class Rims {
   }
 
   Disc climb(const Vec3& outside) const {
-    return grow(probe_.plan(), outside, probe_.open(), kClimbPrecision,
+    return grow(probe_.floor(), outside, probe_.open(), kClimbPrecision,
                 [&](const Vec3& from, const Vec3& to) { return probe_.sees(from, to); });
   }
 
@@ -126,7 +129,7 @@ std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& optio
   std::vector<RimPlace> all;
   for (const std::vector<RimPlace>& part : found) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const RimPlace& a, const RimPlace& b) {
-    return comes_before(a.rim, b.rim) || (a.rim == b.rim && comes_before(a.disc.centre, b.disc.centre));
+    return comes_before(a.rim, b.rim) || (a.rim == b.rim && comes_before(a.outside, b.outside));
   });
   return all;
 }

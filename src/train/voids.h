@@ -21,7 +21,8 @@ class VoidProbe {
   [[nodiscard]] double radius() const { return radius_; }
   /// Just outside a rim: where that sphere passes it by.
   [[nodiscard]] double outside() const { return outside_; }
-  [[nodiscard]] const FloorPlan& plan() const { return plan_; }
+  [[nodiscard]] const FloorPlan& floor() const { return floor_; }
+  [[nodiscard]] const BodyPlan& body() const { return body_; }
   /// A disc as large is an open drop.
   [[nodiscard]] double open() const { return options_.support_max - precision; }
 
@@ -29,11 +30,7 @@ class VoidProbe {
   [[nodiscard]] bool has_floor(const Vec3& place) const;
   /// Nothing between two places at knee height. A sphere is swept, as small as goes between a rail and a wall and
   /// larger than the gaps of badly made walls: a ray would slip through those.
-  [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const { return passes(from, to, sight()); }
-  /// The same for a sphere of 1 mm, which comes close to walls but should not be sent far.
-  [[nodiscard]] bool sees_closely(const Vec3& from, const Vec3& to) const { return passes(from, to, 0.001); }
-  /// Of the sphere of sees(), m.
-  [[nodiscard]] double sight() const { return 0.2 * radius_; }
+  [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const;
   /// A sphere let go at knee height sinks farther than a step below the place.
   [[nodiscard]] bool sinks(const Vec3& place, double radius) const;
   /// Where a foot comes to rest that sinks there; none where there is no bottom.
@@ -42,18 +39,18 @@ class VoidProbe {
   static constexpr double precision = 2e-5;  ///< m, of all radii
 
  private:
-  [[nodiscard]] bool passes(const Vec3& from, const Vec3& to, double sphere) const;
-
   const Survey& survey_;
   CrackOptions options_;
   double step_, radius_, outside_;
-  FloorPlan plan_;
+  FloorPlan floor_;
+  BodyPlan body_;
 };
 
 /// A place of a rim and the disc that its void was climbed to from there.
 struct RimPlace {
   Vec3 rim{0.0};
-  Disc disc;  ///< radius at least probe.open(): an open drop
+  Vec3 outside{0.0};  ///< in the void
+  Disc disc;          ///< radius at least probe.open(): an open drop
 };
 
 /// Of all edges of all floors that are reached, every 2 * smallest, the places that have a void outside, by position.

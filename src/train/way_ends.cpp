@@ -16,15 +16,15 @@ namespace {
 constexpr double end_reach = 2.0;  ///< how far an end is moved to where a body fits
 constexpr double ring = 0.1;       ///< from one circle of places that are tried to the next
 constexpr int ring_places = 16;
-constexpr double sight = 0.01;      ///< radius of what must get from the point to the place
+constexpr double probe = 0.01;      ///< radius of what is let down to the floor
 constexpr double above_feet = 0.1;  ///< feet that are this deep in the floor stand on it
 
 std::optional<Vec3> foot_below(const Survey& survey, const Measure& measure, const Vec3& point) {
   if (const auto foot = foot_at(survey, measure, point)) return foot;
-  const Vec3 from = point + Vec3(0.0, 0.0, above_feet + sight);
+  const Vec3 from = point + Vec3(0.0, 0.0, above_feet + probe);
   const double depth = from.z - survey.floor().bounds().lower.z + 1.0;
   if (!(depth > 0.0) || survey.floor().bounds().empty()) return std::nullopt;
-  const Impact down = survey.floor().sweep({sight, 0.0}, from, Vec3(0.0, 0.0, -depth));
+  const Impact down = survey.floor().sweep({probe, 0.0}, from, Vec3(0.0, 0.0, -depth));
   if (!down.hit) return std::nullopt;
   return foot_at(survey, measure, {point.x, point.y, down.point.z});
 }
@@ -42,7 +42,7 @@ std::optional<Vec3> free_end(const Survey& survey, const Measure& measure, const
   if (here && fits(survey, measure, *here)) return here;
   // On foot one looks out at the knee: what is lower is no wall.
   Vec3 eye = point;
-  if (walks && here) eye.z = std::max(point.z, here->z + measure.step + 2.0 * sight);
+  if (walks && here) eye.z = std::max(point.z, here->z + measure.step + probe);
   const int layers = walks ? 0 : 1;
   for (double away = ring; away <= end_reach; away += ring) {
     for (int layer = -layers; layer <= layers; ++layer) {
@@ -50,7 +50,7 @@ std::optional<Vec3> free_end(const Survey& survey, const Measure& measure, const
         const double angle = 2.0 * glm::pi<double>() * k / ring_places;
         Vec3 off(std::cos(angle), std::sin(angle), layer);
         off *= away / glm::length(off);
-        if (survey.world().sweep({sight, 0.0}, eye, off).hit) continue;
+        if (survey.world().ray(eye, off).hit) continue;
         const auto place = place_at(point + off);
         if (place && fits(survey, measure, *place)) return place;
       }
