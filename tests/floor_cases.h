@@ -94,6 +94,20 @@ inline void add_holes(std::vector<FloorCase>& cases) {
   });
   enclose(ramp, -3.0, 8.0);
   cases.push_back({.name = "SplitAcrossARamp", .mesh = std::move(ramp), .cracks = {0.25}});
+  // The undersides rise to the rims: an edge that two floors share without one going on where the other ends.
+  Mesh wedges;
+  for (const auto& [from, to] : {std::pair{0.0, 3.7}, {long_side, 4.3}}) {
+    scenes::add_floor(wedges, from, 0.0, to, short_side, 0.0);
+    const double inner = to + (from < to ? -0.5 : 0.5);
+    scenes::add_quad(wedges, {inner, 0.0, -0.3}, {to, 0.0, 0.0}, {to, short_side, 0.0}, {inner, short_side, -0.3});
+  }
+  enclose(wedges);
+  cases.push_back({.name = "SplitBetweenWedges", .mesh = std::move(wedges), .cracks = {0.3}});
+  // One above the other, each with a bottom below that nobody comes to.
+  Mesh storeys = holed({strip(4.03, 3.0, 0.5, 0.0)}, 8.0);
+  Floor(0.0, 0.0, long_side, short_side).without(strip(4.03, 3.0, 0.4, 0.0)).add_to(storeys, 3.0);
+  enclose(storeys, -8.0, 6.0);
+  cases.push_back({.name = "SplitsInTwoStoreys", .mesh = std::move(storeys), .cracks = {0.25, 0.2}});
   // A gap along a wall takes in bodies of half its width, as one between two floors does.
   cases.push_back({.name = "GapAlongAWall", .mesh = holed({rectangle(0.0, 0.0, long_side, 0.5)}), .cracks = {0.25}});
   // A wall rises from the bottom through a hole, nearer to one side.

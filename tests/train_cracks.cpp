@@ -151,6 +151,34 @@ TEST(Cracks, LieInTheMiddleAndKnowTheirDirectionAndRim) {
   }
 }
 
+TEST(Cracks, AreOneHoweverLong) {
+  Mesh mesh;
+  for (const double y : {0.0, 1.4}) scenes::add_floor(mesh, 0.0, y, 30.0, y + 1.0, 0.0);
+  for (const double y : {0.0, 2.4}) scenes::add_wall(mesh, 0.0, y, 30.0, y, -2.0, 2.0);
+  for (const double x : {0.0, 30.0}) scenes::add_wall(mesh, x, 0.0, x, 2.4, -2.0, 2.0);
+  const auto found = find_cracks(survey_of(mesh), {}, anywhere);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].radius, 0.2, 2e-5);
+  EXPECT_EQ(found[0].rim.size(), 2u * 300u);
+}
+
+TEST(Cracks, KnowTheFootThatThinBodiesNeedBesideAWall) {
+  const double lattice = 0.035, nearest = 0.045;  // m: spacing, and how near to a wall the smallest body comes
+  for (const FloorCase& c : floor_cases()) {
+    SCOPED_TRACE(c.name);
+    for (const FoundCrack& crack : find_cracks(survey_of(c.mesh), {}, c.is_reached))
+      EXPECT_GE(crack.foot, crack.radius);
+  }
+  const Survey along = survey_of(holed({rectangle(0.0, 0.0, long_side, 0.5)}));
+  const auto beside = find_cracks(along, {}, [](const Vec3& foot) { return foot.z > -0.35; });
+  ASSERT_EQ(beside.size(), 1u);
+  EXPECT_NEAR(beside[0].foot, 0.5 - nearest, lattice);
+  const auto across = find_cracks(survey_of(straight_split("", 0.5, 2.0, 0.0).mesh), {},
+                                  [](const Vec3& foot) { return foot.z > -0.35; });
+  ASSERT_EQ(across.size(), 1u);
+  EXPECT_NEAR(across[0].foot, 0.25, 2e-5);
+}
+
 TEST(Cracks, NarrowerThanTheSmallestBodyAreNotLookedFor) {
   const FloorCase c = straight_split("", 0.18, 2.0, 0.0);
   EXPECT_EQ(find_cracks(survey_of(c.mesh), {.smallest = 0.09}, c.is_reached).size(), 1u);
