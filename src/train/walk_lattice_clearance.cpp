@@ -11,6 +11,8 @@ namespace {
 constexpr double slack = 2e-5;
 /// Metres. Each answer that is not free takes at least this off.
 constexpr double least_cut = 1e-5;
+/// Metres. A sphere is lifted by at least this, so that the floor that it stands on does not hold it.
+constexpr double least_lift = 5e-5;
 /// Queries of one search, at most: most end after three.
 constexpr std::size_t most_cuts = 48;
 
@@ -39,44 +41,79 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   return std::nullopt;
 }
 
-/// The largest sphere at one lift, and from where it is held: the upward part of the unit vector from what it touches.
+/// The largest sphere at one lift, and what holds it: a point so far beside its axis and so high above the place.
 struct Held {
-  double radius = 0.0, upward = 0.0;
+  double lift = 0.0, radius = 0.0;
+  double aside = 0.0, height = 0.0;
+  /// The upward part of the unit vector from that point to the centre; 0: held by nothing.
+  [[nodiscard]] double upward() const {
+    return radius > 0.0 && height != 0.0 ? (lift + radius - height) / radius : 0.0;
+  }
 };
 
-/// Spheres with one lowest point are nested. Ends as soon as the radius is less than `least`.
+/// Spheres with one lowest point are nested: the largest that has a point outside, which lies `above` that.
+double sphere_limit(double aside, double above) {
+  return above > 0.0 ? (aside * aside + above * above) / (2.0 * above) : unlimited;
+}
+
+/// Ends as soon as the radius is less than `least`.
 Held sphere_lifted(const Survey& survey, const Measure& measure, const Vec3& place, double lift, double largest,
                    double least) {
-  Held held{largest, 0.0};
+  Held held{lift, largest, 0.0, 0.0};
   const double lowest = place.z + lift;
   for (std::size_t i = 0; i < most_cuts && held.radius >= least; ++i) {
     const Vec3 centre(place.x, place.y, lowest + held.radius);
     const Clearance c = survey.world().clearance(body_of(measure, held.radius - slack), centre, 0.0);
     if (!c.found) return held;
-    const double aside = std::hypot(c.point.x - place.x, c.point.y - place.y), above = c.point.z - lowest;
-    const double limit = above > 0.0 ? (aside * aside + above * above) / (2.0 * above) : unlimited;
-    held.radius = std::min(limit, held.radius - std::max(least_cut, -c.distance));
-    held.upward = (lowest + held.radius - c.point.z) / std::max(held.radius, least_cut);
+    held.aside = std::hypot(c.point.x - place.x, c.point.y - place.y);
+    held.height = c.point.z - place.z;
+    // Where stored triangles are coarser than the slack, the point itself may be outside.
+    const double limit = sphere_limit(held.aside, held.height - lift);
+    held.radius = std::min(limit, held.radius - (limit < held.radius ? least_cut : std::max(least_cut, -c.distance)));
   }
   if (held.radius >= least) held.radius = 0.0;
   return held;
 }
 
-/// A sphere is lifted away from what holds it from below and lowered from what holds it from above.
+/// The lift between two at which what holds the sphere from below at the one and from above at the other hold it alike.
+double balanced(const Held& below, const Held& above) {
+  double low = below.lift, high = above.lift;
+  for (int i = 0; i < 40; ++i) {
+    const double lift = 0.5 * (low + high);
+    const bool raise = sphere_limit(below.aside, below.height - lift) < sphere_limit(above.aside, above.height - lift);
+    (raise ? low : high) = lift;
+  }
+  return 0.5 * (low + high);
+}
+
+/// A sphere is lifted away from what holds it from below and lowered from what holds it from above. Lifts that are far
+/// apart are tried too, for a wall that ends above or below a sphere looks like any other to one in its middle.
 std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, const Vec3& place, double largest,
                                double least) {
   constexpr double level = 0.01;      // an upward part as small: walls, from which no lift leads away
-  constexpr double fine_lift = 2e-5;  // m
-  std::optional<Stand> best;
-  double low = 0.0, high = measure.step;
-  for (;;) {
-    const double lift = 0.5 * (low + high);
-    const double wanted = best ? best->radius + least_cut : least;
-    const Held held = sphere_lifted(survey, measure, place, lift, largest, wanted);
-    if (held.radius >= wanted) best = Stand{held.radius, lift};
-    if (held.radius >= largest || std::abs(held.upward) < level || high - low < fine_lift) return best;
-    (held.upward > 0.0 ? low : high) = lift;
+  constexpr double fine_lift = 1e-5;  // m
+  constexpr int most_turns = 12;
+  const double clear = least_lift + 2.0 * survey.world().largest_error();
+  std::optional<Held> best;
+  for (const double share : {0.5, 0.0, 0.125, 1.0}) {
+    const Held held = sphere_lifted(survey, measure, place, std::max(share * measure.step, clear), largest,
+                                    best ? best->radius + least_cut : least);
+    if (!best ? held.radius >= least : held.radius > best->radius) best = held;
+    if (best && best->radius >= largest) return Stand{best->radius, best->lift};
   }
+  if (!best) return std::nullopt;
+  Held below = *best, above = *best;
+  (best->upward() > 0.0 ? above : below) = {best->upward() > 0.0 ? measure.step : clear, 0.0, 0.0, 0.0};
+  for (int i = 0; i < most_turns && std::abs(best->upward()) >= level && above.lift - below.lift > fine_lift; ++i) {
+    const bool known = below.height != 0.0 && above.height != 0.0;
+    const double lift = known ? balanced(below, above) : 0.5 * (below.lift + above.lift);
+    if (!(lift - below.lift > 0.1 * fine_lift && above.lift - lift > 0.1 * fine_lift)) break;
+    const Held held = sphere_lifted(survey, measure, place, lift, largest, least);
+    (held.upward() > 0.0 ? below : above) = held;
+    if (held.radius > best->radius) best = held;
+    if (held.radius >= largest || std::abs(held.upward()) < level) break;
+  }
+  return Stand{best->radius, best->lift};
 }
 
 }  // namespace
