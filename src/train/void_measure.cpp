@@ -172,30 +172,57 @@ class Floods {
     return true;
   }
 
-  /// Grown from what was climbed to and from the best cells that none beside them exceeds. Of discs that grow into an
-  /// open drop, or come to lie in one, nothing remains: that is measured without them. Radius 0 where nothing is left;
+  /// Whether a place lies in an open drop, be it one that was climbed to or one of this flood's own.
+  bool is_open(const Vec3& place, const std::vector<Vec3>& own) const {
+    return drops_.cover(place) || std::any_of(own.begin(), own.end(), [&](const Vec3& centre) {
+             return level_distance(centre, place) <= options_.support_max;
+           });
+  }
+
+  /// Grown from the best cells that none beside them exceeds, and from the seed. Of discs that grow into an open drop,
+  /// or come to lie in one, nothing remains: what is left is measured without them. Radius 0 where nothing is left;
   /// open where the whole void is.
   Disc largest(const Vec3& seed, std::vector<Cell>& cells) {
+    const std::vector<Vec3> own = open_discs(cells);
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
     });
-    Disc best = grown(seed);
+    Disc best, drop = own.empty() ? Disc{} : Disc{own.front(), options_.support_max};
+    const auto try_from = [&](const Vec3& start) {
+      if (is_open(start, own)) return;
+      const Disc disc = grown(start);
+      if (disc.radius >= probe_.open()) {
+        drop = disc;
+      } else if (disc.radius > best.radius && !is_open(disc.centre, own)) {
+        best = disc;
+      }
+    };
+    try_from(seed);
     std::vector<Vec3> starts;
-    const bool open = best.radius >= probe_.open();
-    if (open || drops_.cover(best.centre)) best.radius = 0.0;
-    const Disc drop = open ? grown(seed) : Disc{};
     for (const Cell& cell : cells) {
       if (cell.distance + half_diagonal() <= best.radius || starts.size() == kMostDiscs) break;
       const Vec3 start = place_of(cell);
       const bool again = std::any_of(starts.begin(), starts.end(), [&](const Vec3& other) {
         return level_distance(other, start) < 0.5 * cell.distance;
       });
-      if (again || !is_highest(cell)) continue;
+      if (again || !is_highest(cell) || is_open(start, own)) continue;
       starts.push_back(start);
-      const Disc disc = grown(start);
-      if (disc.radius < probe_.open() && disc.radius > best.radius && !drops_.cover(disc.centre)) best = disc;
+      try_from(start);
     }
     return best.radius > 0.0 ? best : drop;
+  }
+
+  /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
+  std::vector<Vec3> open_discs(const std::vector<Cell>& cells) const {
+    std::vector<Vec3> discs;
+    for (const Cell& cell : cells) {
+      if (cell.floor < probe_.open()) continue;
+      const Vec3 centre = place_of(cell);
+      if (std::none_of(discs.begin(), discs.end(),
+                       [&](const Vec3& other) { return level_distance(other, centre) < 2.0 * options_.smallest; }))
+        discs.push_back(centre);
+    }
+    return discs;
   }
 
   /// The largest body that goes in near `start`, and a foot that carries it there. Where walls leave no room for a body
