@@ -127,21 +127,29 @@ class Judge {
 
 /// How far inside the promise, radius - 1e-6 m, a step stayed at its corners and all along its pieces, and whether what
 /// it certified is true: negative is a violation, metres. Only where the body was put is nothing promised of the way.
-inline double margin(const Judge& judge, const roam::StepReport& step, double radius) {
+/// Each piece is judged by the radius that it says it had.
+inline double margin(const Judge& judge, const roam::StepReport& step) {
   constexpr double promise = 1e-6;
   double least = std::numeric_limits<double>::infinity();
   Vec3 at = step.from;
   for (const roam::Corner& c : step.corners) {
-    const roam::Body body = roam::Body::capsule(radius, c.height);
-    const double enough = std::max(radius, c.clearance) + 0.001;
+    const roam::Body body = roam::Body::capsule(c.radius, c.height);
+    const double enough = std::max(c.radius, c.clearance) + 0.001;
     const double true_clearance =
         c.teleport ? judge.distance(body, c.position, enough) : judge.over(body, at, c.position - at, enough);
-    least = std::min({least, true_clearance - (radius - promise), true_clearance - (c.clearance - promise)});
+    least = std::min({least, true_clearance - (c.radius - promise), true_clearance - (c.clearance - promise)});
     at = c.position;
   }
-  const roam::Body body = roam::Body::capsule(radius, step.height);
-  const double here = judge.distance(body, step.to, std::max(radius, step.clearance) + 0.001);
-  return std::min({least, here - (radius - promise), here - (step.clearance - promise)});
+  const roam::Body body = roam::Body::capsule(step.radius, step.height);
+  const double here = judge.distance(body, step.to, std::max(step.radius, step.clearance) + 0.001);
+  return std::min({least, here - (step.radius - promise), here - (step.clearance - promise)});
+}
+
+/// The same of a body whose radius does not change: minus infinity where it does.
+inline double margin(const Judge& judge, const roam::StepReport& step, double radius) {
+  bool same = step.radius == radius;
+  for (const roam::Corner& c : step.corners) same = same && c.radius == radius;
+  return same ? margin(judge, step) : -std::numeric_limits<double>::infinity();
 }
 
 }  // namespace scenes

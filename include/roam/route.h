@@ -24,8 +24,9 @@
 namespace roam {
 
 struct RouteOptions {
-  double speed = 1.4;      ///< metres per second, > 0
-  double dt = 1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier.
+  double speed = 1.4;  ///< metres per second, > 0
+  double dt =
+      1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier.
   /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it came nearer to its waypoint by less
   /// than a twentieth of what free motion at `speed` would have brought: sliding at less than that, 3 degrees off
   /// head-on, is not getting on.
@@ -65,10 +66,14 @@ struct RouteEvent {
 
 struct RouteResult {
   Outcome outcome = Outcome::reached;  ///< means nothing before Route::done()
-  double length = 0.0;  ///< metres that the centre moved, placing not counted
+  double length = 0.0;                 ///< metres that the centre moved, placing not counted
   std::uint64_t steps = 0;
-  double simulated = 0.0;              ///< seconds
-  double least_clearance = 0.0;        ///< metres, certified, over all moves; capped as StepReport::clearance is
+  double simulated = 0.0;  ///< seconds
+  /// Metres, certified, over all moves; capped as StepReport::clearance is. Of the axis: a body that becomes smaller on
+  /// the way may come nearer with it.
+  double least_clearance = 0.0;
+  /// The same of the body's surface, in the size that it had there: the least clearance - radius.
+  double least_gap = 0.0;
   std::uint64_t throttled = 0;         ///< steps that ended early or were slowed, see EventKind
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end

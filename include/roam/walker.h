@@ -24,15 +24,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "roam/error.h"
 #include "roam/math.h"
+#include "roam/size_region.h"
 #include "roam/space.h"
 
 namespace roam {
 
 namespace walking {
 class Move;
+struct Sizes;
+
+/// What a body measures, metres.
+struct Size {
+  double radius = 0.0;
+  double support_radius = 0.0;
+
+  friend bool operator==(const Size&, const Size&) = default;
+};
 enum class Ending : std::uint8_t;
 }  // namespace walking
 
@@ -122,6 +134,8 @@ enum class EventKind : std::uint8_t {
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
   met_unknown,   ///< touched, stands on or is in what is not known yet (see space.h): solid until it is known
   slowed,        ///< the wish was faster than Space::speed_limit() and was followed at that speed
+  narrowed,      ///< became a smaller body, in a region or on command: see Walker::set_regions
+  widened,       ///< became a larger one again
   carried,       ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius
 };
 
@@ -169,6 +183,10 @@ struct Corner {
   /// own: crouching lowers the centre with the new, lower body (inside the old one); standing up raises the centre with
   /// the old body and then has a corner at the same position with the new one.
   double height = 0.0;
+  /// The body's radius, metres, all along the piece that ends here. A change of radius shows likewise: a smaller body
+  /// goes from the old centre to its own, inside the old body; a larger one has the old body go to its centre, and then
+  /// a corner at the same position with the new one.
+  double radius = 0.0;
   double time = 0.0;  ///< seconds since the step began
   /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
   /// and a body that is being freed). Never less than radius - 1e-6 otherwise.
@@ -189,16 +207,19 @@ struct StepReport {
   Vec3 from{0.0};       ///< the centre before, metres
   Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
   double height = 0.0;  ///< the body's whole height now, metres
+  double radius = 0.0;  ///< the body's radius now, metres
   /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach. 0: none (ghost, held
   /// while embedded).
   double clearance = 0.0;
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
-  double elapsed = 0.0;          ///< seconds that were simulated: dt, or less when throttled
-  bool grounded = false;         ///< stands on something (walk mode)
-  bool carried = false;          ///< stands on its foot over a crack: see WalkerSettings::support_radius
-  bool blocked = false;          ///< ended this step unable to go on in the wished direction; contacts.back() is why
-  bool held = false;             ///< see EventKind::held
-  bool met_unknown = false;      ///< see EventKind::met_unknown
+  /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
+  double least_gap = 0.0;
+  double elapsed = 0.0;      ///< seconds that were simulated: dt, or less when throttled
+  bool grounded = false;     ///< stands on something (walk mode)
+  bool carried = false;      ///< stands on its foot over a crack: see WalkerSettings::support_radius
+  bool blocked = false;      ///< ended this step unable to go on in the wished direction; contacts.back() is why
+  bool held = false;         ///< see EventKind::held
+  bool met_unknown = false;  ///< see EventKind::met_unknown
 
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)
@@ -252,13 +273,35 @@ class Walker {
   /// found around it, or the last place of its way as a ghost where it fitted, whichever is nearer.
   const StepReport& set_mode(Mode mode);
 
+  /// From now on the body has another size in these regions, and that of its settings outside all of them. Where
+  /// regions overlap, the smallest body and the largest foot count. Copied.
+  ///
+  /// A body is in a region as soon as its centre or its lowest point is in the bounds, and until both are more than
+  /// 5 cm outside. It is asked in each step, every half radius of its way. It becomes smaller at once: the small body
+  /// lies in the large one, with the same lowest point and, but for a sphere, the same height. It becomes larger when
+  /// the larger body is certified free with the same lowest point, on a slope with one as much higher as the larger
+  /// body needs there; until then it goes on as it is. A sphere stays a sphere; the eye keeps its height above the
+  /// lowest point, or is at the top of a body that is not so high. A foot that carries stays as large as it is.
+  ///
+  /// Takes effect with the next call. Throws roam::Error, naming the region by its number from 1 and its `why`, for
+  /// bounds that are empty or not finite, and for a size that settings may not have; then all is as before.
+  void set_regions(std::span<const SizeRegion> regions);
+  [[nodiscard]] std::span<const SizeRegion> regions() const { return regions_; }
+
+  /// From now on this is the size outside all regions, metres: for those who learn on the way which size serves. A
+  /// smaller body is had at once, a larger one as soon as it fits, in this call or a later one; as in regions. Returns
+  /// whether the body has the size that is wanted where it is. report() tells what happened. Throws roam::Error for a
+  /// size that settings may not have; then all is as before.
+  bool resize(double radius, double support_radius);
+
   [[nodiscard]] const Space& space() const { return *space_; }
+  /// As they hold now: radius and support_radius, and of a sphere height, eye and step, are those of the present size.
   [[nodiscard]] const WalkerSettings& settings() const { return settings_; }
   [[nodiscard]] Mode mode() const { return mode_; }
   [[nodiscard]] const Vec3& position() const { return position_; }  ///< of the centre, metres
   [[nodiscard]] Vec3 feet() const;                                  ///< the lowest point, metres
   [[nodiscard]] Vec3 eye() const;                                   ///< the camera, metres
-  [[nodiscard]] Body body() const;                                  ///< as it is now: standing or crouched
+  [[nodiscard]] Body body() const;                                  ///< as it is now: in size, standing or crouched
   [[nodiscard]] bool crouched() const { return height_ < settings_.height; }
   [[nodiscard]] bool grounded() const { return stance_.grounded; }
   /// Does not fit where it is and can not be freed: see place().
@@ -284,6 +327,9 @@ class Walker {
 
  private:
   [[nodiscard]] walking::Move under_way();
+  [[nodiscard]] walking::Sizes sizes();
+  void take_size_here();
+  walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
   [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
   void begin();
   void move(const WalkerInput& input, double dt);
@@ -302,11 +348,16 @@ class Walker {
   void finish();
 
   const Space* space_;
-  WalkerSettings settings_;
+  WalkerSettings given_;     ///< when it was made
+  WalkerSettings settings_;  ///< of its present size
+  std::vector<SizeRegion> regions_;
+  std::vector<char> inside_;  ///< of each region: whether the body counts as in it
+  walking::Size outside_;     ///< outside all regions
   StepReport report_;
   Stance stance_;
   Vec3 position_{0.0};
   Vec3 safe_{0.0};            ///< last place where the body stood or, where it has not stood yet, fitted
+  walking::Size safe_size_;   ///< there
   double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
   double clearance_ = 0.0;  ///< certified at position_, metres
@@ -316,6 +367,7 @@ class Walker {
   Mode mode_ = Mode::fly;
   bool held_ = false;
   bool waits_ = false;           ///< held by what is not known yet
+  bool resized_ = false;         ///< another size may be wanted than when the body was held
   std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
 };
 

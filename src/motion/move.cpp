@@ -71,7 +71,7 @@ void Move::go(const Vec3& motion) {
   nearest += length;
   const Vec3 direction = motion / length;
   const bool straight_on = !report.corners.empty() && direction == last_direction_ && merged_ < merge_limit &&
-                           report.corners.back().height == height;
+                           report.corners.back().height == height && report.corners.back().radius == settings.radius;
   if (straight_on) {
     Corner& last = report.corners.back();
     last.position = place;
@@ -79,7 +79,7 @@ void Move::go(const Vec3& motion) {
     last.clearance = clearance;
     ++merged_;
   } else {
-    report.corners.push({place, height, time, clearance, false});
+    report.corners.push({place, height, settings.radius, time, clearance, false});
     last_direction_ = direction;
     merged_ = 0;
   }
@@ -93,7 +93,7 @@ void Move::resize(double new_height, const Vec3& new_place) {
   height = new_height;
   place = new_place;
   nearest = std::numeric_limits<double>::infinity();
-  report.corners.push({place, height, time, clearance, false});
+  report.corners.push({place, height, settings.radius, time, clearance, false});
   last_direction_ = Vec3(0.0);
 }
 

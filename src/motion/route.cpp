@@ -105,6 +105,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
   result_.least_clearance = start.least_clearance;
+  result_.least_gap = start.least_gap;
   result_.waypoints = 1;
   result_.end = walker.position();
   inside_ = inside(result_.end, grown(walker.space().bounds(), walker.body()));
@@ -156,6 +157,7 @@ const StepReport& Route::advance() {
   }
   if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
   result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
+  result_.least_gap = std::min(result_.least_gap, report.least_gap);
   result_.end = walker_->position();
   note_events(report);
   judge(report, distance);

@@ -104,6 +104,10 @@ const char* name(EventKind kind) {
       return "met_unknown";
     case EventKind::slowed:
       return "slowed";
+    case EventKind::narrowed:
+      return "narrowed";
+    case EventKind::widened:
+      return "widened";
     case EventKind::carried:
       return "carried";
   }

@@ -10,6 +10,7 @@
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/recovery.h"
+#include "motion/sizes.h"
 #include "motion/slide.h"
 #include "motion/walking.h"
 #include "roam/error.h"
@@ -21,6 +22,9 @@ namespace {
 /// sees.
 constexpr double least_skin = 1e-4;
 
+/// Pieces of one flight among regions: each half a radius.
+constexpr int flight_limit = 4096;
+
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Where a body that does not fit at `place` is freed to.
@@ -31,7 +35,11 @@ std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& pl
 }  // namespace
 
 Walker::Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start)
-    : space_(&space), settings_(settings), mode_(mode) {
+    : space_(&space),
+      given_(settings),
+      settings_(settings),
+      outside_{settings.radius, settings.support_radius},
+      mode_(mode) {
   check(settings);
   skin_ = least_skin + 2.0 * space.largest_error();
   slope_cosine_ = std::cos(settings.slope_degrees * (std::numbers::pi / 180.0));
@@ -83,6 +91,7 @@ void Walker::begin() {
 void Walker::finish() {
   report_.to = position_;
   report_.height = height_;
+  report_.radius = settings_.radius;
   report_.grounded = stance_.grounded;
   report_.carried = stance_.carried;
   clearance_ = 0.0;
@@ -93,22 +102,26 @@ void Walker::finish() {
         settings_.radius + std::max(space_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
   }
   report_.clearance = report_.least_clearance = clearance_;
+  report_.least_gap = clearance_ - settings_.radius;
   report_.met_unknown |= waits_ || (stance_.grounded && stance_.unknown);
   if (report_.met_unknown) report_.events.push({EventKind::met_unknown, position_});
   for (const Corner& c : report_.corners) {
-    if (!c.teleport) report_.least_clearance = std::min(report_.least_clearance, c.clearance);
+    if (c.teleport) continue;
+    report_.least_clearance = std::min(report_.least_clearance, c.clearance);
+    report_.least_gap = std::min(report_.least_gap, c.clearance - c.radius);
   }
 }
 
 void Walker::remember_safe() {
   safe_ = position_;
   safe_height_ = height_;
+  safe_size_ = {settings_.radius, settings_.support_radius};
 }
 
 void Walker::put(const Vec3& place, double time) {
   position_ = place;
   nearest_ = std::numeric_limits<double>::infinity();
-  const Corner corner{position_, height_, time, 0.0, true};
+  const Corner corner{position_, height_, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
   if (!report_.corners.empty() && report_.corners.back().teleport) {
     report_.corners.back() = corner;
@@ -132,8 +145,9 @@ bool Walker::in_unknown() const { return space_->clearance(body(), position_, 0.
 
 void Walker::look_again() {
   const std::uint64_t now = space_->revision();
-  const bool changed = now != looked_at_;
+  const bool changed = now != looked_at_ || resized_;
   looked_at_ = now;
+  resized_ = false;
   if (!held_) {
     // Something may have come where it is.
     if (embedded()) fit_in();
@@ -141,6 +155,7 @@ void Walker::look_again() {
   }
   if (!changed && (!waits_ || in_unknown())) return hold();
   release();
+  take_size_here();
   fit_in();
   if (!held_) remember_safe();
 }
@@ -189,7 +204,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
     position_ += motion;
-    if (motion != Vec3(0.0)) report_.corners.push({position_, height_, dt, 0.0, false});
+    if (motion != Vec3(0.0)) report_.corners.push({position_, height_, settings_.radius, dt, 0.0, false});
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
     if (held_ || space_->revision() != looked_at_) look_again();
@@ -208,6 +223,7 @@ void Walker::move(const WalkerInput& input, double dt) {
   }
   if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, position_});
   if (end == walking::Ending::bottomless) {
+    settings_ = walking::sized(given_, safe_size_);
     height_ = safe_height_;
     stance_ = {};
     put(safe_, report_.elapsed);
@@ -231,9 +247,9 @@ walking::Ending Walker::move_for(const WalkerInput& input, double dt) {
   if (walking) {
     if (input.jump) walking::jump(m, stance_);
     const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
-    end = walking::walk(m, stance_, horizontal, dt, {safe_, safe_height_});
+    end = walking::walk(m, stance_, horizontal, dt, {safe_, safe_height_, safe_size_}, sizes());
   } else {
-    end = walking::slide(m, input.velocity, dt);
+    end = fly(m, input.velocity, dt);
   }
   position_ = m.place;
   height_ = m.height;
@@ -242,10 +258,76 @@ walking::Ending Walker::move_for(const WalkerInput& input, double dt) {
   return end;
 }
 
+walking::Sizes Walker::sizes() { return {given_, outside_, regions_, inside_, settings_}; }
+
+/// The size that is wanted where the body is, as if it had been put there.
+void Walker::take_size_here() {
+  std::fill(inside_.begin(), inside_.end(), char{0});
+  settings_ = walking::sized(given_, outside_);
+  const Vec3 lowest = position_ - Vec3(0.0, 0.0, 0.5 * settings_.height);
+  settings_ = walking::sized(given_, walking::wanted(sizes(), position_, lowest));
+  height_ = settings_.height;
+}
+
+walking::Ending Walker::fly(walking::Move& m, const Vec3& velocity, double dt) {
+  const walking::Sizes sizes = this->sizes();
+  if (!walking::near_region(sizes, m, velocity * dt)) return walking::slide(m, velocity, dt);
+  const double end = m.time + dt, speed = glm::length(velocity);
+  for (int count = 0; count < flight_limit && m.has_room(); ++count) {
+    walking::adapt(m, stance_, sizes);
+    const double left = end - m.time, most = 0.5 * settings_.radius / speed;
+    const bool last = !(most < left);
+    const walking::Ending ending = walking::slide(m, velocity, last ? left : most);
+    if (ending != walking::Ending::done) return ending;
+    if (last || report_.blocked) {
+      m.time = end;
+      return ending;
+    }
+  }
+  return walking::Ending::throttled;
+}
+
+void Walker::set_regions(std::span<const SizeRegion> regions) {
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const SizeRegion& r = regions[i];
+    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
+    if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
+      throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
+    }
+    try {
+      check(walking::sized(given_, {r.radius, r.support_radius}));
+    } catch (const Error& error) {
+      throw Error(which + ": " + error.what());
+    }
+  }
+  std::vector<SizeRegion> copies(regions.begin(), regions.end());
+  std::vector<char> inside(regions.size(), char{0});
+  regions_.swap(copies);
+  inside_.swap(inside);
+  resized_ = true;
+}
+
+bool Walker::resize(double radius, double support_radius) {
+  check(walking::sized(given_, {radius, support_radius}));
+  begin();
+  outside_ = {radius, support_radius};
+  resized_ = true;
+  const walking::Sizes sizes = this->sizes();
+  if (mode_ != Mode::ghost && !held_) {
+    walking::Move m = under_way();
+    walking::adapt(m, stance_, sizes);
+    position_ = m.place;
+    height_ = m.height;
+  }
+  finish();
+  return walking::wanted(sizes, position_, feet()) == walking::Size{settings_.radius, settings_.support_radius};
+}
+
 const StepReport& Walker::place(const Vec3& centre) {
   if (!finite(centre)) throw Error("the place to put the walker to is not a finite point");
-  height_ = settings_.height;
   begin();
+  position_ = centre;
+  take_size_here();
   stance_ = {};
   release();
   safe_height_ = 0.0;
@@ -265,6 +347,11 @@ const StepReport& Walker::set_mode(Mode mode) {
   mode_ = mode;
   if (mode == Mode::ghost) release();
   if (mode != before) stance_ = {};
+  if (before == Mode::ghost && mode != Mode::ghost && !sizes().settled()) {
+    const double lowest = feet().z;
+    take_size_here();
+    put({position_.x, position_.y, lowest + 0.5 * height_}, 0.0);
+  }
   if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*space_, body(), position_)) come_back();
   if (mode != before) settle();
   if (held_ && !report_.held) hold();
@@ -281,6 +368,7 @@ void Walker::come_back() {
     put(*near, 0.0);
     report_.events.push({EventKind::returned, position_});
   } else if (known) {
+    settings_ = walking::sized(given_, safe_size_);
     height_ = safe_height_;
     put(safe_, 0.0);
     report_.events.push({EventKind::returned, position_});

@@ -25,12 +25,13 @@ void jump(Move& move, Stance& stance) {
   move.note(EventKind::jumped);
 }
 
-Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const LastStand& last) {
-  const double end = move.time + dt, longest = stride_seconds(move, velocity);
-  const double finest = fine_stride_seconds(move, velocity);
+Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const LastStand& last, const Sizes& sizes) {
+  const double end = move.time + dt;
   double left = dt, careful = 0.0;  // seconds, the second: for which strides are fine
   for (int count = 0; left > 0.0; ++count) {
     if (count >= stride_limit || !move.has_room()) return Ending::throttled;
+    adapt(move, stance, sizes);
+    const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
     const bool striding = stance.grounded;
     const double most = !striding ? flight_seconds(move, stance, velocity) : (careful > 0.0 ? finest : longest);
@@ -56,6 +57,7 @@ Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const L
     if (stance.firm && !stance.carried) {
       last.place = move.place;
       last.height = move.height;
+      last.size = {move.settings.radius, move.settings.support_radius};
     } else if (!stance.grounded && below_everything(move)) {
       return Ending::bottomless;
     }

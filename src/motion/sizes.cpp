@@ -1,0 +1,115 @@
+#include "motion/sizes.h"
+
+#include <algorithm>
+
+#include "motion/recovery.h"
+
+namespace roam::walking {
+namespace {
+
+/// Metres outside a region at which it is left: a body that goes to and fro over the border is not to change with it.
+constexpr double leaving = 0.05;
+
+Box grown(const Box& box, double by) { return {box.lower - Vec3(by), box.upper + Vec3(by)}; }
+
+bool holds(const Box& box, const Vec3& p) {
+  return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y && p.z >= box.lower.z &&
+         p.z <= box.upper.z;
+}
+
+/// The smaller body lies in the larger one, and so does its way from the larger one's centre to its own.
+void narrow(Move& m, const Sizes& sizes, double radius) {
+  const double by = m.settings.radius - radius, before = m.settings.height;
+  const bool known = m.clearance > 0.0;
+  sizes.present = sized(sizes.given, {radius, m.settings.support_radius});
+  if (known) m.clearance = std::max(m.clearance - by, radius - world_tolerance);
+  const double height = m.height < before ? m.height : m.settings.height;
+  m.resize(height, m.place - Vec3(0.0, 0.0, 0.5 * (m.height - height)));
+  m.note(EventKind::narrowed);
+}
+
+/// Becomes larger when the larger body, with the same lowest point, is certified free; else with one that is higher by
+/// what a round body gains on the slope it stands on.
+void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
+  const WalkerSettings larger = sized(sizes.given, {radius, m.settings.support_radius});
+  const double height = m.height < m.settings.height ? m.height : larger.height;
+  if (2.0 * radius > height) return;  // crouched: not before it stands
+  const Body body = Body::capsule(radius, height);
+  const Vec3 raised(0.0, 0.0, 0.5 * (height - m.height));
+  Vec3 lift(0.0);
+  if (!fits(m.space, body, m.place + raised)) {
+    if (!stance.grounded) return;
+    const double steepness = 1.0 / std::max(stance.ground.z, m.slope_cosine) - 1.0;
+    lift.z = m.skin + (radius - m.settings.radius) * steepness;
+    if (m.probe(lift).touched || !fits(m.space, body, m.place + lift + raised)) return;
+  }
+  // The old body's way up lies in the new one.
+  const double reach = std::clamp(m.clearance - m.settings.radius, 0.0, m.settings.clearance_reach);
+  if (lift.z + raised.z > 0.0) m.go(lift + raised);
+  const double gap = m.space.clearance(body, m.place, reach).distance;
+  m.clearance = radius + std::max(gap, -world_tolerance);
+  sizes.present = larger;
+  m.resize(height, m.place);
+  m.note(EventKind::widened);
+}
+
+}  // namespace
+
+WalkerSettings sized(const WalkerSettings& given, const Size& size) {
+  WalkerSettings s = given;
+  s.radius = size.radius;
+  s.support_radius = size.support_radius;
+  if (given.height != 2.0 * given.radius) return s;
+  s.height = 2.0 * size.radius;
+  s.eye = std::min(given.eye, s.height);
+  s.step = std::min(given.step, size.radius);
+  return s;
+}
+
+Size wanted(const Sizes& sizes, const Vec3& centre, const Vec3& feet) {
+  Size size = sizes.outside;
+  bool in_any = false;
+  for (std::size_t i = 0; i < sizes.regions.size(); ++i) {
+    const SizeRegion& region = sizes.regions[i];
+    const Box box = sizes.inside[i] != 0 ? grown(region.bounds, leaving) : region.bounds;
+    sizes.inside[i] = holds(box, centre) || holds(box, feet) ? 1 : 0;
+    if (sizes.inside[i] == 0) continue;
+    size.radius = in_any ? std::min(size.radius, region.radius) : region.radius;
+    size.support_radius = in_any ? std::max(size.support_radius, region.support_radius) : region.support_radius;
+    in_any = true;
+  }
+  return size;
+}
+
+void adapt(Move& m, const Stance& stance, const Sizes& sizes) {
+  if (sizes.settled()) return;
+  const Size want = wanted(sizes, m.place, m.place - Vec3(0.0, 0.0, 0.5 * m.height));
+  // The foot touches nothing; but over a crack it stays as large as it is.
+  const double foot = m.settings.support_radius;
+  if (want.support_radius > foot || (want.support_radius < foot && !stance.carried)) {
+    sizes.present.support_radius = want.support_radius;
+  }
+  if (want.radius < m.settings.radius) narrow(m, sizes, want.radius);
+  if (want.radius > m.settings.radius) widen(m, stance, sizes, want.radius);
+}
+
+bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion) {
+  if (sizes.settled()) return false;
+  if (move.settings.radius != sizes.outside.radius || move.settings.support_radius != sizes.outside.support_radius) {
+    return true;
+  }
+  Box way;
+  for (const Vec3& end : {Vec3(0.0), motion}) {
+    way.include(move.place + end);
+    way.include(move.place + end - Vec3(0.0, 0.0, 0.5 * move.height));
+  }
+  return std::any_of(sizes.regions.begin(), sizes.regions.end(), [&](const SizeRegion& region) {
+    const Box box = grown(region.bounds, leaving);
+    for (int k = 0; k < 3; ++k) {
+      if (way.lower[k] > box.upper[k] || way.upper[k] < box.lower[k]) return false;
+    }
+    return true;
+  });
+}
+
+}  // namespace roam::walking
