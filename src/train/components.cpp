@@ -1,7 +1,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
+#include <span>
 #include <unordered_map>
 
 #include "train/inside.h"
@@ -19,29 +22,69 @@ constexpr double reached_column = 0.3;
 constexpr std::size_t first_batch = 16, last_batch = 4096;
 /// How many more places there may be of what is not open to the sky, and of all together.
 constexpr std::uint64_t closed_factor = 10;
+/// Of open ground so many places are looked at in any case.
+constexpr std::uint64_t least_open = 200'000;
+/// Fewer places that are closed are only what lies under something in an open scene.
+constexpr std::uint64_t least_closed = 1'000;
+/// Of what began closed so many of the newest places are asked, after so many, and then each time it has grown so much:
+/// when most see the sky twice running, it is open ground.
+constexpr std::size_t newest = 16;
+constexpr std::uint64_t first_asked = 512;
+constexpr double asked_growth = 1.25;
+/// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
+/// many.
+constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
+
+/// What a sample sees, in the order in which components are grown. What is closed comes first: it is soon grown whole,
+/// while what is open to the sky may go on for kilometres. What sees backs comes last, and often need not be grown.
+enum class Sight : std::uint8_t { closed, open, backs };
 
 class Search {
  public:
-  Search(const Survey& survey, const Measure& measure, WidestTree& tree, std::uint64_t most_places,
+  Search(const Survey& survey, const Measure& measure, WidestTree& tree, bool trusted, std::uint64_t most_places,
          const std::function<bool(double)>& goes_on)
-      : survey_(survey), measure_(measure), tree_(tree), most_places_(most_places), goes_on_(goes_on) {}
+      : survey_(survey),
+        measure_(measure),
+        tree_(tree),
+        trusted_(trusted),
+        most_places_(most_places),
+        goes_on_(goes_on) {}
 
   std::vector<Component> run(const std::vector<Vec3>& samples) {
+    share_of_one_ = samples.empty() ? 1.0 : 1.0 / static_cast<double>(samples.size());
     std::size_t batch = first_batch;
-    for (done_ = 0; done_ < samples.size() && asked_to_go_on(); batch = std::min(2 * batch, last_batch)) {
+    while (done_ < samples.size() && asked_to_go_on()) {
       const std::size_t end = std::min(samples.size(), done_ + batch);
-      const std::vector<Vec3> free = free_ones({samples.data() + done_, samples.data() + end});
-      share_of_one_ = 1.0 / static_cast<double>(samples.size());
-      for (const Vec3& place : free) {
-        begin_at(place);
+      for (const Start& start : starts({samples.data() + done_, samples.data() + end})) {
+        if (start.sight == Sight::closed)
+          grow_from(start);
+        else
+          (start.sight == Sight::open ? open_ : backs_).push_back(start);
         if (ended_) break;
       }
       done_ = end;
+      batch = std::min(2 * batch, last_batch);
     }
+    // What came out into the open is grown on: it takes over all other trees that it meets.
+    for (const NodeId root : came_out_)
+      if (!ended_ && !open_was_cut_ && tree_.root(root) == root) grow(root, Sight::open);
+    for (const Start& start : open_)
+      if (!ended_) grow_from(start);
+    if (backs_may_be_the_scene())
+      for (const Start& start : backs_)
+        if (!ended_) grow_from(start);
     return components();
   }
 
  private:
+  /// A place where a body can be and that nothing has reached.
+  struct Start {
+    Vec3 place{0.0};
+    Sight sight = Sight::closed;
+    bool open = false;
+    bool free = false;
+  };
+
   bool asked_to_go_on() {
     if (!ended_ && goes_on_ && !goes_on_(static_cast<double>(done_) * share_of_one_)) ended_ = true;
     return !ended_;
@@ -51,66 +94,112 @@ class Search {
     return reached_.any(place, 0, [&](const auto& e) { return std::abs(e.z - place.z) <= reached_column; });
   }
 
-  /// Of some samples the places where a body can be and that nothing has reached.
-  [[nodiscard]] std::vector<Vec3> free_ones(std::span<const Vec3> samples) const {
-    std::vector<Vec3> places(samples.begin(), samples.end());
-    std::vector<char> free(samples.size(), 0);
-    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
-      if (is_reached(samples[i])) return;
-      if (measure_.mode == Mode::walk) {
-        const auto foot = foot_at(survey_, measure_, samples[i]);
-        if (!foot || is_reached(*foot)) return;
-        places[i] = *foot;
-      }
-      free[i] = clearance_at(survey_, measure_, places[i]) > 0.0 ? 1 : 0;
-    });
-    std::vector<Vec3> kept;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (free[i] != 0) kept.push_back(places[i]);
-    return kept;
+  [[nodiscard]] Start start_at(const Vec3& sample) const {
+    Start start{.place = sample};
+    if (is_reached(sample)) return start;
+    if (measure_.mode == Mode::walk) {
+      const auto foot = foot_at(survey_, measure_, sample);
+      if (!foot || is_reached(*foot)) return start;
+      start.place = *foot;
+    }
+    const double clearance = clearance_at(survey_, measure_, start.place);
+    if (!(clearance > 0.0)) return start;
+    start.free = true;
+    const Surroundings seen = look_around(survey_, eye_over(measure_, {start.place, static_cast<float>(clearance)}));
+    start.open = seen.open;
+    start.sight = trusted_ && seen.backs ? Sight::backs : seen.open ? Sight::open : Sight::closed;
+    return start;
   }
 
-  void begin_at(const Vec3& place) {
-    if (is_reached(place)) return;
-    const auto seed = tree_.seed(place);
-    if (!seed || tree_.root(*seed) != no_node) return;
-    const bool open = look_around(survey_, eye_over(measure_, tree_.node(*seed))).open;
+  [[nodiscard]] std::vector<Start> starts(std::span<const Vec3> samples) const {
+    std::vector<Start> all(samples.size());
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) { all[i] = start_at(samples[i]); });
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Start& start) { return !start.free; }), all.end());
+    return all;
+  }
+
+  void grow_from(const Start& start) {
+    if (is_reached(start.place)) return;
     // What is open to the sky and was not grown whole goes on under the other open samples.
-    if (open && open_was_cut_) return;
+    if (start.open && open_was_cut_) return;
+    const auto seed = tree_.seed(start.place);
+    if (!seed || tree_.root(*seed) != no_node) return;
+    grow(*seed, start.open ? Sight::open : start.sight);
+    reached_.add(start.place, 0);
+  }
+
+  void grow(NodeId root, Sight sight) {
     const std::size_t before = tree_.size();
     const std::uint64_t most_of_all = most_places_ * closed_factor;
-    const std::uint64_t most = std::min(open ? before + most_places_ : most_of_all, most_of_all);
-    const bool whole =
-        tree_.grow(*seed, no_node, [&](std::uint64_t places) { return places < most && asked_to_go_on(); });
-    if (!whole && open) open_was_cut_ = true;
+    const std::uint64_t most = sight == Sight::open ? std::min(before + most_open(), most_of_all) : most_of_all;
+    std::uint64_t mark = before + first_asked, turns = 0;
+    int open_running = 0;
+    bool out = false;
+    const bool whole = tree_.grow(root, no_node, [&](std::uint64_t places) {
+      if (sight == Sight::closed && places >= mark) {
+        mark = before + static_cast<std::uint64_t>(asked_growth * static_cast<double>(places - before));
+        open_running = newest_are_open(root) ? open_running + 1 : 0;
+      }
+      // It makes no new places where it has met a tree that came out before.
+      out = open_running == 2 || (sight == Sight::closed && turns++ > most_turns + (places - before) / places_a_turn);
+      return !out && places < most && asked_to_go_on();
+    });
     if (tree_.size() >= most_of_all) ended_ = true;
-    grown_.push_back({*seed, whole, whole ? 0 : places_of(*seed)});
+    if (out) came_out_.push_back(root);
+    if (!whole && sight == Sight::open) open_was_cut_ = true;
+    if (!whole && !out) cut_ = root;
+    if (whole) whole_.push_back(root);
     for (std::size_t id = before; id < tree_.size(); ++id) {
       const auto node = static_cast<NodeId>(id);
-      if (tree_.root(node) != no_node) reached_.add(tree_.node(node).place, 0);
+      if (tree_.root(node) == no_node) continue;
+      reached_.add(tree_.node(node).place, 0);
+      if (whole && sight == Sight::closed) ++closed_places_;
     }
-    reached_.add(place, 0);
   }
 
-  [[nodiscard]] std::size_t places_of(NodeId root) const {
-    std::size_t count = 0;
-    for (std::size_t id = 0; id < tree_.size(); ++id)
-      if (tree_.root(static_cast<NodeId>(id)) == root) ++count;
-    return count;
+  [[nodiscard]] bool newest_are_open(NodeId root) const {
+    std::size_t asked = 0, open = 0;
+    for (std::size_t id = tree_.size(); id > 0 && asked < newest; --id) {
+      const auto node = static_cast<NodeId>(id - 1);
+      if (tree_.root(node) != root) continue;
+      ++asked;
+      if (look_around(survey_, eye_over(measure_, tree_.node(node))).open) ++open;
+    }
+    return 2 * open > asked;
+  }
+
+  /// Beside what is closed the open ground around is not worth more than that.
+  [[nodiscard]] std::uint64_t most_open() const {
+    if (closed_places_ < least_closed || most_places_ <= least_open) return most_places_;
+    return std::clamp(closed_places_, least_open, most_places_);
+  }
+
+  /// Windings may be the wrong way round: then what sees backs is the scene. It is not where what is closed and sees
+  /// fronts is more than a share of all floors: see judge().
+  [[nodiscard]] bool backs_may_be_the_scene() const {
+    if (backs_.empty() || closed_places_ == 0) return true;
+    double area = 0.0;
+    for (const TriangleId id : survey_.floor_triangles()) {
+      const Triangle t = survey_.triangle(id);
+      area += 0.5 * std::abs(glm::cross(t[1] - t[0], t[2] - t[0]).z);
+    }
+    const double cell = spacing_of(tree_, whole_.front());
+    return static_cast<double>(closed_places_) * reversed_ratio * cell * cell < area;
   }
 
   [[nodiscard]] std::vector<Component> components() const {
     std::vector<Component> found;
     std::unordered_map<NodeId, std::size_t> number;
-    for (const Grown& grown : grown_) {
-      // A tree that was cut may have been reached by a later one, which then holds some of its places.
-      if (!grown.whole && places_of(grown.root) != grown.places) continue;
-      number.emplace(grown.root, found.size());
+    const auto add = [&](NodeId root, bool whole) {
+      number.emplace(root, found.size());
       Component c;
-      c.root = grown.root;
-      c.whole = grown.whole;
+      c.root = root;
+      c.whole = whole;
       found.push_back(std::move(c));
-    }
+    };
+    for (const NodeId root : whole_) add(root, true);
+    // Of trees that were cut only the last one holds together: it may have taken places from the others.
+    if (cut_ != no_node && tree_.root(cut_) == cut_) add(cut_, false);
     for (std::size_t id = 0; id < tree_.size(); ++id) {
       const auto component = number.find(tree_.root(static_cast<NodeId>(id)));
       if (component != number.end()) found[component->second].nodes.push_back(static_cast<NodeId>(id));
@@ -120,19 +209,18 @@ class Search {
     return found;
   }
 
-  struct Grown {
-    NodeId root = no_node;
-    bool whole = true;
-    std::size_t places = 0;  ///< of what was cut, then
-  };
-
   const Survey& survey_;
   const Measure& measure_;
   WidestTree& tree_;
+  bool trusted_;
   std::uint64_t most_places_;
   const std::function<bool(double)>& goes_on_;
   Columns reached_{reached_column};
-  std::vector<Grown> grown_;
+  std::vector<NodeId> whole_;        ///< roots of trees that nothing is beside
+  NodeId cut_ = no_node;             ///< root of the last tree that was not grown whole
+  std::vector<Start> open_, backs_;  ///< samples that wait
+  std::vector<NodeId> came_out_;     ///< roots of what began closed and goes on in the open
+  std::uint64_t closed_places_ = 0;  ///< that were reached from closed samples
   std::size_t done_ = 0;
   double share_of_one_ = 0.0;
   bool open_was_cut_ = false;
@@ -144,9 +232,10 @@ class Search {
 std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                        std::uint64_t seed, const std::function<bool(double)>& goes_on,
                                        std::uint64_t most_places) {
+  const bool trusted = windings_can_be_trusted(survey);
   std::vector<Component> found =
-      Search(survey, measure, tree, most_places, goes_on).run(sample_places(survey, measure.mode, seed));
-  judge(survey, measure, tree, found);
+      Search(survey, measure, tree, trusted, most_places, goes_on).run(sample_places(survey, measure.mode, seed));
+  judge(survey, measure, tree, trusted, found);
   return found;
 }
 

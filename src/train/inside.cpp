@@ -31,9 +31,13 @@ constexpr std::size_t asked = 64;
 constexpr double majority = 0.5;
 /// Windings are trusted where so many of the shared edges run both ways.
 constexpr double trusted_share = 0.9;
-/// What looks at fronts is the outside of a scene that is wound the wrong way round when it has not one place to so
-/// many that look at backs.
-constexpr double reversed_ratio = 10.0;
+/// Places of which a body can make no way: a component of fewer is none that is meant to be walked in.
+constexpr std::size_t least_places = 8;
+/// m: what is no wider is a ledge, from which one falls on one side though there may be nothing at all on the other.
+constexpr double ledge_width = 2.5;
+/// What is open to the sky beside something closed is a roof, or a niche outside, when it has not so much of its
+/// places.
+constexpr double least_open_share = 0.1;
 /// m: the columns in which places are looked up.
 constexpr double column = 0.5;
 /// m: how far beyond its last place a component is followed to where one falls from it.
@@ -44,7 +48,7 @@ class Judge {
   Judge(const Survey& survey, const Measure& measure, const WidestTree& tree, std::vector<Component>& components)
       : survey_(survey), measure_(measure), tree_(tree), components_(components) {}
 
-  void run() {
+  void run(bool trusted) {
     for (Component& c : components_) look(c);
     if (measure_.mode == Mode::walk) {
       for (std::uint32_t i = 0; i < components_.size(); ++i)
@@ -52,10 +56,11 @@ class Judge {
     }
     for (std::uint32_t i = 0; i < components_.size(); ++i)
       if (is_on_top(i)) components_[i].verdict = Verdict::on_top;
-    if (winding_share(survey_) >= trusted_share)
+    if (trusted)
       sort_out_backs();
     else
       keep_the_largest();
+    sort_out_small();
     // Something is what the scene is for: with nothing left, that with the most places.
     const auto is_inside = [](const Component& c) { return c.verdict == Verdict::inside; };
     if (std::none_of(components_.begin(), components_.end(), is_inside)) components_.front().verdict = Verdict::inside;
@@ -107,17 +112,24 @@ class Judge {
   /// Most ways out of it fall into a larger component: the top of a wall, a wardrobe, a roof.
   [[nodiscard]] bool is_ledge(std::uint32_t i) const {
     if (i == 0) return false;  // nothing is larger
-    std::size_t ways_out = 0, falls = 0;
+    std::size_t ways_out = 0, falls = 0, voids = 0, looked_at = 0;
     // Few places of a wide component are at its rim: all of a small one, and more of a large one, are asked.
     const std::vector<NodeId>& nodes = components_[i].nodes;
     const std::size_t stride_of_nodes = 1 + nodes.size() / (asked * asked);
     for (std::size_t n = 0; n < nodes.size(); n += stride_of_nodes) {
       const Node& node = tree_.node(nodes[n]);
+      ++looked_at;
       for (const Vec3& direction : ways_out_of(nodes[n])) {
         ++ways_out;
-        if (falls_into_larger(node, direction, i)) ++falls;
+        const Beyond beyond = beyond_rim(node, direction, i);
+        if (beyond == Beyond::larger) ++falls;
+        if (beyond == Beyond::nothing) ++voids;
       }
     }
+    // A strip of width w has two rims: 2 ways out for every w / spacing places.
+    const double cell = spacing_of(tree_, nodes.front());
+    const bool narrow = 2.0 * cell * static_cast<double>(looked_at) <= ledge_width * static_cast<double>(ways_out);
+    if (narrow) ways_out -= voids;
     return static_cast<double>(falls) > majority * static_cast<double>(ways_out);
   }
 
@@ -139,17 +151,21 @@ class Judge {
     return out;
   }
 
-  [[nodiscard]] bool falls_into_larger(const Node& node, const Vec3& direction, std::uint32_t i) const {
+  /// What one who goes on over the rim comes to.
+  enum class Beyond : std::uint8_t { other, larger, nothing };
+  [[nodiscard]] Beyond beyond_rim(const Node& node, const Vec3& direction, std::uint32_t i) const {
     const Vec3 eye = eye_over(measure_, node);
     const World& world = survey_.world();
-    if (world.ray(eye, stride * direction).hit) return false;
+    if (world.ray(eye, stride * direction).hit) return Beyond::other;
     const Vec3 beyond = eye + stride * direction;
     const double deep = std::clamp(beyond.z - world.bounds().lower.z + 1.0, 1.0, 1e5);
     const Impact down = world.ray(beyond, Vec3(0.0, 0.0, -deep));
-    if (!down.hit || down.point.z > node.place.z - measure_.step) return false;
+    if (!down.hit) return Beyond::nothing;
+    if (down.point.z > node.place.z - measure_.step) return Beyond::other;
     const double level = down.point.z;
-    return columns_.any(down.point, 1,
-                        [&](const auto& e) { return e.owner < i && std::abs(e.z - level) <= measure_.step; });
+    const bool larger = columns_.any(
+        down.point, 1, [&](const auto& e) { return e.owner < i && std::abs(e.z - level) <= measure_.step; });
+    return larger ? Beyond::larger : Beyond::other;
   }
 
   /// Windings say which side is out, and how much of the scene looks at which side says whether they say it right.
@@ -162,6 +178,19 @@ class Judge {
     const bool reversed = fronts * reversed_ratio < backs;
     for (Component& c : components_)
       if (c.verdict != Verdict::on_top && (c.back_share > majority) != reversed) c.verdict = Verdict::backs;
+  }
+
+  /// Scraps, and what is open to the sky and small beside what is not.
+  void sort_out_small() {
+    std::size_t closed = 0;
+    for (const Component& c : components_)
+      if (c.verdict == Verdict::inside && c.open_share <= majority) closed = std::max(closed, c.nodes.size());
+    for (Component& c : components_) {
+      if (c.verdict != Verdict::inside) continue;
+      if (c.nodes.size() < least_places) c.verdict = Verdict::smaller;
+      const bool little = static_cast<double>(c.nodes.size()) < least_open_share * static_cast<double>(closed);
+      if (c.open_share > majority && little) c.verdict = Verdict::on_top;
+    }
   }
 
   void keep_the_largest() {
@@ -182,8 +211,21 @@ class Judge {
 
 }  // namespace
 
-void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, std::vector<Component>& components) {
-  if (!components.empty()) Judge(survey, measure, tree, components).run();
+double spacing_of(const WidestTree& tree, NodeId id) {
+  double least = 0.0;
+  for (const NodeId beside : tree.neighbours(id)) {
+    const Vec3 to = tree.node(beside).place - tree.node(id).place;
+    const double apart = std::hypot(to.x, to.y);
+    if (apart > 0.0 && (least == 0.0 || apart < least)) least = apart;
+  }
+  return least;
+}
+
+bool windings_can_be_trusted(const Survey& survey) { return winding_share(survey) >= trusted_share; }
+
+void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, bool trusted,
+           std::vector<Component>& components) {
+  if (!components.empty()) Judge(survey, measure, tree, components).run(trusted);
 }
 
 }  // namespace roam::training

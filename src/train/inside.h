@@ -23,7 +23,18 @@ struct Surroundings {
 /// one. 0 where less than half of all edges are shared: then nothing is known.
 [[nodiscard]] double winding_share(const Survey& survey);
 
-/// Sets shares and verdicts of components, most places first, whose nodes are known.
-void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, std::vector<Component>& components);
+/// Whether nearly all of them do.
+[[nodiscard]] bool windings_can_be_trusted(const Survey& survey);
+
+/// What looks at fronts is the outside of a scene that is wound the wrong way round when it has not one place to so
+/// many that look at backs.
+inline constexpr double reversed_ratio = 10.0;
+
+/// Metres between neighbours of the lattice, seen from above on foot; 0 for a place without any. `id` has been reached.
+[[nodiscard]] double spacing_of(const WidestTree& tree, NodeId id);
+
+/// Sets shares and verdicts of components, most places first, whose nodes are known. `trusted`: windings can be.
+void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, bool trusted,
+           std::vector<Component>& components);
 
 }  // namespace roam::training

@@ -19,11 +19,18 @@ constexpr std::size_t usual_paths = 5;
 constexpr double end_reach = 2.0;
 
 constexpr std::uint32_t no_room = ~std::uint32_t(0);
+constexpr std::uint32_t nowhere = ~std::uint32_t(0);
 
 class Plan {
  public:
   Plan(const WidestTree& tree, const Component& component, const Rooms& rooms, std::uint64_t seed)
-      : tree_(tree), component_(component), rooms_(rooms), draw_(seed), room_of_(component.nodes.size(), no_room) {
+      : tree_(tree),
+        component_(component),
+        rooms_(rooms),
+        draw_(seed),
+        index_(tree.size(), nowhere),
+        room_of_(component.nodes.size(), no_room) {
+    for (std::size_t i = 0; i < component.nodes.size(); ++i) index_[component.nodes[i]] = static_cast<std::uint32_t>(i);
     for (std::uint32_t r = 0; r < rooms.rooms.size(); ++r)
       for (const NodeId id : rooms.rooms[r].nodes) room_of_[index(id)] = r;
   }
@@ -37,13 +44,8 @@ class Plan {
   }
 
  private:
-  [[nodiscard]] std::size_t index(NodeId id) const {
-    return static_cast<std::size_t>(std::lower_bound(component_.nodes.begin(), component_.nodes.end(), id) -
-                                    component_.nodes.begin());
-  }
-  [[nodiscard]] bool is_here(NodeId id) const {
-    return std::binary_search(component_.nodes.begin(), component_.nodes.end(), id);
-  }
+  [[nodiscard]] std::size_t index(NodeId id) const { return index_[id]; }
+  [[nodiscard]] bool is_here(NodeId id) const { return index_[id] != nowhere; }
 
   /// Which rooms the tree's ways go from straight to which.
   [[nodiscard]] std::vector<std::set<std::uint32_t>> links() const {
@@ -193,6 +195,7 @@ class Plan {
   const Component& component_;
   const Rooms& rooms_;
   Draw draw_;
+  std::vector<std::uint32_t> index_;    ///< in the component, of each node of the tree; nowhere
   std::vector<std::uint32_t> room_of_;  ///< of each node of the component; no_room in necks
   std::vector<Ends> ends_;
   std::set<NodeId> visited_;

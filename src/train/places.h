@@ -18,7 +18,7 @@ enum class Verdict : std::uint8_t {
   inside,   ///< a part of the scene that is meant to be walked in
   backs,    ///< looks at the backs of triangles: outside of what is walked in, or within rock
   on_top,   ///< of something: open to the sky over another component, or one falls from it into a larger one
-  smaller,  ///< than another that is inside, where windings cannot be trusted to tell
+  smaller,  ///< than another that is inside, where windings cannot be trusted to tell; or a scrap of a few places
 };
 
 /// "inside", "backs", "on top" or "smaller".
@@ -36,10 +36,11 @@ struct Component {
 };
 
 /// All components of the scene: sampled on its floors by area and by triangle (flying: in its box too), each grown
-/// whole in `tree`, most places first. At least one is inside, where there is any.
-/// `most_places`: a component that is open to the sky is not grown beyond so many places, others not beyond ten times
-/// as many. `goes_on` is asked now and then with the fraction of the samples that were looked at; false ends it with
-/// what was found.
+/// whole in `tree`, most places first. At least one is inside, where there is any. What only sees the backs of
+/// triangles is left out where it is plain that the windings are right.
+/// `most_places`: what is open to the sky is not grown beyond so many places, or beyond as many as there are of what is
+/// closed; all together not beyond ten times as many. `goes_on` is asked now and then with the fraction of the samples
+/// that were looked at; false ends it with what was found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                                      std::uint64_t seed,
                                                      const std::function<bool(double)>& goes_on = {},

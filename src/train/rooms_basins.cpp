@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
+#include <limits>
+#include <span>
 
 #include "train/disjoint_sets.h"
 
@@ -17,6 +18,8 @@ namespace {
 constexpr double neck_share = 0.8;
 /// Places wider than its neck that a room has at least: fewer are a niche.
 constexpr std::uint32_t least_places = 4;
+/// m2: where the middle of a body can be in a room, at least; a room of 1 m2 has 0.8.
+constexpr double least_area = 0.5;
 
 double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -33,12 +36,13 @@ PlaceGraph place_graph(const Survey& survey, const Measure& measure, const Wides
     graph.where.push_back(tree.node(id).place);
   }
   graph.beside.resize(nodes.size());
+  std::vector<Place> place_of(tree.size(), ~Place(0));
+  for (Place p = 0; p < nodes.size(); ++p) place_of[nodes[p]] = p;
   graph.spacing = std::numeric_limits<double>::infinity();
   for (Place a = 0; a < nodes.size(); ++a) {
     for (const NodeId neighbour : tree.neighbours(nodes[a])) {
-      const auto found = std::lower_bound(nodes.begin(), nodes.end(), neighbour);
-      if (found == nodes.end() || *found != neighbour) continue;
-      const auto b = static_cast<Place>(found - nodes.begin());
+      const Place b = place_of[neighbour];
+      if (b == ~Place(0)) continue;
       graph.beside[a].push_back(b);
       if (b < a) continue;
       graph.edges.push_back({std::min(graph.clearance[a], graph.clearance[b]), a, b});
@@ -98,6 +102,18 @@ class Flood {
     pools_[connected_.find(a)] = both;
   }
 
+  /// Gives basins of fewer than `least` places to the neighbour with the widest neck; edges come widest first.
+  void fill_small(std::span<const PlaceEdge> edges, double least) {
+    std::vector<std::uint32_t> places(room_.size(), 0);
+    for (std::uint32_t i = 0; i < room_.size(); ++i) ++places[room_.find(i)];
+    for (const PlaceEdge& edge : edges) {
+      const std::uint32_t a = room_.find(edge.a), b = room_.find(edge.b);
+      if (a == b || double(std::min(places[a], places[b])) >= least) continue;
+      room_.unite(a, b);
+      places[room_.find(a)] = places[a] + places[b];
+    }
+  }
+
   [[nodiscard]] std::vector<std::uint32_t> rooms() {
     std::vector<std::uint32_t> number(room_.size());
     std::uint32_t next = 0;
@@ -125,14 +141,13 @@ class Flood {
 }  // namespace
 
 std::vector<std::uint32_t> find_basins(const PlaceGraph& graph, double radius) {
-  std::vector<std::uint32_t> order(graph.edges.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const float wide_a = graph.edges[a].clearance, wide_b = graph.edges[b].clearance;
-    return wide_a != wide_b ? wide_a > wide_b : a < b;
-  });
+  std::vector<PlaceEdge> edges = graph.edges;
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const PlaceEdge& a, const PlaceEdge& b) { return a.clearance > b.clearance; });
   Flood flood(graph, radius);
-  for (const std::uint32_t edge : order) flood.join(graph.edges[edge]);
+  for (const PlaceEdge& edge : edges) flood.join(edge);
+  const double cell = graph.spacing * graph.spacing;
+  if (cell > 0.0) flood.fill_small(edges, least_area / cell);
   return flood.rooms();
 }
 
