@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -64,10 +63,8 @@ Opening opening_at(const Survey& survey, const Measure& measure, const Vec3& pla
   const Vec3 middle = centre + 0.5 * radius * (to_one + to_other);
   opening.point = Vec3(middle.x, middle.y, 0.5 * (sides[one].point.z + sides[other].point.z));
   opening.direction = chord / glm::length(chord);
-  const bool above = std::any_of(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(count),
-                                 [](const Contact& c) { return c.normal.z < -lintel_cosine; });
-  const bool level = std::abs(opening.direction.z) < lintel_cosine && least < -0.5;
-  if (measure.mode == Mode::walk && above && !level) opening.kind = Opening::Kind::lintel;
+  if (measure.mode == Mode::walk && std::abs(opening.direction.z) >= lintel_cosine)
+    opening.kind = Opening::Kind::lintel;
   return opening;
 }
 

@@ -125,9 +125,29 @@ class Search {
       const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
       const std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
       if (way.empty()) return;
+      if (const auto same = same_opening(way, best, found)) {
+        last.opening = *same;
+        continue;
+      }
       last = refined(way);
       if (last.found && last.radius > best.radius) best = last;
     }
+  }
+  /// Flying, through a slot at another height: straight from where the way is narrowest to an opening that was found.
+  [[nodiscard]] std::optional<Opening> same_opening(const std::vector<NodeId>& way, const Passage& best,
+                                                    const std::vector<Opening>& found) const {
+    if (measure_.mode != Mode::fly) return std::nullopt;
+    const NodeId narrowest = *std::min_element(
+        way.begin(), way.end(), [&](NodeId a, NodeId b) { return tree_.node(a).clearance < tree_.node(b).clearance; });
+    const Vec3 place = tree_.node(narrowest).place;
+    const double radius = std::max(best.radius - lattice_error * options_.spacing, measure_.narrowest);
+    for (const Opening& o : found) {
+      if (!goes_straight(survey_, measure_, place, o.point, radius)) continue;
+      Opening here = o;
+      here.point = place;
+      return here;
+    }
+    return std::nullopt;
   }
   [[nodiscard]] double tall() const { return measure_.height > 0.0 ? measure_.height : 2.0 * measure_.widest; }
 

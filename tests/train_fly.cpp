@@ -1,0 +1,107 @@
+// How wide the way between two places in the air is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "roam/passage.h"
+#include "roam/route.h"
+#include "seeded_gallery.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Mode;
+using roam::Opening;
+using roam::Passage;
+using roam::PassageOptions;
+using roam::Survey;
+
+constexpr double wanted_error = 2e-4;  // m
+const PassageOptions flying{.mode = Mode::fly};
+
+Survey survey_of(const Mesh& mesh) {
+  return Survey::build({mesh}, {.slope_degrees = 45.0, .threads = 1, .lossless = true, .progress = {}});
+}
+
+/// Two rooms of 4 m by 3 m by 2.6 m and a wall of 0.2 m between them, from x = -0.1 to 0.1, with an opening.
+Mesh rooms(double y0, double y1, double z0, double z1, bool roof = true) {
+  Mesh m;
+  const double far = 4.0, side = 1.5, top = 2.6;
+  add_floor(m, -far, -side, far, side, 0.0);
+  if (roof) add_floor(m, -far, -side, far, side, top);
+  for (const double y : {-side, side}) add_wall(m, -far, y, far, y, 0.0, top);
+  for (const double x : {-far, far}) add_wall(m, x, -side, x, side, 0.0, top);
+  add_box(m, {-0.1, -side, 0.0}, {0.1, y0, top});
+  add_box(m, {-0.1, y1, 0.0}, {0.1, side, top});
+  if (z0 > 0.0) add_box(m, {-0.1, y0, 0.0}, {0.1, y1, z0});
+  if (z1 < top) add_box(m, {-0.1, y0, z1}, {0.1, y1, top});
+  return m;
+}
+constexpr Vec3 one_end{-2.5, 0.1, 1.3}, other_end{2.5, 0.0, 1.2};
+
+TEST(Flight, IsHalfTheDoor) {
+  for (const double width : {0.5, 0.9}) {
+    const Passage p =
+        roam::widest_way(survey_of(rooms(0.2 - 0.5 * width, 0.2 + 0.5 * width, 0.0, 2.0)), one_end, other_end, flying);
+    ASSERT_TRUE(p.found);
+    EXPECT_NEAR(p.radius, 0.5 * width, wanted_error);
+    ASSERT_TRUE(p.opening);
+    EXPECT_EQ(p.opening->kind, Opening::Kind::gap);
+    EXPECT_GT(std::abs(p.opening->direction.y), 0.999);
+    EXPECT_EQ(p.way.front(), one_end);
+    EXPECT_EQ(p.way.back(), other_end);
+  }
+}
+
+TEST(Flight, IsHalfTheSmallerSideOfAWindow) {
+  const Passage p = roam::widest_way(survey_of(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
+  ASSERT_TRUE(p.found);
+  EXPECT_NEAR(p.radius, 0.21, wanted_error);
+  ASSERT_TRUE(p.opening);
+  EXPECT_NEAR(p.opening->point.z, 1.31, 0.01);
+  EXPECT_GT(std::abs(p.opening->direction.z), 0.999);
+}
+
+TEST(Flight, IsHalfTheNarrowestDoorOfSeededGalleries) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const seeded::Gallery g = seeded::gallery(seed);
+    const Vec3 up(0.0, 0.0, 1.2);
+    EXPECT_NEAR(roam::widest_way(survey_of(g.mesh), g.from + up, g.to + up, flying).radius, g.upper(), wanted_error)
+        << seed;
+  }
+}
+
+TEST(Flight, GoesOverTheWallWhereThereIsNoRoof) {
+  const Passage p = roam::widest_way(survey_of(rooms(-0.25, 0.25, 0.0, 2.0, false)), one_end, other_end, flying);
+  ASSERT_TRUE(p.found);
+  EXPECT_FALSE(p.limited);
+  double highest = 0.0;
+  for (const Vec3& v : p.way) highest = std::max(highest, v.z);
+  EXPECT_GT(highest, 3.5);
+}
+
+TEST(Flight, IsFlownByABodyALittleSlimmer) {
+  const Mesh m = rooms(-0.33, 0.33, 1.1, 1.52);
+  const Survey survey = survey_of(m);
+  const Passage p = roam::widest_way(survey, one_end, other_end, flying);
+  for (const double share : {0.97, 1.02}) {
+    roam::Walker walker(survey.world(), roam::WalkerSettings::sphere(share * p.radius), Mode::fly, p.way.front());
+    EXPECT_EQ(roam::follow(walker, p.way).outcome, share < 1.0 ? roam::Outcome::reached : roam::Outcome::blocked);
+  }
+  const Judge judge(m);
+  for (std::size_t i = 1; i < p.way.size(); ++i) {
+    EXPECT_GE(judge.over({p.radius, 0.0}, p.way[i - 1], p.way[i] - p.way[i - 1], 1.0), p.radius - 5e-4 - 1e-6);
+  }
+}
+
+TEST(Flight, EndsAtAClosedWall) {
+  Mesh m = rooms(0.0, 0.0, 0.0, 2.6);
+  const Passage p = roam::widest_way(survey_of(m), one_end, other_end, flying);
+  EXPECT_FALSE(p.found);
+  ASSERT_TRUE(p.opening);
+  EXPECT_LT(std::abs(p.opening->point.x), 0.3);
+}
+
+}  // namespace
