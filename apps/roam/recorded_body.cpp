@@ -27,6 +27,7 @@ WalkerSettings settings_of(const RecordedBody& body) {
   settings.eye = body.eye;
   settings.step = body.step;
   settings.slope_degrees = body.slope_degrees;
+  settings.support_radius = body.support_radius;
   return settings;
 }
 
@@ -38,8 +39,10 @@ std::string describe(double radius, double height) {
 }  // namespace
 
 std::string body_line(const WalkerSettings& s, Mode mode) {
-  return fmt::format("{}{} radius {} height {} eye {} step {} slope {}", mark, name(mode), s.radius, s.height, s.eye,
-                     s.step, s.slope_degrees);
+  std::string line = fmt::format("{}{} radius {} height {} eye {} step {} slope {}", mark, name(mode), s.radius,
+                                 s.height, s.eye, s.step, s.slope_degrees);
+  if (s.support_radius > 0.0) line += fmt::format(" support {}", s.support_radius);
+  return line;
 }
 
 std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode)); }
@@ -57,12 +60,13 @@ std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
     RecordedBody read;
     bool good = mode.has_value();
     while (good && words >> word) {
-      double* const value = word == "radius"   ? &read.radius
-                            : word == "height" ? &read.height
-                            : word == "eye"    ? &read.eye
-                            : word == "step"   ? &read.step
-                            : word == "slope"  ? &read.slope_degrees
-                                               : nullptr;
+      double* const value = word == "radius"    ? &read.radius
+                            : word == "height"  ? &read.height
+                            : word == "eye"     ? &read.eye
+                            : word == "step"    ? &read.step
+                            : word == "slope"   ? &read.slope_degrees
+                            : word == "support" ? &read.support_radius
+                                                : nullptr;
       good = value != nullptr && words >> *value;
     }
     if (!good) {
@@ -96,6 +100,10 @@ std::string compare(const RecordedBody& recorded, const WalkerSettings& settings
         "the path was recorded by a body that steps {:g} m and climbs {:g} degrees; this one {:g} m and "
         "{:g} degrees",
         recorded.step, recorded.slope_degrees, settings.step, settings.slope_degrees);
+  }
+  if (mode == Mode::walk && recorded.support_radius != settings.support_radius) {
+    return fmt::format("the path was recorded by a body with a support radius of {:g} m; this one has {:g} m",
+                       recorded.support_radius, settings.support_radius);
   }
   if (recorded.mode == mode) return {};
   return fmt::format("the path was recorded in mode {}; this is mode {}", name(recorded.mode), name(mode));

@@ -3,6 +3,7 @@
 /// The body that recorded a path: a comment of the path file, so that the way can be gone again by the same body.
 ///
 ///     # roam: mode walk radius 0.3 height 1.8 eye 1.5 step 0.3 slope 45
+///     # roam: mode walk radius 0.3 height 1.8 eye 1.5 step 0.3 slope 45 support 0.65
 ///     # roam: mode fly
 ///
 /// The first such line says the body, each further one that the mode changed there.
@@ -20,6 +21,7 @@ struct RecordedBody {
   bool ghost = false;      ///< part of the way was gone by a ghost: walls may stand in it
   double radius = 0.3, height = 1.8, eye = 1.6, step = 0.3;  ///< metres
   double slope_degrees = 45.0;
+  double support_radius = 0.0;  ///< metres; 0: no foot of its own, and the line does not speak of one
 };
 
 /// The first line, without its end.

@@ -29,8 +29,8 @@ TraceFile::TraceFile(std::filesystem::path file) : path_(std::move(file)), out_(
   rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
 }
 
-void TraceFile::add(std::uint64_t step, double step_start, double radius, const StepReport& report) {
-  const auto row = [&](double time, const Vec3& p, double height, double clearance, std::size_t contacts,
+void TraceFile::add(std::uint64_t step, double step_start, const StepReport& report) {
+  const auto row = [&](double time, const Vec3& p, double radius, double height, double clearance, std::size_t contacts,
                        const std::string& events, bool teleport) {
     fmt::format_to(std::back_inserter(rows_), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}\n",
                    step, time, p.x, p.y, p.z, radius, height, clearance, contacts, events, teleport ? 1 : 0);
@@ -38,17 +38,17 @@ void TraceFile::add(std::uint64_t step, double step_start, double radius, const 
   const std::string events = joined_events(report);
   if (step == 0) {
     // The place that was asked for may be inside a wall; the walk starts where the body was put.
-    row(step_start, report.to, report.height, report.clearance, report.contacts.total(), events, true);
+    row(step_start, report.to, report.radius, report.height, report.clearance, report.contacts.total(), events, true);
     return;
   }
   for (const Corner& corner : report.corners) {
     const bool last = &corner == &report.corners.back();
-    row(step_start + corner.time, corner.position, corner.height, corner.clearance, last ? report.contacts.total() : 0,
-        last ? events : std::string(), corner.teleport);
+    row(step_start + corner.time, corner.position, corner.radius, corner.height, corner.clearance,
+        last ? report.contacts.total() : 0, last ? events : std::string(), corner.teleport);
   }
   if (report.corners.empty()) {
-    row(step_start + report.elapsed, report.to, report.height, report.clearance, report.contacts.total(), events,
-        false);
+    row(step_start + report.elapsed, report.to, report.radius, report.height, report.clearance, report.contacts.total(),
+        events, false);
   }
   if (rows_.size() >= block_bytes) {
     out_ << rows_;
@@ -63,16 +63,16 @@ void TraceFile::close() {
   if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
 }
 
-void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report) {
+void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report) {
   Vec3 from = report.from;
   for (const Corner& corner : report.corners) {
     if (step == 0) break;
     if (corner.teleport) from = corner.position;
-    pieces.push_back({step, from, corner.position, Body::capsule(radius, corner.height), corner.clearance});
+    pieces.push_back({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
     from = corner.position;
   }
   if (step == 0 && report.held) return;
-  pieces.push_back({step, report.to, report.to, Body::capsule(radius, report.height), report.clearance});
+  pieces.push_back({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
 }
 
 StepTimes summarize(std::vector<std::uint32_t> nanoseconds) {

@@ -15,13 +15,14 @@ namespace roam::app {
 
 /// Writes `--trace`: a row for the start and one or more for each step. A step whose way has corners has a row for each
 /// of them; contacts and events stand in its last row, several events joined by `+`. `clearance` is certified all along
-/// the straight piece that ends in its row; 0 where nothing is certified.
+/// the straight piece that ends in its row; 0 where nothing is certified. `radius` and `height` are those of the body
+/// on that piece.
 class TraceFile {
  public:
   explicit TraceFile(std::filesystem::path file);
 
   /// `step_start` is the time in seconds when the step began.
-  void add(std::uint64_t step, double step_start, double radius, const StepReport& report);
+  void add(std::uint64_t step, double step_start, const StepReport& report);
   /// Throws roam::Error when not all could be written.
   void close();
 
@@ -31,10 +32,11 @@ class TraceFile {
   std::string rows_;
 };
 
-/// The pieces of one step, for verify(): each straight piece of its way, and its place at the end. Of the start, step
+/// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
+/// place at the end. Of the start, step
 /// 0, only the place where the body was put, if it fits there: the way out of a wall into which a path begins is no
 /// step.
-void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, double radius, const StepReport& report);
+void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report);
 
 /// The times of steps in nanoseconds.
 struct StepTimes {

@@ -53,9 +53,10 @@ std::string explain(const WalkReport& report) {
                          at(result.end));
     case Outcome::fell: {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
-      return fmt::format(
-          "at {} the ground ends, or has a gap that a radius of {} m does not bridge; a larger radius may", at(from),
-          report.settings.radius);
+      const WalkerSettings& s = report.settings;
+      const bool foot = s.support_radius > s.radius;
+      return fmt::format("at {} the ground ends, or has a gap that a {} of {} m does not bridge; a larger one may",
+                         at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
     }
     case Outcome::held:
       if (result.steps == 0) {
@@ -108,6 +109,7 @@ Json json_report(const WalkReport& report) {
                {"mode", name(report.mode)},
                {"radius", report.settings.radius},
                {"height", report.settings.height},
+               {"support_radius", report.settings.support_radius},
                {"outcome", name(result.outcome)},
                {"why", explain(report)},
                {"length_m", result.length},
@@ -115,6 +117,7 @@ Json json_report(const WalkReport& report) {
                {"simulated_s", result.simulated},
                {"step_ns", {{"median", report.times.median}, {"p99", report.times.p99}, {"max", report.times.max}}},
                {"least_clearance_m", result.least_clearance},
+               {"least_gap_m", result.least_gap},
                {"violations", nullptr},
                {"throttled", result.throttled},
                {"blocked_at", blocked},
@@ -149,10 +152,11 @@ std::string text_report(const WalkReport& report) {
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
   line("body",
        fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));
+  if (report.settings.support_radius > 0.0) line("", fmt::format("support radius {} m", report.settings.support_radius));
   line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
   if (report.mode != Mode::ghost) {
     line("least clearance", fmt::format("{:.6f} m from its axis, {:.6f} m from its surface (certified)",
-                                        result.least_clearance, result.least_clearance - report.settings.radius));
+                                        result.least_clearance, result.least_gap));
   }
   line("time of a step", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us at most", report.times.median * 1e-3,
                                      report.times.p99 * 1e-3, report.times.max * 1e-3));

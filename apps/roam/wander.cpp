@@ -156,6 +156,7 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
 Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
     : walker_(&walker), options_(options), seconds_(seconds) {
   result_.least_clearance = walker.report().clearance;
+  result_.least_gap = walker.report().least_gap;
   result_.end = walker.position();
   note(walker.report());
 }
@@ -248,6 +249,7 @@ const StepReport& Wander::advance() {
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
   result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
+  result_.least_gap = std::min(result_.least_gap, report.least_gap);
   if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
   std::uint32_t kinds = 0;
   for (const Event& event : report.events) {

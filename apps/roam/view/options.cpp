@@ -73,6 +73,7 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
     known.eye = recorded->eye;
     known.step = recorded->step;
     known.slope = recorded->slope_degrees;
+    if (!options.radius) walker.support_radius = recorded->support_radius;
   }
   const bool described = options.radius.has_value() || (replay && !recorded);
   // What belongs together is taken from one place: a height from the settings is no height for a radius from the

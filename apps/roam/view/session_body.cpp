@@ -129,7 +129,7 @@ void Session::look_along_path(double seconds) {
 }
 
 void Session::step_taken(const StepReport& report, double seconds) {
-  log_.take(report, roamer_->settings(), roamer_->mode(), seconds);
+  log_.take(report, roamer_->mode(), seconds);
   if (report.elapsed > 0.0) {
     const double share = std::min(1.0, report.elapsed / speed_time);
     speed_ += share * (glm::distance(report.from, report.to) / report.elapsed - speed_);

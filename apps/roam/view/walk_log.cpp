@@ -9,10 +9,10 @@ WalkLog::WalkLog(const std::filesystem::path& trace, bool keep_pieces) : keep_pi
   if (!trace.empty()) trace_.emplace(trace);
 }
 
-void WalkLog::take(const StepReport& report, const WalkerSettings& settings, Mode mode, double seconds) {
-  if (trace_) trace_->add(rows_, simulated_, settings.radius, report);
+void WalkLog::take(const StepReport& report, Mode mode, double seconds) {
+  if (trace_) trace_->add(rows_, simulated_, report);
   const bool certified = mode != Mode::ghost && !report.held;
-  if (keep_pieces_ && certified) append_pieces(pieces_, rows_, settings.radius, report);
+  if (keep_pieces_ && certified) append_pieces(pieces_, rows_, report);
   ++rows_;
   if (certified) least_clearance_ = std::min(least_clearance_.value_or(report.least_clearance), report.least_clearance);
   if (seconds <= 0.0) return;

@@ -22,7 +22,7 @@ class WalkLog {
 
   /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost and of a body that is held
   /// stand in the trace, but are nothing that could be verified.
-  void take(const StepReport& report, const WalkerSettings& settings, Mode mode, double seconds);
+  void take(const StepReport& report, Mode mode, double seconds);
   /// The time that all steps of a frame took, ns: by the clock, and what their thread itself used of it.
   void take_frame(std::int64_t passed, std::int64_t own);
   /// Writes what is left. Throws roam::Error when not all of the trace could be written.
