@@ -100,7 +100,9 @@ struct Training {
   std::vector<Crack> cracks;        ///< of the floor that was reached, widest first
   std::vector<Decisive> decisive;   ///< of the upper end, then of the lower, where there is one
   std::vector<SizeRegion> regions;  ///< where another size is to be used, and why
-  std::uint64_t places = 0;         ///< free places looked at
+  /// Trials that ended otherwise than the ends say they must, a sentence each; `answer` names the first of them.
+  std::vector<std::string> contradictions;
+  std::uint64_t places = 0;  ///< free places looked at
   double seconds = 0.0;             ///< of wall clock; the only member that differs between runs
 };
 

@@ -89,8 +89,8 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options) 
              : "There is no free place: nowhere does even the smallest body fit. Is the unit of length right?";
 }
 
-std::string interval_answer(const Layout& layout, const Training& training,
-                            std::span<const Contradiction> contradictions) {
+std::string interval_answer(const Layout& layout, const Training& training) {
+  const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
   if (training.paths.empty()) {
     text = fmt::format("There is room to stand but no way to go: a body with {} fits there.",
@@ -102,7 +102,7 @@ std::string interval_answer(const Layout& layout, const Training& training,
     text += fmt::format(" The scene has {} parts without a way between them; paths were planned in each.",
                         layout.components.size());
   }
-  for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i].what;
+  for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
   if (contradictions.size() > most_told)
     text += fmt::format(" {} more trials contradict the geometry.", contradictions.size() - most_told);
   return text;

@@ -2,11 +2,9 @@
 /// \file
 /// What training found, in plain words.
 
-#include <span>
 #include <string>
 
 #include "roam/train.h"
-#include "train/interval.h"
 #include "train/layout.h"
 #include "train/paper.h"
 
@@ -19,8 +17,7 @@ namespace roam::training {
 [[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options);
 
 /// Of Method::interval.
-[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training,
-                                          std::span<const Contradiction> contradictions);
+[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training);
 
 /// Of Method::paper.
 [[nodiscard]] std::string paper_answer(const PaperResult& result, const Training& training);

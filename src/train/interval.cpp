@@ -1,7 +1,13 @@
 #include "train/interval.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "train/neck_ways.h"
+#include "train/refine.h"
+#include "train/regions.h"
 
 namespace roam::training {
 
@@ -113,6 +119,25 @@ void choose_body(const BodyKind& kind, const TrainOptions& options, const Eviden
   training.support_radius = 0.0;
   if (training.radius < carried_share * evidence.widest_anywhere)
     training.support_radius = std::min(options.support_max, evidence.widest_anywhere + foot_margin);
+}
+
+void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
+                 Training& training) {
+  stages.begin("looking beside the paths");
+  for (const Component& component : layout.components) {
+    if (stages.ended()) return;
+    const Rooms rooms = find_rooms(survey, layout.measure, layout.tree, component, training.radius);
+    const std::vector<std::vector<Vec3>> ways = neck_ways(layout.tree, rooms);
+    std::vector<Passage> openings(ways.size());
+    tbb::parallel_for(std::size_t(0), ways.size(), [&](std::size_t i) {
+      if (ways[i].size() > 1 && !stages.ended()) openings[i] = refine(survey, layout.measure, options.spacing, ways[i]);
+    });
+    if (stages.ended()) return;
+    for (SizeRegion& region : make_regions(layout.measure, layout.tree, rooms, training.radius, openings)) {
+      region.support_radius = training.support_radius;
+      training.regions.push_back(std::move(region));
+    }
+  }
 }
 
 }  // namespace roam::training

@@ -50,14 +50,13 @@ struct Evidence {
 ///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm.
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training);
 
-/// What a trial said against what was found out from the scene.
-struct Contradiction {
-  std::string what;  ///< a sentence
-};
+/// Where the chosen body does not pass: smaller ones, for necks that are no part of a path, and the rooms behind.
+void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
+                 Training& training);
 
 /// Sends bodies along all paths with the chosen size, and with sizes just inside and just outside both ends past the
-/// opening or over the crack that decides; adds the trials to the paths.
-[[nodiscard]] std::vector<Contradiction> prove(const Survey& survey, const BodyKind& kind, const Layout& layout,
-                                               const Evidence& evidence, Stages& stages, Training& training);
+/// opening or over the crack that decides; adds the trials to the paths, and what contradicts the ends.
+void prove(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Stages& stages,
+           Training& training);
 
 }  // namespace roam::training

@@ -46,6 +46,22 @@ const char* words(Judgement judgement) {
   return "";
 }
 
+const char* what_it_did(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reached:
+      return "came through and was";
+    case Outcome::blocked:
+      return "was blocked";
+    case Outcome::left_scene:
+      return "left the scene";
+    case Outcome::fell:
+      return "fell";
+    case Outcome::held:
+      return "did not fit";
+  }
+  return "";
+}
+
 class Proof {
  public:
   Proof(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Training& training)
@@ -125,8 +141,8 @@ class Proof {
 
 }  // namespace
 
-std::vector<Contradiction> prove(const Survey& survey, const BodyKind& kind, const Layout& layout,
-                                 const Evidence& evidence, Stages& stages, Training& training) {
+void prove(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Stages& stages,
+           Training& training) {
   stages.begin("trials");
   const std::vector<Attempt> attempts = Proof(survey, kind, layout, evidence, training).attempts();
   std::vector<Trial> trials(attempts.size());
@@ -139,18 +155,16 @@ std::vector<Contradiction> prove(const Survey& survey, const BodyKind& kind, con
     ++done;
     progress();
   });
-  std::vector<Contradiction> contradictions;
-  if (stages.ended()) return contradictions;
+  if (stages.ended()) return;
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const Attempt& attempt = attempts[i];
     trials[i].path = attempt.path;
     training.paths[attempt.path].trials.push_back(trials[i]);
     if (judged(trials[i].outcome) == attempt.expected) continue;
-    contradictions.push_back({fmt::format("On path {} a trial with {} ({}) should {}, but it {} at {}.",
-                                          attempt.path + 1, size_text(attempt), attempt.why, words(attempt.expected),
-                                          name(trials[i].outcome), at(trials[i].at))});
+    training.contradictions.push_back(
+        fmt::format("On path {} a body with {} ({}) should {}, but {} at {}.", attempt.path + 1, size_text(attempt),
+                    attempt.why, words(attempt.expected), what_it_did(trials[i].outcome), at(trials[i].at)));
   }
-  return contradictions;
 }
 
 }  // namespace roam::training

@@ -59,9 +59,9 @@ void find_interval(const Survey& survey, const TrainOptions& options, const Body
                    Stages& stages, Training& training) {
   const Evidence evidence = find_ends(survey, options, layout, stages, training);
   choose_body(kind, options, evidence, training);
-  std::vector<Contradiction> contradictions;
-  if (!stages.ended()) contradictions = prove(survey, kind, layout, evidence, stages, training);
-  training.answer = interval_answer(layout, training, contradictions);
+  if (!stages.ended()) add_regions(survey, options, layout, stages, training);
+  if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);
+  training.answer = interval_answer(layout, training);
 }
 
 void follow_paper(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,

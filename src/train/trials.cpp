@@ -29,11 +29,6 @@ Vec3 start_over(const Survey& survey, const Body& body, const Vec3& foot, double
   return foot + Vec3(0.0, 0.0, 0.5 * body.height());
 }
 
-template <class Settings>
-void carry(Settings& settings, double support_radius) {
-  if constexpr (requires { settings.support_radius; }) settings.support_radius = support_radius;
-}
-
 bool was_put_aside(const RouteResult& result, const Vec3& start) {
   const Vec3 by = result.end - start;
   return std::hypot(by.x, by.y) > put_aside && result.steps == 0;
@@ -66,7 +61,7 @@ WalkerSettings settings_of(const BodyKind& kind, double radius, double support_r
   settings.crouch_height = settings.height;
   settings.clearance_reach = 0.0;
   settings.speed = kind.speed;
-  carry(settings, support_radius);
+  settings.support_radius = support_radius;
   return settings;
 }
 

@@ -1,0 +1,88 @@
+#include "train/neck_ways.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <queue>
+#include <unordered_map>
+
+namespace roam::training {
+
+namespace {
+
+/// Best first: the largest least clearance, then the smaller number, so that the order is always the same.
+struct Front {
+  float least;
+  NodeId node, from;
+  bool operator<(const Front& other) const { return least != other.least ? least < other.least : node > other.node; }
+};
+
+class NeckWay {
+ public:
+  NeckWay(const WidestTree& tree, const std::unordered_map<NodeId, std::uint32_t>& room_of, const Neck& neck)
+      : tree_(tree), room_of_(room_of), neck_(neck) {}
+
+  [[nodiscard]] std::vector<Vec3> find() {
+    for (const NodeId id : neck_.nodes) {
+      const NodeId before = neighbour(id, [&](std::uint32_t room) { return room == neck_.rooms.front(); });
+      if (before != no_node) fronts_.push({tree_.node(id).clearance, id, before});
+    }
+    while (!fronts_.empty()) {
+      const Front front = fronts_.top();
+      fronts_.pop();
+      if (!from_.emplace(front.node, front.from).second) continue;
+      const NodeId behind = neighbour(front.node, [&](std::uint32_t room) { return room != neck_.rooms.front(); });
+      if (behind != no_node) return back_from(front.node, behind);
+      for (const NodeId next : tree_.neighbours(front.node)) {
+        if (is_in_neck(next) && !from_.contains(next))
+          fronts_.push({std::min(front.least, tree_.node(next).clearance), next, front.node});
+      }
+    }
+    return {};
+  }
+
+ private:
+  [[nodiscard]] bool is_in_neck(NodeId id) const {
+    return std::binary_search(neck_.nodes.begin(), neck_.nodes.end(), id);
+  }
+
+  /// The widest neighbour in a room of that kind.
+  template <class Wanted>
+  [[nodiscard]] NodeId neighbour(NodeId id, const Wanted& wanted) const {
+    NodeId best = no_node;
+    for (const NodeId next : tree_.neighbours(id)) {
+      const auto room = room_of_.find(next);
+      if (room == room_of_.end() || !wanted(room->second)) continue;
+      if (best == no_node || tree_.node(next).clearance > tree_.node(best).clearance) best = next;
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::vector<Vec3> back_from(NodeId last, NodeId behind) const {
+    std::vector<Vec3> way{tree_.node(behind).place};
+    for (NodeId id = last;; id = from_.at(id)) {
+      way.push_back(tree_.node(id).place);
+      if (!is_in_neck(id)) break;
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  const WidestTree& tree_;
+  const std::unordered_map<NodeId, std::uint32_t>& room_of_;
+  const Neck& neck_;
+  std::priority_queue<Front> fronts_;
+  std::unordered_map<NodeId, NodeId> from_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Vec3>> neck_ways(const WidestTree& tree, const Rooms& rooms) {
+  std::unordered_map<NodeId, std::uint32_t> room_of;
+  for (std::uint32_t room = 0; room < rooms.rooms.size(); ++room)
+    for (const NodeId id : rooms.rooms[room].nodes) room_of.emplace(id, room);
+  std::vector<std::vector<Vec3>> ways;
+  for (const Neck& neck : rooms.necks) ways.push_back(NeckWay(tree, room_of, neck).find());
+  return ways;
+}
+
+}  // namespace roam::training

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// The widest way through each neck, so that it can be refined.
+
+#include <vector>
+
+#include "train/lattice.h"
+#include "train/places.h"
+
+namespace roam::training {
+
+/// For each of rooms.necks, in their order: the places of the widest way through it from the first room that it touches
+/// to another, with the last place before it and the first behind; empty where the lattice has none.
+[[nodiscard]] std::vector<std::vector<Vec3>> neck_ways(const WidestTree& tree, const Rooms& rooms);
+
+}  // namespace roam::training
