@@ -234,6 +234,14 @@ inline void add_drops(std::vector<FloorCase>& cases) {
                    .mesh = holed({rectangle(2.0, 2.75, 4.6, 3.25), rectangle(4.5, 1.5, 7.5, 4.5)}, 3.0),
                    .cracks = {0.25},
                    .has_drop = true});
+  // The wall's lower edge is free, and floor ends on both sides of it: there a pit, here a gap that takes in bodies.
+  Mesh beside;
+  scenes::add_floor(beside, 0.0, 0.0, 4.0, short_side, 0.0);
+  scenes::add_wall(beside, 4.4, 0.0, 4.4, short_side, 0.0, 3.0);
+  scenes::add_floor(beside, 6.9, 0.0, long_side, short_side, 0.0);
+  enclose(beside);
+  cases.push_back(
+      {.name = "GapAlongAWallWithAPitBehind", .mesh = std::move(beside), .cracks = {0.2}, .has_drop = true});
   // Two low sofas on the floor of the room, 0.4 m apart.
   Mesh sofas = holed({});
   scenes::add_box(sofas, {2.0, 0.0, 0.0}, {3.8, 1.0, 0.5});

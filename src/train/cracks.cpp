@@ -103,7 +103,7 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
   std::vector<RimPlace> open, rest;
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
   std::vector<FoundCrack> cracks;
-  for (const MeasuredVoid& measured : measure_voids(options, probe, OpenDrops(options, open), rest, ended)) {
+  for (const MeasuredVoid& measured : measure_voids(options, probe, OpenDrops(options, probe, open), rest, ended)) {
     if (measured.disc.radius >= probe.open()) {
       for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});
     } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {

@@ -117,7 +117,7 @@ NearPlace FloorPlan::nearest(const Vec3& place, double reach) const {
 void FloorPlan::touching(const Vec3& place, double reach, double slack, std::vector<NearPlace>& near) const {
   const NearPlace first = nearest(place, reach);
   within(place, std::min(first.distance + slack, reach) + error_, near);
-  if (near.empty()) near.push_back(first);
+  if (near.empty() || near.front().distance > first.distance) near.assign(1, first);
   const double least = near.front().distance;
   std::erase_if(near, [&](const NearPlace& n) { return n.distance > least + slack; });
 }

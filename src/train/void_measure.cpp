@@ -175,7 +175,7 @@ class Floods {
   /// Whether a place lies in an open drop, be it one that was climbed to or one of this flood's own.
   bool is_open(const Vec3& place, const std::vector<Vec3>& own) const {
     return drops_.cover(place) || std::any_of(own.begin(), own.end(), [&](const Vec3& centre) {
-             return level_distance(centre, place) <= options_.support_max;
+             return level_distance(centre, place) <= options_.support_max && probe_.sees(centre, place);
            });
   }
 
@@ -286,8 +286,8 @@ std::uint64_t square_at(double x, double y, double side) {
   return square_number(std::int64_t(std::floor(x / side)), std::int64_t(std::floor(y / side)));
 }
 
-OpenDrops::OpenDrops(const CrackOptions& options, const std::vector<RimPlace>& open)
-    : reach_(options.support_max), step_(options.step) {
+OpenDrops::OpenDrops(const CrackOptions& options, const VoidProbe& probe, const std::vector<RimPlace>& open)
+    : probe_(probe), reach_(options.support_max), step_(options.step) {
   // Discs nearer to one another than this cover the same.
   const double apart = 0.2 * options.smallest;
   std::unordered_map<std::uint64_t, std::vector<double>> seen;
@@ -306,7 +306,9 @@ bool OpenDrops::cover(const Vec3& place) const {
     const auto near = centres_.find(square_at(place.x + (k % 3 - 1) * reach_, place.y + (k / 3 - 1) * reach_, reach_));
     if (near == centres_.end()) continue;
     for (const Vec3& centre : near->second) {
-      if (level_distance(centre, place) <= reach_ && std::abs(centre.z - place.z) <= step_) return true;
+      if (level_distance(centre, place) <= reach_ && std::abs(centre.z - place.z) <= step_ &&
+          probe_.sees(centre, place))
+        return true;
     }
   }
   return false;

@@ -14,11 +14,12 @@ namespace roam::training {
 /// Where the discs of open drops lie.
 class OpenDrops {
  public:
-  OpenDrops(const CrackOptions& options, const std::vector<RimPlace>& open);
-  /// Within support_max of the centre of an open disc at about the same level.
+  OpenDrops(const CrackOptions& options, const VoidProbe& probe, const std::vector<RimPlace>& open);
+  /// Within support_max of the centre of an open disc at about the same level, and in sight of it.
   [[nodiscard]] bool cover(const Vec3& place) const;
 
  private:
+  const VoidProbe& probe_;
   double reach_, step_;
   std::unordered_map<std::uint64_t, std::vector<Vec3>> centres_;
 };
