@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "clutter.h"
@@ -92,14 +93,25 @@ void touch_every_child(bool top) {
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
       ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
 
-      const long double at_rest = scene.distance(i, Vec3(0.0), h, 0.0L);
-      if (at_rest > 1000.0L) continue;
-      const auto reach = std::nextafter(static_cast<float>(at_rest), 2000.0F);
-      const float margin =
-          lanes::grown_radius(0.0F, motion.half_height, reach, scene.extent, static_cast<float>(scene.step));
-      lanes::near_node(scene.node, frame, motion.half_height, margin, reach, children);
-      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
-      ASSERT_LE((long double)(children.key[i]), at_rest) << "query " << q << " child " << i;
+      for (const Vec3& gone : {Vec3(0.0), way}) {
+        const long double least = gone == way ? d : scene.distance(i, Vec3(0.0), h, 0.0L);
+        if (least > 1000.0L) continue;
+        const auto reach = std::nextafter(static_cast<float>(least), 2000.0F);
+        const lanes::Way near(gone, h);
+        const float margin = lanes::grown_radius(0.0F, near.half_height, near.longest + 2.0F * reach, scene.extent,
+                                                 static_cast<float>(scene.step));
+        lanes::VF left = lanes::set(1e9F);
+        lanes::near_node(scene.node, frame, near, margin, reach, left, children);
+        ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+        ASSERT_LE((long double)(children.key[i]), least * (1.0L + 1e-15L)) << "query " << q << " child " << i;
+        // Out of reach it is bounded, too.
+        const float half = 0.5F * static_cast<float>(least);
+        lanes::near_node(scene.node, frame, near, margin, half, left, children);
+        alignas(64) float lanes_left[lanes::kLanes];
+        lanes::hn::Store(left, lanes::kF, lanes_left);
+        ASSERT_GE(*std::min_element(lanes_left, lanes_left + lanes::kLanes), half) << "query " << q;
+        ASSERT_TRUE((children.mask >> i & 1U) != 0 || children.key[i] > half) << "query " << q << " child " << i;
+      }
     }
   }
   EXPECT_GT(tested, 2000);

@@ -90,9 +90,11 @@ class Space {
   virtual std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                                std::span<Contact> contacts) const = 0;
 
-  /// The triangle that `body` comes nearest to on its way along `motion` (zero motion: at the place), looking no
-  /// farther than `reach` (m) from its surface. `distance` is a certified lower bound of the gap to every triangle
-  /// over the whole way, at most 2 mm less than the true one.
+  /// How near `body` comes to anything on its way along `motion` (zero motion: at the place), looking no farther than
+  /// `reach` (m) from its surface. `distance` is a certified lower bound of the gap to every triangle over the whole
+  /// way, at most 2 mm less than the true one; of a gap that is larger than that it has the sign. The triangle that is
+  /// named, and where it is touched, may be of another that comes as near to within 2 mm, as among the thousands of a
+  /// fine wall: contacts() tells which is the nearest.
   [[nodiscard]] virtual Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                             double reach) const = 0;
   /// The same for a body at rest.

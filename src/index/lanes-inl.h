@@ -184,31 +184,78 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
   out.mask &= (1U << node.child_count) - 1;
 }
 
-/// Which children may lie within `reach` of the body's axis, and how far they are at least.
-/// `margin` is grown_radius() of radius 0.
-HWY_INLINE void near_node(const Node& node, const Frame& frame, float half_height, float margin, float reach,
+/// The way of a body of which the nearest approach to something is looked for; zero for one at rest.
+struct Way {
+  float way[3];
+  float longest;  ///< of |way[k]|
+  float half_height;
+  float inverse_square, inverse_flat;  ///< of the length of the way, and of its horizontal part; 0 for none
+  bool moves;
+
+  Way(const Vec3& motion, double h) : longest(0.0F), half_height(round_up(h)) {
+    for (int k = 0; k < 3; ++k) {
+      way[k] = static_cast<float>(motion[k]);
+      longest = std::max(longest, std::abs(way[k]));
+    }
+    const float flat = way[0] * way[0] + way[1] * way[1], whole = flat + way[2] * way[2];
+    inverse_flat = flat > kShortest * kShortest ? 1.0F / flat : 0.0F;
+    inverse_square = whole > kShortest * kShortest ? 1.0F / whole : 0.0F;
+    moves = longest > 0.0F;
+  }
+};
+
+/// Which children may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
+/// least of that of the others, unless it was less. `margin` is grown_radius() of radius 0.
+///
+/// With w from the closest point of the box to a place on the axis, t of the way along, the box is at least
+/// |w| - max(t w.m, (t - 1) w.m) / |w| from the whole way m: that is what the plane across w says.
+HWY_INLINE void near_node(const Node& node, const Frame& frame, const Way& way, float margin, float reach, VF& left,
                           Children& out) {
   static constexpr float kAsIs[3] = {1.0F, 1.0F, 1.0F};
   const Boxes boxes(node, frame, kAsIs);
-  const VF zero = hn::Zero(kF);
+  const VF zero = hn::Zero(kF), one = set(1.0F);
   out.mask = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
-    VF squared = zero;
+    VF lower[3], upper[3];
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(node.lower[k] + first, k);
-      VF upper = boxes.plane(node.upper[k] + first, k);
-      if (k == 2) {
-        lower = hn::Sub(lower, set(half_height));
-        upper = hn::Add(upper, set(half_height));
-      }
-      const VF closest = hn::Add(hn::Max(lower, zero), hn::Min(upper, zero));
-      squared = hn::Add(squared, hn::Mul(closest, closest));
+      lower[k] = boxes.plane(node.lower[k] + first, k);
+      upper[k] = boxes.plane(node.upper[k] + first, k);
     }
-    const VF least = hn::Sub(hn::Mul(hn::Sqrt(squared), set(1.0F - kTimeRoundings * kUnit)), set(margin));
+    lower[2] = hn::Sub(lower[2], set(way.half_height));
+    upper[2] = hn::Add(upper[2], set(way.half_height));
+    VF time = zero;
+    if (way.moves) {
+      VF towards = zero;
+      for (int k = 0; k < 3; ++k) {
+        towards = hn::Add(towards, hn::Mul(hn::Add(lower[k], upper[k]), set(0.5F * way.way[k])));
+      }
+      time = clamp(hn::Mul(towards, set(way.inverse_square)), zero, one);
+      towards = zero;
+      for (int k = 0; k < 3; ++k) {
+        const VF m = set(way.way[k]);
+        towards = hn::Add(towards, hn::Mul(clamp(hn::Mul(time, m), lower[k], upper[k]), m));
+      }
+      time = clamp(hn::Mul(towards, set(way.inverse_square)), zero, one);
+    }
+    VF squared = zero, along = zero;
+    for (int k = 0; k < 3; ++k) {
+      const VF m = set(way.way[k]), place = hn::Mul(time, m);
+      const VF w = hn::Sub(place, clamp(place, lower[k], upper[k]));
+      squared = hn::Add(squared, hn::Mul(w, w));
+      along = hn::Add(along, hn::Mul(w, m));
+    }
+    const VF length = hn::Sqrt(squared);
+    VF least = hn::Sub(hn::Mul(length, set(1.0F - kTimeRoundings * kUnit)), set(margin));
+    if (way.moves) {
+      const VF lost = hn::Max(hn::Mul(time, along), hn::Mul(hn::Sub(time, one), along));
+      least = hn::Sub(least, hn::Div(lost, hn::Max(length, set(kShortest))));
+    }
+    const MF child = hn::FirstN(kF, static_cast<std::size_t>(std::max(0, node.child_count - first)));
+    const MF out_of_reach = hn::And(child, hn::Gt(least, set(reach)));
+    left = hn::Min(left, hn::IfThenElse(out_of_reach, least, left));
     hn::Store(hn::Max(least, zero), kF, out.key + first);
-    out.mask |= bits_of(hn::Le(least, set(reach))) << first;
+    out.mask |= bits_of(hn::AndNot(out_of_reach, child)) << first;
   }
-  out.mask &= (1U << node.child_count) - 1;
 }
 
 }  // namespace roam::index::HWY_NAMESPACE

@@ -211,24 +211,74 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   }
 }
 
-/// Which triangles may lie within `reach` of the axis of a resting body, and how far they are at least.
-HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, float half_height, float reach, Children& out) {
+/// Which triangles may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
+/// least of that of the others, unless it was less.
+///
+/// Any w bounds: over the whole way m, from any place of the axis t of the way along,
+/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
+/// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
+HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, VF& left, Children& out) {
   out.mask = 0;
-  const V3 centre{hn::Zero(kF), hn::Zero(kF), hn::Zero(kF)};
+  const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
+  const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};
+  const int rounds = way.moves || way.half_height > 0.0F ? kNearRounds : 1;
   for (int first = 0; first < leaf.triangle_count; first += kLanes) {
     Triangles t = load_triangles(leaf, frame, first);
     t.prepare();
-    const Support s = support(t, centre, half_height, kFirstProjections);
-    const VF error = leaf_error(t, hn::Zero(kF), frame, half_height);
-    const MF point = hn::Le(s.length, set(kShortest));
-    const VF least =
-        hn::IfThenZeroElse(point, hn::Sub(hn::Mul(hn::Div(s.bound, hn::IfThenElse(point, set(1.0F), s.length)),
-                                                  set(1.0F - kTimeRoundings * kUnit)),
-                                          error));
-    hn::Store(hn::Max(least, hn::Zero(kF)), kF, out.key + first);
-    out.mask |= bits_of(hn::Le(least, set(reach))) << first;
+    const VF error =
+        hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(kSpeedRoundings * kUnit * way.longest));
+    const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
+    MF active = triangle;
+    VF least = zero, time = zero, height = zero;
+    // The place of the axis that is nearest to a point, one after the other along its way and along itself.
+    const auto approach = [&](const V3& p) {
+      if (way.moves) {
+        const V3 from{p.x, p.y, hn::Sub(p.z, height)};
+        time = clamp(hn::Mul(dot(from, m), set(way.inverse_square)), zero, one);
+      }
+      if (way.half_height > 0.0F) height = clamp(hn::Sub(p.z, hn::Mul(time, m.z)), hn::Neg(h), h);
+    };
+    const VF third = set(1.0F / 3.0F);
+    approach({hn::Add(t.a.x, hn::Mul(third, hn::Add(t.ab.x, t.ac.x))),
+              hn::Add(t.a.y, hn::Mul(third, hn::Add(t.ab.y, t.ac.y))),
+              hn::Add(t.a.z, hn::Mul(third, hn::Add(t.ab.z, t.ac.z)))});
+    for (int round = 0;; ++round) {
+      const V3 centre = scale(m, time), place{centre.x, centre.y, hn::Add(centre.z, height)};
+      V3 w = t.away(place);
+      const V3 closest = place - w;
+      VF inverse = set(way.inverse_square);
+      V3 across = m;
+      if (way.half_height > 0.0F) {
+        const MF inside = hn::Lt(hn::Abs(height), h);
+        w.z = hn::IfThenZeroElse(inside, w.z);
+        across.z = hn::IfThenZeroElse(inside, m.z);
+        inverse = hn::IfThenElse(inside, set(way.inverse_flat), inverse);
+      }
+      VF lost = zero;
+      if (way.moves) {
+        const auto loss = [&](VF along) { return hn::Max(hn::Mul(time, along), hn::Mul(hn::Sub(time, one), along)); };
+        const VF along = dot(w, m);
+        const VF excess = hn::IfThenElseZero(hn::Gt(loss(along), zero), hn::Mul(along, inverse));
+        w = w - scale(across, excess);
+        lost = loss(dot(w, m));
+      }
+      const VF length = hn::Sqrt(dot(w, w));
+      VF bound = hn::Min(hn::Min(dot(w, centre - t.a), dot(w, centre - t.b)), dot(w, centre - t.c));
+      if (way.half_height > 0.0F) bound = hn::Sub(bound, hn::Mul(h, hn::Abs(w.z)));
+      bound = hn::Sub(bound, lost);
+      const MF sure = hn::And(active, hn::Gt(length, set(kShortest)));
+      const VF apart = hn::Sub(
+          hn::Mul(hn::Div(bound, hn::IfThenElse(sure, length, one)), set(1.0F - kTimeRoundings * kUnit)), error);
+      least = hn::IfThenElse(hn::And(sure, hn::Gt(apart, least)), apart, least);
+      active = hn::AndNot(hn::Gt(least, set(reach)), active);
+      if (round + 1 == rounds || hn::AllFalse(kF, active)) break;
+      approach(closest);
+    }
+    const MF out_of_reach = hn::AndNot(active, triangle);
+    left = hn::Min(left, hn::IfThenElse(out_of_reach, least, left));
+    hn::Store(least, kF, out.key + first);
+    out.mask |= bits_of(active) << first;
   }
-  out.mask &= (1U << leaf.triangle_count) - 1;
 }
 
 }  // namespace roam::index::HWY_NAMESPACE

@@ -63,6 +63,9 @@ inline constexpr int kRounds = 4;
 inline constexpr int kFirstProjections = 3;
 inline constexpr int kLaterProjections = 2;
 
+/// Rounds in which the place of a body's way that is nearest to a triangle is looked for in single precision.
+inline constexpr int kNearRounds = 3;
+
 /// 1 / 0 stands for this many per metre: larger than any length over any motion that can matter, and finite, so that
 /// 0 / 0 does not arise.
 inline constexpr float kHugeInverse = 1e18F;

@@ -46,10 +46,16 @@ class Stack {
     entries_[i] = e;
   }
 
-  Entry pop() {
-    const std::uint64_t e = entries_[--count_];
+  /// The next that pop() gives.
+  [[nodiscard]] Entry top() const {
+    const std::uint64_t e = entries_[count_ - 1];
     const auto low = static_cast<std::uint32_t>(e);
     return {std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32)), low & 0x7fffffffU, (low >> 31) == 0};
+  }
+  Entry pop() {
+    const Entry e = top();
+    --count_;
+    return e;
   }
 
   /// After pop(): no remaining entry has a smaller key than the one that was popped.

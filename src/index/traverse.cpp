@@ -168,39 +168,79 @@ Impact FirstImpact(const Index& index, const Piece& piece, double until) {
   return SweepTraversal(index, piece, until).run();
 }
 
-/// Everything near a resting body, nearest boxes first, within a reach that visits may shrink.
+/// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink.
 class NearTraversal {
  public:
   NearTraversal(const Index& index, const Piece& piece, double reach, Visit visit, void* context)
       : index_(index),
         piece_(piece),
-        half_height_(round_up(piece.body.half_height)),
+        way_(piece.motion, piece.body.half_height),
         reach_(reach),
         visit_(visit),
         context_(context) {}
 
-  void run() {
+  double run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
-    Stack stack;
     const double more = margin_of(index_);
+    Passed passed;
+    Stack stack;
     search(
-        stack, [&](float key) { return key > axis_reach(more); },
+        stack, [&](float key) { return passed.over(key, axis_reach(more)); },
         [&](const Stack::Entry& e) {
-          if (e.leaf) return tile(e.number);
+          if (e.leaf) {
+            if (!stack.empty()) prefetch_root(stack.top());
+            return tile(e.number);
+          }
           const Node& node = index_.top[e.number].node;
           Children children;
-          near_node(node, frame, half_height_, margin(kTopSteps, frame), axis_reach(more), children);
+          near_node(node, frame, way_, margin(kTopSteps, frame), axis_reach(more), passed.lanes, children);
           push_children(node, children, index_.top, nullptr, stack);
+          prefetch_tiles(node, children);
         });
+    note(passed, more);
+    return left_;
   }
 
  private:
+  /// What was out of reach: how far from the axis at least.
+  struct Passed {
+    VF lanes;
+    float entry;
+
+    HWY_INLINE Passed()
+        : lanes(set(std::numeric_limits<float>::infinity())), entry(std::numeric_limits<float>::infinity()) {}
+    HWY_INLINE bool over(float key, float reach) {
+      if (!(key > reach)) return false;
+      entry = std::min(entry, key);
+      return true;
+    }
+  };
+
   /// How far from the axis stored triangles matter still.
   [[nodiscard]] float axis_reach(double error) const {
     return round_up(std::max(0.0, piece_.body.radius + reach_ + error));
   }
+  /// A bound that is too low may say less than half of a distance, and is rounded as that is.
   [[nodiscard]] float margin(float steps, const Frame& frame) const {
-    return grown_radius(0.0F, half_height_, axis_reach(margin_of(index_)), steps * frame.step, frame.step);
+    return grown_radius(0.0F, way_.half_height, way_.longest + 2.0F * axis_reach(margin_of(index_)), steps * frame.step,
+                        frame.step);
+  }
+  /// Tiles that are met one after the other are waited for one after the other, each with its root.
+  void prefetch_tiles(const Node& node, const Children& children) const {
+    for (std::uint32_t left = children.mask >> node.inner_count; left != 0; left &= left - 1) {
+      hwy::Prefetch(index_.tiles + node.first_leaf + std::countr_zero(left));
+    }
+  }
+  void prefetch_root(const Stack::Entry& next) const {
+    if (!next.leaf) return prefetch(index_.top + next.number);
+    const Tile& t = index_.tiles[next.number];
+    if (!t.absent()) prefetch(index_.blocks + t.nodes);
+  }
+  void note(const Passed& passed, double error) {
+    alignas(64) float lanes[kLanes];
+    hn::Store(passed.lanes, kF, lanes);
+    const float least = std::min(passed.entry, *std::min_element(lanes, lanes + kLanes));
+    left_ = std::min(left_, double(least) - piece_.body.radius - error);
   }
 
   void tile(std::uint32_t number) {
@@ -213,86 +253,48 @@ class NearTraversal {
     const Frame frame(t.origin, t.step, piece_.start);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
+    const auto error = double(t.error);
+    float reach = axis_reach(error);
+    const float grown = margin(kTileSteps, frame);
+    Passed passed;
     search(
-        stack_, [&](float key) { return key > axis_reach(double(t.error)); },
+        stack_, [&](float key) { return passed.over(key, reach); },
         [&](const Stack::Entry& e) {
           Children children;
           if (!e.leaf) {
             const Node& node = nodes[e.number].node;
-            near_node(node, frame, half_height_, margin(kTileSteps, frame), axis_reach(double(t.error)), children);
+            near_node(node, frame, way_, grown, reach, passed.lanes, children);
             push_children(node, children, nodes, leaves, stack_);
             return;
           }
-          near_leaf(leaves[e.number].leaf, frame, half_height_, axis_reach(double(t.error)), children);
+          near_leaf(leaves[e.number].leaf, frame, way_, reach, passed.lanes, children);
           while (children.mask != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
             for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
               const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
               if (children.key[i] < children.key[nearest]) nearest = i;
             }
-            if (children.key[nearest] > axis_reach(double(t.error))) break;
+            if (passed.over(children.key[nearest], reach)) break;
             children.mask &= ~(1U << nearest);
             reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
+            reach = axis_reach(error);
           }
         });
+    note(passed, error);
   }
 
   const Index& index_;
   const Piece& piece_;
-  float half_height_;
+  Way way_;
   double reach_;
+  double left_ = std::numeric_limits<double>::infinity();
   Visit visit_;
   void* context_;
   Stack stack_;
 };
 
-/// Everything that a moving body may come near to, within a reach that visits may shrink.
-void VisitSwept(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
-  const Motion motion(piece.motion, piece.body.half_height);
-  const Frame top(index.grid.origin, index.grid.step, piece.start);
-  const auto grown_for = [&](float radius, float steps, const Frame& frame) {
-    return grown_radius(radius, motion.half_height, motion.longest, steps * frame.step, frame.step);
-  };
-  const auto reach_of = [&](double error) { return round_up(std::max(0.0, piece.body.radius + reach + error)); };
-  const double more = margin_of(index);
-  const auto never = [](float) { return false; };  // what is met late may be as near as what is met early
-  Stack tiles, blocks;
-  search(tiles, never, [&](const Stack::Entry& e) {
-    Children children;
-    if (!e.leaf) {
-      const Node& node = index.top[e.number].node;
-      sweep_node(node, top, motion, grown_for(reach_of(more), kTopSteps, top), 1.0F, children);
-      return push_children(node, children, index.top, nullptr, tiles);
-    }
-    const Tile& t = index.tiles[e.number];
-    if (t.absent()) {
-      reach = index.absent->near(index.absent->context, e.number);
-      return;
-    }
-    if (only_absent(index)) return;
-    const Frame frame(t.origin, t.step, piece.start);
-    search(blocks, never, [&](const Stack::Entry& b) {
-      const float radius = reach_of(double(t.error));
-      if (!b.leaf) {
-        const Node& node = index.blocks[t.nodes + b.number].node;
-        sweep_node(node, frame, motion, grown_for(radius, kTileSteps, frame), 1.0F, children);
-        return push_children(node, children, index.blocks + t.nodes, index.blocks + t.leaves, blocks);
-      }
-      Met met;
-      sweep_leaf(index.blocks[t.leaves + b.number].leaf, frame, motion, radius, -1.0F, b.key, 1.0F, met);
-      for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
-        reach = visit(context, {e.number, t.leaves + b.number, static_cast<std::uint32_t>(std::countr_zero(left))});
-      }
-    });
-  });
-}
-
-void VisitNear(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
-  if (piece.motion == Vec3(0.0)) {
-    NearTraversal(index, piece, reach, visit, context).run();
-  } else {
-    VisitSwept(index, piece, reach, visit, context);
-  }
+double VisitNear(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
+  return NearTraversal(index, piece, reach, visit, context).run();
 }
 
 }  // namespace roam::index::HWY_NAMESPACE
@@ -308,8 +310,8 @@ Impact first_impact(const Index& index, const Piece& piece, double until) {
   return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece, until);
 }
 
-void visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
-  HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, visit, context);
+double visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
+  return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, visit, context);
 }
 
 }  // namespace roam::index

@@ -116,6 +116,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
 World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   auto data = std::make_unique<WorldData>();
   const index::Soup soup(meshes);
+  data->lossless = options.lossless;
   data->first = soup.first();
   for (const Mesh& mesh : meshes) data->names.push_back(mesh.name);
   data->bounds = soup.bounds();

@@ -33,6 +33,7 @@ struct WorldData {
   index::Grid grid;  ///< of the tree over the tiles
   Box bounds;        ///< of the source triangles
   Box reach;         ///< bounds, grown by what stored vertices may lie off
+  bool lossless = false;  ///< as BuildOptions says
   WorldStats stats;
   std::vector<std::uint64_t> first;  ///< the number of the first triangle of each mesh, and the count of all
   std::vector<std::string> names;    ///< of the meshes

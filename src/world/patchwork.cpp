@@ -160,7 +160,7 @@ struct Patchwork::State {
       } else {
         Contact c = unknown::nearest(patch.where, margin, body, from, motion);
         c.triangle += first_id(index) + kFirstSide;
-        collector.offer(c);
+        collector.offer(c, margin);
       }
       look = swept(body, from, motion, collector.reach());
     });
@@ -239,7 +239,8 @@ std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& 
 }
 
 Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+  // With a tolerance the last digits would depend on the order in which patches came.
+  return query::clearance_of(body, from, motion, reach, 0.0, [&](const Vec3& way, query::Collector& collector) {
     state_->collect(body, from, way, reach, collector);
   });
 }

@@ -14,6 +14,9 @@ namespace roam {
 namespace query {
 namespace {
 
+/// Of a clearance: how much less than the distance that was found may be answered at most.
+constexpr double least_part = 1.0 / 16.0;
+
 /// Metres. The longest motion of one query.
 constexpr double kMotionLimit = 1e6;
 
@@ -95,12 +98,15 @@ struct Visitor {
   static double visit(void* self, const index::Place& place) {
     const Visitor& v = *static_cast<Visitor*>(self);
     const auto triangle = index::local_triangle(v.index, place, v.piece.start);
-    const FloorOnly* const floor = v.collector.floor();
-    if (!floor) return v.collector.offer(contact_with(triangle, v.index, v.piece, place, v.base));
-    for (const auto& part : floor->pieces(triangle)) {
-      v.collector.offer(contact_with(part, v.index, v.piece, place, v.base));
+    const double doubt = 2.0 * index::stored_error(v.index.tiles[place.tile]);
+    if (const FloorOnly* const floor = v.collector.floor()) {
+      for (const auto& part : floor->pieces(triangle)) {
+        v.collector.offer(contact_with(part, v.index, v.piece, place, v.base), doubt);
+      }
+    } else {
+      v.collector.offer(contact_with(triangle, v.index, v.piece, place, v.base), doubt);
     }
-    return v.collector.reach();
+    return v.collector.enough();
   }
 };
 
@@ -118,7 +124,7 @@ void check(const Body& body, const Vec3& from, const Vec3& motion) {
 
 void check_reach(double reach) { check_length(reach, World::reach_limit, "the reach"); }
 
-double Collector::offer(const Contact& c) {
+void Collector::offer(const Contact& c, double doubt) {
   if (c.distance <= reach_ && !known(c)) {
     if (count_ < out_.size()) {
       out_[count_++] = c;
@@ -131,7 +137,10 @@ double Collector::offer(const Contact& c) {
   }
   // What is farther than the farthest of a full list need not be looked at.
   if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
-  return reach_;
+  enough_ = std::min(enough_, reach_);
+  if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {
+    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, c.distance * (1.0 - least_part)));
+  }
 }
 
 void Collector::sort() { std::sort_heap(out_.begin(), end(), nearer); }
@@ -153,7 +162,7 @@ Contact contact_at(const index::Index& index, const index::Piece& piece, const i
 
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
-  index::visit_near(index, piece, collector.reach(), &Visitor::visit, &visitor);
+  collector.left_out(index::visit_near(index, piece, collector.enough(), &Visitor::visit, &visitor));
 }
 
 void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector) {
@@ -191,7 +200,8 @@ std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& moti
 }
 
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  return query::clearance_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+  const double tolerance = query::clearance_tolerance_of(data_->lossless);
+  return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
   });
 }

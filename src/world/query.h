@@ -2,7 +2,9 @@
 /// \file
 /// What a query asks of one world, so that one world and many are asked by the same code. Nothing here allocates.
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "index/margin.h"
@@ -26,20 +28,47 @@ struct Way {
 void check(const Body& body, const Vec3& from, const Vec3& motion);
 void check_reach(double reach);
 
+/// Metres. How much less than the true gap Space::clearance may answer, the rounding of the arithmetic apart.
+inline constexpr double clearance_tolerance = 1.99e-3;
+/// The same in a lossless world or store.
+inline constexpr double lossless_tolerance = 9e-6;
+
+[[nodiscard]] inline double clearance_tolerance_of(bool lossless) {
+  return lossless ? lossless_tolerance : clearance_tolerance;
+}
+
 /// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top.
+///
+/// For a clearance it keeps one, and need not be offered what is hardly nearer (`tolerance`). Be G the true gap, and
+/// of each triangle that is offered d its distance, certified and too low by `doubt` at most. Then G <= d + doubt, and
+/// whatever comes no nearer than E = d + doubt - tolerance is of no interest: G - tolerance <= E. So enough() is the
+/// least E so far, or d where that is less; what has a certified bound beyond it may be left out, if only left_out() is
+/// told the bound. certified() is the least of d and of those bounds: none exceeds the true gap, and all are at least
+/// the last enough(). As a part of small distances, E gives up less, so that what is near is told exactly, and a sign
+/// is never wrong.
 class Collector {
  public:
   /// `repeats`: the same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
   /// `floor`: of triangles only this is to be offered.
   Collector(double reach, std::span<Contact> out, bool repeats, const FloorOnly* floor = nullptr)
-      : out_(out), floor_(floor), reach_(reach), repeats_(repeats) {}
+      : out_(out), floor_(floor), reach_(reach), enough_(reach), repeats_(repeats) {}
+  /// For a clearance.
+  Collector(double reach, Contact& nearest, double tolerance)
+      : out_(&nearest, 1), floor_(nullptr), reach_(reach), enough_(reach), tolerance_(tolerance), repeats_(false) {}
 
-  /// Takes a contact or not. Returns how near others must be to matter, from now on.
-  double offer(const Contact& contact);
+  /// Takes a contact or not. Its distance is certified, and no more than `doubt` (m) less than the true one.
+  void offer(const Contact& contact, double doubt = 0.0);
+  /// Something was not offered that comes no nearer than `gap`, which is certified and beyond enough().
+  void left_out(double gap) { left_out_ = std::min(left_out_, gap); }
   /// Nearest first.
   void sort();
 
+  /// What comes no nearer can not change the answer.
   [[nodiscard]] double reach() const { return reach_; }
+  /// What comes no nearer may be left out, if left_out() is told.
+  [[nodiscard]] double enough() const { return enough_; }
+  /// Of a clearance that found something: the least gap to anything.
+  [[nodiscard]] double certified() const { return std::min(out_[0].distance, left_out_); }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const FloorOnly* floor() const { return floor_; }
 
@@ -50,7 +79,9 @@ class Collector {
 
   std::span<Contact> out_;
   const FloorOnly* floor_;
-  double reach_;
+  double reach_, enough_;
+  double left_out_ = std::numeric_limits<double>::infinity();
+  double tolerance_ = 0.0;
   bool repeats_;
   std::size_t count_ = 0;
 };
@@ -86,18 +117,18 @@ std::size_t contacts_of(const Body& body, const Vec3& from, const Vec3& motion, 
   return collector.count();
 }
 
-/// Space::clearance, likewise.
+/// Space::clearance, likewise; `tolerance` is how much less than the true gap it may be, or 0: no less than need be.
 template <class Collect>
 [[nodiscard]] Clearance clearance_of(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                                     const Collect& collect) {
+                                     double tolerance, const Collect& collect) {
   check(body, from, motion);
   check_reach(reach);
   Contact nearest;
-  Collector collector(reach, {&nearest, 1}, true);
-  // Nearest first at the start: on the way, only what comes nearer still is of interest.
-  collect(Vec3(0.0), collector);
-  if (motion != Vec3(0.0)) collect(motion, collector);
-  return clearance_of(collector.count() > 0 ? &nearest : nullptr, reach);
+  Collector collector(reach, nearest, tolerance);
+  collect(motion, collector);
+  if (collector.count() == 0) return clearance_of(nullptr, reach);
+  nearest.distance = collector.certified();
+  return clearance_of(&nearest, reach);
 }
 
 /// Space::floor_clearance, likewise.

@@ -94,7 +94,9 @@ void near_cells(const TileEntry& tile, const index::Piece& piece, TriangleId bas
   for (int k = 0; k < 3; ++k) far_side |= piece.start[k] > 0.5 * (tile.lower[k] + tile.upper[k]) ? 1 << k : 0;
   visit_cells(
       tile, kAll, far_side, [&](const Box& box) { return !way_around(piece, collector.reach()).meets(box).empty(); },
-      [&](const Cells& cells) { collector.offer(near_box(cells.box, piece, base + cells.first * unknown::sides)); });
+      [&](const Cells& cells) {
+        collector.offer(near_box(cells.box, piece, base + cells.first * unknown::sides), Pager::margin);
+      });
 }
 
 Contact near_box(const Box& box, const index::Piece& piece, TriangleId base) {

@@ -35,7 +35,7 @@ struct Asking {
     if (!a.only_coming || !a.residents.has_failed(thing)) {
       near_cells(a.entry(tile), a.piece, unknown_base(thing), *a.collector);
     }
-    return a.collector->reach();
+    return a.collector->enough();
   }
 };
 
@@ -92,7 +92,7 @@ void PagedScene::near(const index::Piece& piece, query::Collector& collector) co
       asking.page = number;
       query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
     } else if (!only_coming || !page.failed) {
-      collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})));
+      collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})), Pager::margin);
     }
     look = way_around(piece, collector.reach());
   });
