@@ -1,0 +1,177 @@
+#include "roam/size_learner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "motion/free_disc.h"
+#include "motion/opening.h"
+
+namespace roam {
+namespace {
+
+/// How near a triangle must be to count as touched, in skins: as Route has it.
+constexpr double opening_skins = 4.0;
+/// Of half an opening's width: the body that is offered. The width is measured to a few millimetres.
+constexpr double room_part = 0.97;
+/// Metres that a foot is made larger than the disc that falls through.
+constexpr double support_margin = 0.02;
+/// Metres to which that disc is measured.
+constexpr double disc_precision = 1e-3;
+/// Metres below the floor last stood on firmly, from where on a body that is stuck has sunk into something.
+constexpr double sunk = 0.02;
+
+bool is_sphere(const WalkerSettings& settings) { return settings.height <= 2.0 * settings.radius; }
+
+/// The body of another radius with the same lowest point, and its centre.
+struct Placed {
+  Body body;
+  Vec3 centre{0.0};
+};
+
+Placed resized(const Walker& walker, double radius) {
+  const double height = is_sphere(walker.settings()) ? 2.0 * radius : walker.body().height();
+  const Vec3 feet = walker.feet();
+  return {Body::capsule(radius, height), feet + Vec3(0.0, 0.0, 0.5 * height)};
+}
+
+/// Whether a body goes from `place` sideways until it is in line with `middle`, and then ahead until it is through, as
+/// it is or lifted by a step. Where it ends: nothing when it does not.
+std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const Vec3& middle, const Vec3& ahead) {
+  const Vec3 sideways(-ahead.y, ahead.x, 0.0);
+  const Vec3 aside = sideways * glm::dot(middle - small.centre, sideways);
+  const double forward = std::max(0.0, glm::dot(middle - small.centre, ahead)) + 2.0 * walker.body().radius;
+  const Space& space = walker.space();
+  for (const double lift : {0.0, std::min(walker.settings().step, small.body.height())}) {
+    Vec3 place = small.centre;
+    bool free = true;
+    for (const Vec3& leg : std::array{Vec3(0.0, 0.0, lift), aside, ahead * forward}) {
+      free = free && (leg == Vec3(0.0) || !space.sweep(small.body, place, leg).hit);
+      place += leg;
+    }
+    if (free) return place;
+  }
+  return std::nullopt;
+}
+
+bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
+
+}  // namespace
+
+SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
+  if (!(profile_.radius > 0.0)) throw Error("learning begins with a body: the profile's radius must be greater than 0");
+  if (!(limits.radius_min > 0.0 && limits.radius_min <= Space::reach_limit))
+    throw Error("the smallest radius that may be learned must be greater than 0");
+  if (!(limits.support_max > 0.0 && limits.support_max <= 0.25 * Space::reach_limit))
+    throw Error("the largest foot that may be learned must be greater than 0");
+  if (!(limits.patience >= 0.0 && std::isfinite(limits.patience)))
+    throw Error("the patience of learning must be 0 s or more");
+}
+
+std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {
+  const StepReport& report = walker.report();
+  const Stance& stance = walker.stance();
+  const bool on_foot = walker.mode() == Mode::walk;
+  if (walker.mode() == Mode::ghost || report.met_unknown) {
+    pushed_ = 0.0;
+    return std::nullopt;
+  }
+  if (on_foot && stance.firm && !stance.carried && !report.blocked) {
+    firm_ = true;
+    firm_at_ = walker.position();
+    firm_feet_ = walker.feet().z;
+  }
+  const bool fell = on_foot && (report.has(EventKind::fell) || (report.has(EventKind::held) && !walker.held()));
+  pushed_ = report.blocked && wishes(wish) ? pushed_ + seconds : 0.0;
+  const bool stuck = pushed_ >= limits_.patience;
+  if (!fell && !stuck) {
+    if (!report.blocked) offered_ = false;
+    return std::nullopt;
+  }
+  if (offered_) return std::nullopt;
+  offered_ = true;
+  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm;
+  if (fell || has_sunk) {
+    if (std::optional<Lesson> lesson = support(walker)) return lesson;
+  }
+  return fell ? std::nullopt : narrower(walker, wish);
+}
+
+std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wish) const {
+  const Vec3 flat(wish.x, wish.y, 0.0);
+  const double length = glm::length(flat);
+  if (!(length > 0.0)) return std::nullopt;
+  const Vec3 ahead = flat / length;
+  const double radius = walker.body().radius;
+  const auto opening =
+      walking::measure_opening(walker.space(), walker.body(), walker.position(), ahead, opening_skins * walker.skin());
+  // Low openings are crouching's.
+  if (!opening || opening->is_height) return std::nullopt;
+  const double fits = room_part * 0.5 * opening->size;
+  if (fits >= radius || fits < limits_.radius_min) return std::nullopt;
+  const Placed small = resized(walker, fits);
+  const std::optional<Vec3> end = way_through(walker, small, opening->middle, ahead);
+  if (!end) return std::nullopt;
+  Lesson lesson;
+  lesson.kind = Lesson::Kind::narrower;
+  lesson.at = opening->middle;
+  lesson.region.radius = fits;
+  lesson.region.support_radius = walker.settings().support_radius;
+  const Vec3 room(radius, radius, walker.settings().step);
+  for (const Vec3& place : {walker.position(), small.centre, *end}) {
+    lesson.region.bounds.include(place - room);
+    lesson.region.bounds.include(place + room);
+  }
+  lesson.region.bounds.include(walker.feet());
+  lesson.region.why = fmt::format("opening {:.2f} m wide", opening->size);
+  lesson.why = fmt::format("{}: a body of {:.2f} m here", lesson.region.why, fits);
+  return lesson;
+}
+
+std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
+  if (!firm_) return std::nullopt;
+  const WalkerSettings& settings = walker.settings();
+  // The floor it went off, as level as it was there.
+  walking::FloorPlane plane;
+  plane.point = Vec3(firm_at_.x, firm_at_.y, firm_feet_);
+  const Vec3 axis = walker.position();
+  const auto falls = [&](double foot) {
+    return walking::free_disc(walker.space(), plane, {foot, settings.slope_degrees, settings.step}, axis);
+  };
+  double low = std::max(walker.body().radius, settings.support_radius), high = limits_.support_max;
+  // Wider than any foot: a pit, a cliff.
+  if (high <= low || falls(high)) return std::nullopt;
+  while (high - low > disc_precision) {
+    const double middle = 0.5 * (low + high);
+    (falls(middle) ? low : high) = middle;
+  }
+  Lesson lesson;
+  lesson.kind = Lesson::Kind::support;
+  lesson.at = axis;
+  lesson.support_radius = std::min(high + support_margin, limits_.support_max);
+  lesson.why = fmt::format("gap of the floor {:.2f} m wide: a foot of {:.2f} m", 2.0 * high, lesson.support_radius);
+  return lesson;
+}
+
+void SizeLearner::take(Walker& walker, const Lesson& lesson) {
+  if (lesson.kind == Lesson::Kind::narrower) {
+    profile_.regions.push_back(lesson.region);
+    walker.set_regions(profile_.regions);
+  } else {
+    profile_.support_radius = std::max(profile_.support_radius, lesson.support_radius);
+    for (SizeRegion& region : profile_.regions)
+      region.support_radius = std::max(region.support_radius, lesson.support_radius);
+    walker.set_regions(profile_.regions);
+    static_cast<void>(walker.resize(profile_.radius, profile_.support_radius));
+    if (firm_) static_cast<void>(walker.place(firm_at_));
+  }
+  profile_.method = "roaming";
+  pushed_ = 0.0;
+  changed_ = true;
+}
+
+}  // namespace roam
