@@ -102,10 +102,13 @@ inline void add_floors(Mesh& mesh, const std::vector<Split>& splits, double leng
   scenes::add_quad(mesh, begin.first, end.first, end.second, begin.second);
 }
 
-/// Doors and splits in turn, each `stride` after the one before; from the ends as far.
+/// A corridor along x from 0 to `stride` beyond its last door or split. Doors and splits are ordered by x and do not
+/// overlap.
 inline Gallery build(std::vector<Door> doors, std::vector<Split> splits) {
   Gallery g;
-  const double length = stride * static_cast<double>(doors.size() + splits.size() + 1);
+  double length = stride;
+  for (const Door& d : doors) length = std::max(length, d.point.x + stride);
+  for (const Split& s : splits) length = std::max(length, s.point.x + stride);
   add_floors(g.mesh, splits, length);
   scenes::add_floor(g.mesh, 0.0, -half_width, length, half_width, ceiling);
   for (const double y : {-half_width, half_width}) scenes::add_wall(g.mesh, 0.0, y, length, y, 0.0, ceiling);

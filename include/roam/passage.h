@@ -7,10 +7,10 @@
 ///
 /// *Walking clearance* of a place of the floor at height z is the largest r for which a vertical capsule of radius r
 /// from the knee, z + step, to z + height is free. Nothing below the knee is a wall: kerbs, stairs and sills are walked
-/// over. Floor steeper than the slope limit is a wall. A body of height 0 is the sphere of the paper, which touches the
-/// floor: of it too only what is above the knee is stopped by walls. *Flying clearance* is the distance of the centre
-/// from everything. A way lets a body of radius r pass when its clearance is at least r everywhere; a body "cannot get
-/// through" when no way does, not when some walker stopped.
+/// over. Floor steeper than the slope limit is a wall. A body of height 0 is the sphere of the paper: it fits where it
+/// is free when it is lifted off the floor by something between nothing and the step, but at most its radius. *Flying
+/// clearance* is the distance of the centre from everything. A way lets a body of radius r pass when its clearance is
+/// at least r everywhere; a body "cannot get through" when no way does, not when some walker stopped.
 ///
 /// The way that is answered is certified: sweeps along it with `radius` less 0.5 mm meet nothing. That nothing wider
 /// exists is known only as far as Passage::proven says.
@@ -66,9 +66,11 @@ struct Passage {
   /// Of the feet (walk: on the floor) or the centre (fly), from the start to the end, straight between points.
   std::vector<Vec3> way;
   double length = 0.0;  ///< of the way
-  std::optional<Opening>
-      opening;  ///< that decides, when limited; or where it ends when not found and something is known
-  /// No way for a radius larger than `bound` exists: certified. Infinite where nothing is known.
+  /// What decides, when limited. When not found: where what is reached from the start comes nearest to what is reached
+  /// from the end, of width 0 and across what parts them; none where they are far apart.
+  std::optional<Opening> opening;
+  /// No way for a radius larger than `bound` exists: certified, by what fits at the ends and under the height. Infinite
+  /// where nothing is known.
   double bound = 0.0;
   bool proven = false;       ///< `bound` is within 5 mm of `radius`
   bool complete = true;      ///< false: most_places or progress ended it early

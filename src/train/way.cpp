@@ -86,12 +86,16 @@ class Search {
     }
     return *place;
   }
-  /// What fits at the ends bounds every way, and so does what the height leaves.
+  /// What fits at the ends bounds every way, and so does what the height leaves. Of a sphere that may lift only what
+  /// fits is certain, not that nothing larger does.
   [[nodiscard]] double end_bound() const {
+    constexpr double rounding = 1e-4;  // m: of a clearance
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (measure_.mode == Mode::walk && measure_.height == 0.0) return unknown;
     const double limit = largest_radius(measure_);
     const double ends = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
-    if (ends < limit) return ends;
-    return limit < measure_.widest ? limit : std::numeric_limits<double>::infinity();
+    if (ends < limit) return ends + rounding + survey_.world().largest_error();
+    return limit < measure_.widest ? limit : unknown;
   }
   [[nodiscard]] std::function<bool(std::uint64_t)> goes_on() {
     return [this](std::uint64_t places) {
