@@ -1,0 +1,137 @@
+// How long a step takes in stores of the same scene, ever finer: one flight along a path through each, a table and a
+// picture.
+
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "roam/pager.h"
+#include "roam/route.h"
+#include "steps_picture.h"
+
+namespace {
+
+using namespace roam::bench;
+using roam::Vec3;
+
+/// Seconds. How long the pager may take for what is around the start.
+constexpr double longest_wait = 60.0;
+
+/// The first path of the paper, through its gallery.
+const std::vector<Vec3> first_path = {{-13739.0, 253.0, 182.0}, {-12504.0, 1566.0, 182.0}};
+
+struct Options {
+  std::vector<std::string> stores;
+  std::uint64_t memory_mib = 64;
+  double speed = 50.0;
+  bool walk = false;
+  int rounds = 3;
+  std::string picture;
+};
+
+/// Nanoseconds that this thread has been running: what other programs do does not count.
+double thread_time() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+/// What two readings of the clock take, nanoseconds.
+double cost_of_reading() {
+  double least = 1e9;
+  for (int i = 0; i < 1000; ++i) {
+    const double begin = thread_time();
+    least = std::min(least, thread_time() - begin);
+  }
+  return least;
+}
+
+/// Along the path as `roam walk` goes: after a step it waits for what is near, as long as the step lasts at most.
+std::vector<double> step_times(const Options& options, const std::shared_ptr<const roam::Store>& store) {
+  roam::Pager pager(store, {.memory = options.memory_mib << 20});
+  roam::WalkerSettings settings{.radius = 0.3, .height = 0.6, .eye = 0.6, .speed = options.speed};
+  if (options.walk) settings.height = 1.8;
+  const roam::Body body = roam::Body::capsule(settings.radius, settings.height);
+  (void)pager.wait(body, first_path[0], Vec3(0.0), longest_wait);
+  roam::Walker walker(pager, settings, options.walk ? roam::Mode::walk : roam::Mode::fly, first_path[0]);
+  roam::Route route(walker, first_path, {.speed = options.speed});
+  const double reading = cost_of_reading();
+  std::vector<double> times;
+  while (!route.done()) {
+    const double begin = thread_time();
+    const roam::StepReport& report = route.advance();
+    times.push_back(std::max(0.0, thread_time() - begin - reading));
+    (void)pager.wait(walker.body(), walker.position(), walker.velocity(), report.elapsed);
+  }
+  if (route.result().outcome != roam::Outcome::reached) throw roam::Error("the flight did not reach its end");
+  return times;
+}
+
+double at(const std::vector<double>& sorted, double part) {
+  return 1e-3 * sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+int run(const Options& options) {
+  struct Rounds {
+    std::shared_ptr<const roam::Store> store;
+    std::vector<double> p50, p99, most;
+    std::size_t steps = 0;
+  };
+  std::vector<Rounds> all;
+  for (const std::string& name : options.stores) all.push_back({roam::Store::open(name), {}, {}, {}, 0});
+  for (int i = 0; i < options.rounds; ++i) {
+    for (Rounds& one : all) {
+      std::vector<double> times = step_times(options, one.store);
+      std::sort(times.begin(), times.end());
+      one.steps = times.size();
+      one.p50.push_back(at(times, 0.5));
+      one.p99.push_back(at(times, 0.99));
+      one.most.push_back(at(times, 1.0));
+    }
+  }
+  std::vector<StepTimes> table;
+  std::printf("%12s %8s %10s %10s %10s\n", "triangles", "steps", "median us", "p99 us", "max us");
+  for (const Rounds& one : all) {
+    table.push_back({one.store->info().triangles, median(one.p50), median(one.p99)});
+    std::printf("%12llu %8zu %10.2f %10.2f %10.2f\n", static_cast<unsigned long long>(table.back().triangles),
+                one.steps, table.back().median_us, table.back().p99_us, median(one.most));
+  }
+  if (!options.picture.empty()) write_picture(options.picture, table);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{
+      "Times the steps of a flight along the first path of the gallery through stores of it (microseconds of the\n"
+      "thread's own time, the median of the rounds), and draws a picture of them"};
+  app.add_option("stores", options.stores, "that `roam build` made of galleries of different sizes")->required();
+  app.add_option("--memory", options.memory_mib, "MiB of each pager")->capture_default_str();
+  app.add_option("--speed", options.speed, "metres per second")->capture_default_str();
+  app.add_flag("--walk", options.walk, "a person of 1.8 m on foot, instead of a sphere of 0.3 m that flies");
+  app.add_option("--rounds", options.rounds, "flights through each, in turns")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--picture", options.picture, "an SVG file to write");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
