@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
 #include <utility>
 
 #include "roam/error.h"
@@ -83,6 +86,34 @@ class Reader {
   bool ok_ = true;
 };
 
+/// Bytes. More than the names of a hundred million objects.
+constexpr std::uint64_t kMostContent = 1ull << 32;
+
+/// Of bytes that a frame may look back; encode_part's look back 2^21.
+constexpr int kWindowLog = 23;
+
+/// What a frame of `size` bytes holds; nothing where it is none. Takes memory as bytes come: what a header claims costs
+/// nothing.
+std::optional<std::vector<std::byte>> unpacked(std::span<const std::byte> packed, std::size_t size) {
+  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kWindowLog);
+  std::vector<std::byte> content;
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  for (;;) {
+    const std::size_t had = content.size();
+    // One more than there should be: where there are too many, that is seen.
+    content.resize(std::min(size + 1, had + std::max(had, ZSTD_DStreamOutSize())));
+    ZSTD_outBuffer out{content.data(), content.size(), had};
+    const std::size_t rest = ZSTD_decompressStream(context.get(), &out, &in);
+    content.resize(out.pos);
+    const bool ends = rest == 0, broken = ZSTD_isError(rest) != 0, stuck = out.pos == had && in.pos == in.size;
+    if (broken || content.size() > size) return std::nullopt;
+    if (ends && in.pos == in.size && content.size() == size) return content;
+    if (ends || stuck) return std::nullopt;
+  }
+}
+
 }  // namespace
 
 const std::string& PartFile::object(std::uint64_t triangle) const {
@@ -104,6 +135,7 @@ std::vector<std::byte> encode_part(const PartFile& part) {
     content.number((cell.key - std::exchange(key, cell.key)) >> part.cell_bits);
     content.number(cell.triangles);
   }
+  if (content.bytes.size() > kMostContent) throw Error("the names of the objects take more than 4 GiB; leave some out");
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
   header.triangles = part.triangles;
@@ -129,13 +161,12 @@ PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) 
   std::memcpy(&header, bytes.data(), sizeof header);
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) refuse("it is no part file");
   const std::span<const std::byte> packed = bytes.subspan(sizeof header);
-  // zstd packs at most 2^17 bytes into a few; what claims more lies.
-  if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes / (1u << 17) > packed.size()) {
+  if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > kMostContent) {
     refuse("its header is not what it should be");
   }
-  std::vector<std::byte> content(static_cast<std::size_t>(header.content_bytes));
-  const std::size_t size = ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
-  if (ZSTD_isError(size) != 0 || size != content.size()) refuse("it does not unpack");
+  const auto unpacked_content = unpacked(packed, static_cast<std::size_t>(header.content_bytes));
+  if (!unpacked_content) refuse("it does not unpack");
+  const std::vector<std::byte>& content = *unpacked_content;
   // Each takes two bytes at least.
   if (header.objects > content.size() / 2 || header.cells > content.size() / 2) refuse("its counts are out of range");
 
