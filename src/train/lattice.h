@@ -41,6 +41,10 @@ struct Measure {
 [[nodiscard]] bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to,
                                  double radius);
 
+/// Of the spacing: how much narrower than it is a place may look on a lattice on foot. Every place is within half a
+/// diagonal of one of the lattice.
+inline constexpr double lattice_error = 0.72;
+
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = ~NodeId(0);
 

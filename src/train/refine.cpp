@@ -12,8 +12,6 @@ namespace {
 
 /// Each finer lattice about a narrow place is this much finer.
 constexpr double zoom = 0.3;
-/// Of the spacing: the widest place of a lattice may be this much narrower than the widest there is, half its diagonal.
-constexpr double lattice_error = 0.72;
 /// Spacings that a window goes on beyond what is narrow, so that it begins and ends in wider places.
 constexpr double window_margin = 2.0;
 /// Places of one window, at most: a longer one is polished as it is.

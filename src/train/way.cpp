@@ -16,10 +16,12 @@ namespace {
 
 using namespace training;
 
-/// Of the spacing: how much narrower than it is a way may look on the lattice, half a diagonal.
-constexpr double lattice_error = 0.72;
+/// The same in the air, where half a diagonal is longer.
+constexpr double cubic_error = 0.87;
 /// Ways through other openings that are looked for, at most.
 constexpr int most_others = 32;
+/// Metres: less is no difference between two widths.
+constexpr double same_width = 1e-3;
 /// Metres: a bound as near as this to the radius proves it.
 constexpr double proof = 5e-3;
 
@@ -119,14 +121,17 @@ class Search {
            found.size() < most_others) {
       found.push_back(*last.opening);
       const double around = best.radius + options_.spacing;
+      // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
+      const double narrow = std::hypot(best.radius, error() * options_.spacing) + same_width;
       const auto blocked = [&](const Node& node) {
-        return std::any_of(found.begin(), found.end(), [&](const Opening& o) {
-          const Vec3 off = o.point - node.place;
-          const double above = measure_.mode == Mode::walk ? std::max(off.z - tall(), std::min(0.0, off.z)) : off.z;
-          return std::hypot(off.x, off.y) < around && std::abs(above) < around;
-        });
+        return node.clearance < narrow && std::any_of(found.begin(), found.end(), [&](const Opening& o) {
+                 const Vec3 off = o.point - node.place;
+                 const double above =
+                     measure_.mode == Mode::walk ? std::max(off.z - tall(), std::min(0.0, off.z)) : off.z;
+                 return std::hypot(off.x, off.y) < around && std::abs(above) < around;
+               });
       };
-      const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
+      const double least = std::max(measure_.narrowest, best.radius - error() * options_.spacing);
       const std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
       if (way.empty()) return;
       if (const auto same = same_opening(way, best, found)) {
@@ -144,7 +149,7 @@ class Search {
     const NodeId narrowest = *std::min_element(
         way.begin(), way.end(), [&](NodeId a, NodeId b) { return tree_.node(a).clearance < tree_.node(b).clearance; });
     const Vec3 place = tree_.node(narrowest).place;
-    const double radius = std::max(best.radius - lattice_error * options_.spacing, measure_.narrowest);
+    const double radius = std::max(best.radius - error() * options_.spacing, measure_.narrowest);
     for (const Opening& o : found) {
       if (!goes_straight(survey_, measure_, place, o.point, radius)) continue;
       Opening here = o;
@@ -153,6 +158,7 @@ class Search {
     }
     return std::nullopt;
   }
+  [[nodiscard]] double error() const { return measure_.mode == Mode::fly ? cubic_error : lattice_error; }
   [[nodiscard]] double tall() const { return measure_.height > 0.0 ? measure_.height : 2.0 * measure_.widest; }
 
   const Survey& survey_;
