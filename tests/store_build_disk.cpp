@@ -1,0 +1,78 @@
+// What the disk makes of a build: scratch that cannot be removed, folders that are not synced, files that may not be
+// read.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+
+#include "store/files.h"
+#include "store_builds.h"
+
+namespace {
+
+std::atomic<bool> removes_nothing{false};
+std::atomic<int> syncs{0};
+
+}  // namespace
+
+// These take the place of the C library's in this program.
+extern "C" int unlinkat(int folder, const char* file, int flags) noexcept {
+  if (removes_nothing) {
+    errno = EACCES;
+    return -1;
+  }
+  return static_cast<int>(::syscall(SYS_unlinkat, folder, file, flags));
+}
+extern "C" int fsync(int fd) {
+  ++syncs;
+  return static_cast<int>(::syscall(SYS_fsync, fd));
+}
+
+namespace {
+
+using namespace store_builds;
+
+TEST(StoreBuildDisk, SaysWhatOfAPublishedBuildCouldNotBeRemoved) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(20, 1.0, {0.0, 0.0, 0.0}));
+  const std::string store = folder.file("s");
+  removes_nothing = true;
+  const roam::StoreBuildReport report = roam::build_store(options({scene}, store));
+  removes_nothing = false;
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes[0].find(store + "/scratch could not be removed"), std::string::npos) << report.notes[0];
+  EXPECT_TRUE(fs::exists(store + "/scratch"));
+  expect_whole(store);
+  const roam::StoreBuildReport again = roam::build_store(options({scene}, store));
+  EXPECT_TRUE(again.unchanged && again.notes.empty());
+  EXPECT_FALSE(fs::exists(store + "/scratch"));
+}
+
+TEST(StoreBuildDisk, SyncsTheFolderAboveEachThatItMakes) {
+  const TestFolder folder;
+  syncs = 0;
+  roam::store::make_folder(folder.file("a/b/c"));
+  EXPECT_TRUE(fs::is_directory(folder.file("a/b/c")));
+  EXPECT_EQ(syncs, 3);
+  roam::store::make_folder(folder.file("a/b/c"));
+  EXPECT_EQ(syncs, 3);
+}
+
+TEST(StoreBuildDisk, AFileThatMayNotBeReadAsksForTheRightToReadIt) {
+  const TestFolder folder;
+  fs::permissions(folder.file(""), fs::perms::all);
+  const std::string file = folder.write("secret", "text");
+  fs::permissions(file, fs::perms::none);
+  constexpr uid_t nobody = 65534;
+  const bool root = ::geteuid() == 0;
+  if (root) ASSERT_EQ(::seteuid(nobody), 0);
+  const std::string text = refusal([&] { static_cast<void>(roam::store::read_file(file, 100)); });
+  if (root) ASSERT_EQ(::seteuid(0), 0);
+  EXPECT_NE(text.find("right to read it"), std::string::npos) << text;
+  EXPECT_EQ(text.find("write"), std::string::npos) << text;
+}
+
+}  // namespace
