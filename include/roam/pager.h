@@ -3,19 +3,22 @@
 /// A space over a collision store, in fixed memory: tiles come before the body needs them, and go when it does not.
 ///
 ///     roam::Pager pager(roam::Store::open("dam.roam"), {.memory = 64 << 20});
-///     pager.wait(body, start, Vec3(0.0), 10.0);               // until there is ground to stand on; or go on, and be
-///     held roam::Walker walker(pager, {.radius = 0.3}, roam::Mode::walk, start); for (;;) {
-///       walker.step(...);
-///       pager.update(walker.body(), walker.position(), walker.velocity());   // between two steps
+///     // Until there is ground to stand on. Who does not wait is held until there is.
+///     pager.wait(body, start, Vec3(0.0), 10.0);
+///     roam::Walker walker(pager, {.radius = 0.3}, roam::Mode::walk, start);
+///     while (true) {
+///       walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
+///       pager.update(walker.body(), walker.position(), walker.velocity());  // between two steps
 ///     }
 ///
 /// Every tile is resident or unknown. An unknown tile is solid where its triangles may be: in the occupied cells of a
 /// grid of 8 x 8 x 8 over its box, grown by Pager::margin; a page of the index that is not there is solid in its box.
 /// So is what cannot be read or is damaged, for as long as that lasts: it is tried again for ever, ever more seldom.
 ///
-/// Queries never lock, wait, read or allocate. What the loading threads bring is taken into use by update() and at no
-/// other time, and what they are to bring next follows from the body it was told of: first what the body could reach
-/// first, in a ball around it and in a cone ahead. All memory is taken when the pager is made.
+/// Queries never lock, wait, read or allocate. object_name() and stats() are no queries: they lock for a moment. What
+/// the loading threads bring is taken into use by update() and at no other time, and what they are to bring next
+/// follows from the body it was told of: first what the body could reach first, in a ball around it and in a cone
+/// ahead. All memory is taken when the pager is made.
 ///
 /// update(), wait() and the destructor belong to the thread that moves the body. Queries may run at the same time as
 /// each other, from any threads, but not during update() and wait(). stats() may be called from any thread.

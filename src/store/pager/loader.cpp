@@ -1,6 +1,9 @@
 #include "store/pager/loader.h"
 
+#include <fmt/format.h>
+
 #include <new>
+#include <system_error>
 
 #include "store/files.h"
 
@@ -36,10 +39,20 @@ Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& 
                  Names& names, int count)
     : store_(std::move(store)), arena_(arena), handover_(handover), names_(names), planner_(planner) {
   for (int i = 0; i < count; ++i) tools_.push_back(std::make_unique<Tools>());
-  for (int i = 0; i < count; ++i) threads_.emplace_back([this, i] { run(i); });
+  for (int i = 0; i < count; ++i) {
+    try {
+      threads_.emplace_back([this, i] { run(i); });
+    } catch (const std::system_error& error) {
+      end();
+      throw Error(fmt::format("cannot start loading thread {} of {}: {}; give the pager fewer, or end other programs",
+                              i + 1, count, error.what()));
+    }
+  }
 }
 
-Loaders::~Loaders() {
+Loaders::~Loaders() { end(); }
+
+void Loaders::end() {
   {
     const std::lock_guard lock(sleeping_);
     stop_ = true;
@@ -137,14 +150,14 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   return nullptr;
 }
 
-/// "" where it cannot be found out: a name is no place for complaints.
-std::string Loaders::name(TriangleId triangle) {
+/// Nothing where it cannot be found out now.
+std::optional<std::string> Loaders::name(TriangleId triangle) {
   try {
     if ((triangle & unknown_bit) == 0) return store_->source(triangle).object;
     const std::lock_guard lock(planning_);
     return planner_.reason(unknown_thing(triangle));
   } catch (const std::exception&) {
-    return "";
+    return std::nullopt;
   }
 }
 

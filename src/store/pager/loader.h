@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -18,6 +19,7 @@ class Loaders {
   /// Bytes that one thread needs.
   static constexpr std::size_t cost = store::kTileBytes + (1 << 20);
 
+  /// Throws roam::Error where a thread cannot be started.
   Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover, Names& names,
           int count);
   /// Waits until what is being read has been read.
@@ -26,11 +28,12 @@ class Loaders {
  private:
   struct Tools;
   void run(int number);
+  void end();
   [[nodiscard]] Outcome load(const Work& work, Tools& tools) const;
   [[nodiscard]] const char* read(const Work& work, std::span<std::byte> out, Outcome& outcome) const;
   [[nodiscard]] const char* load_tile(const Work& work, Tools& tools, Outcome& outcome) const;
   [[nodiscard]] const char* load_page(const Work& work, Outcome& outcome) const;
-  [[nodiscard]] std::string name(TriangleId triangle);
+  [[nodiscard]] std::optional<std::string> name(TriangleId triangle);
   void mark(int number, Clock::time_point since);
 
   std::shared_ptr<const Store> store_;

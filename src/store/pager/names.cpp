@@ -5,6 +5,14 @@
 #include "store/pager/residents.h"
 
 namespace roam::paging {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Who asks in every frame must not keep a disk that fails busy.
+constexpr std::chrono::milliseconds retry_after{500};
+
+}  // namespace
 
 Names::Entry* Names::entry_of(TriangleId triangle) {
   const auto at = std::find_if(entries_.begin(), entries_.end(),
@@ -19,15 +27,17 @@ std::string Names::ask(TriangleId triangle) {
   if (!entry) {
     entry = &*std::min_element(entries_.begin(), entries_.end(),
                                [](const Entry& a, const Entry& b) { return a.asked < b.asked; });
-    *entry = {triangle, {}, 0, true};
+    *entry = {triangle, {}, 0, true, {}};
   }
   entry->asked = ++count_;
   // Why something is unknown changes.
   if ((triangle & unknown_bit) != 0) entry->wanted = true;
+  // What could not be read may come back.
+  if (entry->again != Clock::time_point{} && Clock::now() >= entry->again) entry->wanted = true;
   return entry->name;
 }
 
-void Names::serve(const std::function<std::string(TriangleId)>& find) {
+void Names::serve(const std::function<std::optional<std::string>(TriangleId)>& find) {
   TriangleId triangle = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -36,9 +46,12 @@ void Names::serve(const std::function<std::string(TriangleId)>& find) {
     at->wanted = false;
     triangle = at->triangle;
   }
-  std::string name = find(triangle);
+  std::optional<std::string> name = find(triangle);
   const std::lock_guard lock(mutex_);
-  if (Entry* entry = entry_of(triangle)) entry->name = std::move(name);
+  Entry* const entry = entry_of(triangle);
+  if (!entry) return;
+  entry->again = name ? Clock::time_point{} : Clock::now() + retry_after;
+  if (name) entry->name = std::move(*name);
 }
 
 }  // namespace roam::paging
