@@ -62,7 +62,9 @@ struct WalkerSettings {
   /// Metres, in [0, Space::reach_limit / 4]. Of a foot that is wider than the body: in walk mode it carries the body
   /// over every crack of the floor in which no disc of this radius finds room, held at the height of the floor. The
   /// foot touches nothing: whatever the body passes, it passes too. Half the width of the widest crack and 2 mm more
-  /// will do. 0, or not more than `radius`: none of its own. docs/walking.md says what is a crack and what a pit.
+  /// will do. Less than `radius` counts as `radius`: over a crack that a body so large cannot fall into it is carried,
+  /// and does not sink. 0: no foot, the body stands on its round end. docs/walking.md says what is a crack and what a
+  /// pit.
   double support_radius = 0.0;
   /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4.
   double height = 1.8;

@@ -19,9 +19,13 @@ constexpr double under_axis = 2e-3;
 
 FloorPlane plane_of(const Stance& stance) { return {stance.floor_point, stance.floor_normal}; }
 
+/// A foot that is smaller than the body is as large as the body, or a crack could be too narrow for the one to fall in
+/// and too wide for the other to be carried by its rims.
+double foot_radius(const Move& m) { return std::max(m.settings.support_radius, m.settings.radius); }
+
 Foot foot_of(const Move& m) {
   const double knee = std::max(m.settings.step, carrying_band) + 2.0 * m.skin;
-  return {m.settings.support_radius, m.settings.slope_degrees, std::min(knee, 0.5 * m.height)};
+  return {foot_radius(m), m.settings.slope_degrees, std::min(knee, 0.5 * m.height)};
 }
 
 /// How high the centre is of a body that touches the plane, but for its skin, at a place.
@@ -64,7 +68,7 @@ void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane) {
 
 }  // namespace
 
-bool has_foot(const Move& move) { return move.settings.support_radius > move.settings.radius; }
+bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }
 
 bool see_floor(const Move& m, Stance& stance, double reach, double horizontal) {
   const double r = m.settings.radius;
@@ -86,8 +90,7 @@ bool see_floor(const Move& m, Stance& stance, double reach, double horizontal) {
 bool carry(Move& m, Stance& stance, double drop, double reach) {
   FloorPlane plane = plane_of(stance);
   if (!stance.floor_seen) {
-    const auto beside =
-        plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band, m.settings.support_radius);
+    const auto beside = plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band, foot_radius(m));
     if (!beside) return false;
     plane = *beside;
   }
@@ -116,7 +119,7 @@ std::optional<double> carried_after(const Move& m, Stance& stance, const Vec3& m
     }
   }
   const std::optional<FloorPlane> plane =
-      plane_beside(m, m.place + motion, m.feet() + motion.z - 2.0 * m.skin, m.feet(), m.settings.support_radius);
+      plane_beside(m, m.place + motion, m.feet() + motion.z - 2.0 * m.skin, m.feet(), foot_radius(m));
   if (!plane) return std::nullopt;
   const std::optional<double> part = crossing(*plane);
   if (!part || !carries(m, *plane, m.place + motion * *part)) return std::nullopt;
