@@ -46,14 +46,16 @@ class Stack {
     entries_[i] = e;
   }
 
-  /// The next that pop() gives.
-  [[nodiscard]] Entry top() const {
-    const std::uint64_t e = entries_[count_ - 1];
+  [[nodiscard]] int size() const { return count_; }
+
+  /// What pop() gives when `i` have been popped, i < size().
+  [[nodiscard]] Entry next(int i) const {
+    const std::uint64_t e = entries_[count_ - 1 - i];
     const auto low = static_cast<std::uint32_t>(e);
     return {std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32)), low & 0x7fffffffU, (low >> 31) == 0};
   }
   Entry pop() {
-    const Entry e = top();
+    const Entry e = next(0);
     --count_;
     return e;
   }

@@ -58,6 +58,25 @@ HWY_INLINE double margin_of(const Index& index) { return index.absent ? index.ab
 /// Whether what is in a tile that is in memory is of no interest.
 HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.absent->only; }
 
+/// The tiles that are left of a node over tiles.
+HWY_INLINE void prefetch_tiles(const Index& index, const Node& node, const Children& children) {
+  for (std::uint32_t left = children.mask >> node.inner_count; left != 0; left &= left - 1) {
+    hwy::Prefetch(index.tiles + node.first_leaf + std::countr_zero(left));
+  }
+}
+
+/// The roots of the tiles that come next, all of them while one is visited: their memory would be waited for one after
+/// the other.
+HWY_INLINE void prefetch_roots(const Index& index, const Stack& stack) {
+  constexpr int kAhead = 4;
+  for (int i = 0; i < std::min(kAhead, stack.size()); ++i) {
+    const Stack::Entry next = stack.next(i);
+    if (!next.leaf) continue;
+    const Tile& t = index.tiles[next.number];
+    if (!t.absent()) prefetch(index.blocks + t.nodes);
+  }
+}
+
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece, double until)
@@ -73,11 +92,15 @@ class SweepTraversal {
     search(
         stack, [this](float key) { return key >= t_max_; },
         [&](const Stack::Entry& e) {
-          if (e.leaf) return tile(e.number);
+          if (e.leaf) {
+            prefetch_roots(index_, stack);
+            return tile(e.number);
+          }
           const Node& node = index_.top[e.number].node;
           Children children;
           sweep_node(node, frame, motion_, grown, t_max_, children);
           push_children(node, children, index_.top, nullptr, stack);
+          prefetch_tiles(index_, node, children);
         });
     return best_;
   }
@@ -188,14 +211,14 @@ class NearTraversal {
         stack, [&](float key) { return passed.over(key, axis_reach(more)); },
         [&](const Stack::Entry& e) {
           if (e.leaf) {
-            if (!stack.empty()) prefetch_root(stack.top());
+            prefetch_roots(index_, stack);
             return tile(e.number);
           }
           const Node& node = index_.top[e.number].node;
           Children children;
           near_node(node, frame, way_, margin(kTopSteps, frame), axis_reach(more), passed.lanes, children);
           push_children(node, children, index_.top, nullptr, stack);
-          prefetch_tiles(node, children);
+          prefetch_tiles(index_, node, children);
         });
     note(passed, more);
     return left_;
@@ -224,17 +247,6 @@ class NearTraversal {
   [[nodiscard]] float margin(float steps, const Frame& frame) const {
     return grown_radius(0.0F, way_.half_height, way_.longest + 2.0F * axis_reach(margin_of(index_)), steps * frame.step,
                         frame.step);
-  }
-  /// Tiles that are met one after the other are waited for one after the other, each with its root.
-  void prefetch_tiles(const Node& node, const Children& children) const {
-    for (std::uint32_t left = children.mask >> node.inner_count; left != 0; left &= left - 1) {
-      hwy::Prefetch(index_.tiles + node.first_leaf + std::countr_zero(left));
-    }
-  }
-  void prefetch_root(const Stack::Entry& next) const {
-    if (!next.leaf) return prefetch(index_.top + next.number);
-    const Tile& t = index_.tiles[next.number];
-    if (!t.absent()) prefetch(index_.blocks + t.nodes);
   }
   void note(const Passed& passed, double error) {
     alignas(64) float lanes[kLanes];
