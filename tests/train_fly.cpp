@@ -55,6 +55,18 @@ TEST(Flight, IsHalfTheDoor) {
   }
 }
 
+TEST(Flight, IsBoundedByTheCellsOfTheLattice) {
+  const Survey survey = survey_of(rooms(-0.1, 0.5, 0.0, 2.0));
+  for (const double spacing : {0.2, 0.1}) {
+    const Passage p = roam::widest_way(survey, one_end, other_end, {.mode = Mode::fly, .spacing = spacing});
+    EXPECT_GE(p.bound, 0.3);
+    EXPECT_LT(p.bound, 0.3 + 0.88 * spacing);
+  }
+  const Passage open =
+      roam::widest_way(survey, one_end, one_end + Vec3(0.3, 0.0, 0.0), {.mode = Mode::fly, .widest = 0.5});
+  EXPECT_EQ(open.bound, std::numeric_limits<double>::infinity());
+}
+
 TEST(Flight, IsHalfTheSmallerSideOfAWindow) {
   const Passage p = roam::widest_way(survey_of(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
   ASSERT_TRUE(p.found);

@@ -69,8 +69,8 @@ struct Passage {
   /// What decides, when limited. When not found: where what is reached from the start comes nearest to what is reached
   /// from the end, of width 0 and across what parts them; none where they are far apart.
   std::optional<Opening> opening;
-  /// No way for a radius larger than `bound` exists: certified, by what fits at the ends and under the height. Infinite
-  /// where nothing is known.
+  /// No way for a radius larger than `bound` exists: certified, by what fits at the ends and under the height, and in
+  /// the air by cells as large as `spacing`, to 0.87 of it. Infinite where nothing is known.
   double bound = 0.0;
   bool proven = false;       ///< `bound` is within 5 mm of `radius`
   bool complete = true;      ///< false: most_places or progress ended it early

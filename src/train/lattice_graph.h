@@ -17,7 +17,9 @@ class LatticeGraph {
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
   /// All neighbours, which are made and measured if need be.
   virtual Neighbours expand(NodeId id) = 0;
-  /// Those that are known.
+  /// Flying: all places whose cells touch that of a place, whoever gets from one to the other. Made if need be.
+  virtual Neighbours beside(NodeId id) = 0;
+  /// Those neighbours that are known.
   [[nodiscard]] virtual Neighbours neighbours(NodeId id) const = 0;
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }

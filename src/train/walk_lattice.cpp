@@ -37,6 +37,7 @@ class WalkLattice final : public LatticeGraph {
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
+  Neighbours beside(NodeId id) override { return expand(id); }
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:

@@ -16,8 +16,6 @@ namespace {
 
 using namespace training;
 
-/// The same in the air, where half a diagonal is longer.
-constexpr double cubic_error = 0.87;
 /// Ways through other openings that are looked for, at most.
 constexpr int most_others = 32;
 /// Metres: less is no difference between two widths.
@@ -71,6 +69,8 @@ class Search {
         best.opening = gap_between(tree_, *a, *b);
       }
     }
+    if (a && b && measure_.mode == Mode::fly && !ended_)
+      best.bound = std::min(best.bound, tree_.bound(*a, *b, goes_on()));
     best.proven = best.found && best.bound - best.radius <= proof;
     best.complete = !ended_;
     best.places = tree_.size();
