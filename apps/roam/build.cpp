@@ -32,7 +32,11 @@ struct BuildVerb {
   std::uint64_t memory = StoreBuildOptions{}.memory;
   bool plan = false, merge = false, json = false;
   std::optional<std::uint64_t> shard;
+  std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
 };
+
+/// What a plan fixes for its shards and its merge.
+constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
 
 /// One line for each step of a build.
 class Steps {
@@ -184,7 +188,13 @@ void check_usage(const BuildVerb& verb) {
     throw UsageError(fmt::format("build: --memory {}B: a build needs at least {} MiB",
                                  short_count(static_cast<double>(verb.memory)), StoreBuildOptions::least_memory >> 20));
   }
-  if (verb.shard || verb.merge) return;  // they read the plan, not the scene
+  if (verb.shard || verb.merge) {
+    if (verb.reading.empty()) return;  // they read the plan, not the scene
+    throw UsageError(
+        fmt::format("build: {} with {}: how the scene is read was fixed by --plan; leave it out, or plan "
+                    "again with it",
+                    verb.reading, verb.shard ? "--shard" : "--merge"));
+  }
   for (const auto& scene : verb.scene.scenes) {
     if (Store::is_store(scene)) {
       throw UsageError(scene.string() + " is a store already: name the scene that it was made of");
@@ -247,7 +257,12 @@ void add_build(CLI::App& program, Run& run) {
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
   verb->add_flag("--json", options->json, "Print one JSON object");
-  verb->callback([options, &run] { run = [options] { return build(*options); }; });
+  verb->callback([options, verb, &run] {
+    for (const char* name : reading_options) {
+      if (options->reading.empty() && verb->get_option(name)->count() > 0) options->reading = name;
+    }
+    run = [options] { return build(*options); };
+  });
 }
 
 }  // namespace roam::app
