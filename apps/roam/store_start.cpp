@@ -21,8 +21,11 @@ Vec3 store_start(const Store& store, const WalkerSettings& settings, Mode mode, 
     if (goes_on && !goes_on()) throw Cancelled();
     if (triangles > most_triangles) break;
     Mesh mesh;
-    store.for_each_triangle({place - around, place + around},
-                            [&](std::span<const Triangle> found, std::span<const TriangleId>) { append(mesh, found); });
+    // Where something cannot be read one may still begin beside it.
+    store.for_each_triangle(
+        {place - around, place + around},
+        [&](std::span<const Triangle> found, std::span<const TriangleId>) { append(mesh, found); },
+        [](const std::string&) {});
     triangles += mesh.triangles.size();
     meshes.push_back(std::move(mesh));
   }

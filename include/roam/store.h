@@ -93,6 +93,11 @@ class Store {
   /// Throws roam::Error for what cannot be read or is damaged, naming tile and place.
   void for_each_triangle(const Box& box,
                          const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const;
+  /// The same, but what cannot be read or is damaged is passed over: `missing` is told of each such page and tile, by a
+  /// sentence with its name and place.
+  void for_each_triangle(const Box& box,
+                         const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
+                         const std::function<void(const std::string&)>& missing) const;
   /// The middles of up to `count` tiles, spread evenly over all: where triangles are many, places are many.
   [[nodiscard]] std::vector<Vec3> sample(std::uint64_t count) const;
   /// Throws roam::Error as above, or when `triangle` is not of this store.

@@ -89,29 +89,47 @@ const std::string& Store::name() const { return state_->name; }
 
 void Store::for_each_triangle(
     const Box& box, const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const {
+  for_each_triangle(box, f, {});
+}
+
+void Store::for_each_triangle(const Box& box,
+                              const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
+                              const std::function<void(const std::string&)>& missing) const {
   const auto apart = [&](const Box& other) {
     for (int k = 0; k < 3; ++k) {
       if (other.upper[k] < box.lower[k] || other.lower[k] > box.upper[k]) return true;
     }
     return false;
   };
+  /// What `read` reads; nothing where it cannot be had and that was told.
+  const auto had = [&](const auto& read) -> std::optional<decltype(read())> {
+    if (!missing) return read();
+    try {
+      return read();
+    } catch (const Error& error) {
+      missing(error.what());
+      return std::nullopt;
+    }
+  };
   store::TileReader reader(*state_);
   std::vector<Triangle> triangles;
   std::vector<TriangleId> ids;
   for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
     if (apart(state_->pages[p].ref.box)) continue;
-    const store::LoadedPage page = reader.page(p);
-    for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
-      const store::TileEntry& entry = page.view.tiles[t];
+    const auto page = had([&] { return reader.page(p); });
+    if (!page) continue;
+    for (std::uint32_t t = 0; t < page->view.tiles.size(); ++t) {
+      const store::TileEntry& entry = page->view.tiles[t];
       if (apart(store::box_of(entry))) continue;
-      const store::LoadedTile tile = reader.tile(p, entry, t);
+      const auto tile = had([&] { return reader.tile(p, entry, t); });
+      if (!tile) continue;
       triangles.clear();
       ids.clear();
-      for (std::size_t l = 0; l < tile.leaves.size(); ++l) {
-        const index::Leaf& leaf = tile.leaves[l];
-        const index::FineLeaf* fine = tile.fine.empty() ? nullptr : &tile.fine[l];
+      for (std::size_t l = 0; l < tile->leaves.size(); ++l) {
+        const index::Leaf& leaf = tile->leaves[l];
+        const index::FineLeaf* fine = tile->fine.empty() ? nullptr : &tile->fine[l];
         for (int i = 0; i < leaf.triangle_count; ++i) {
-          triangles.push_back(store::stored_triangle(tile.tile, leaf, fine, i));
+          triangles.push_back(store::stored_triangle(tile->tile, leaf, fine, i));
           ids.push_back(store::stored_id(p, t, leaf.ids + static_cast<std::uint32_t>(i)));
         }
       }

@@ -25,18 +25,17 @@ struct Enough {};
 bool read(const Store& store, const Box& box, std::size_t most, const std::function<bool()>& goes_on,
           StoreTriangles& into) {
   into.triangles.clear();
-  into.problem.clear();
+  into.missing.clear();
   into.box = box;
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+    if (!goes_on()) throw Cancelled();
+    if (into.triangles.size() + triangles.size() > most) throw Enough();
+    into.triangles.insert(into.triangles.end(), triangles.begin(), triangles.end());
+  };
   try {
-    store.for_each_triangle(box, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
-      if (!goes_on()) throw Cancelled();
-      if (into.triangles.size() + triangles.size() > most) throw Enough();
-      into.triangles.insert(into.triangles.end(), triangles.begin(), triangles.end());
-    });
+    store.for_each_triangle(box, take, [&](const std::string& what) { into.missing.push_back(what); });
   } catch (const Enough&) {
     return false;
-  } catch (const Error& error) {
-    into.problem = error.what();
   }
   return true;
 }
@@ -117,7 +116,12 @@ DisplayReport show_store(const Store& store, const Vec3& place,
   }
   report.triangles = shown.triangles.size();
   report.notes.push_back(sentence(store, shown));
-  if (!shown.problem.empty()) report.notes.push_back("not all of it is shown: " + shown.problem);
+  if (!shown.missing.empty()) {
+    const std::size_t more = shown.missing.size() - 1;
+    report.notes.push_back(
+        "not all of it is shown: " + shown.missing.front() +
+        (more > 0 ? fmt::format("; and {} more (roam verify {} tells all)", more, store.name()) : ""));
+  }
   return report;
 }
 

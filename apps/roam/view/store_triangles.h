@@ -14,9 +14,9 @@ namespace roam::app {
 /// Triangles of a store that lie together.
 struct StoreTriangles {
   std::vector<Triangle> triangles;
-  Box box;              ///< in which all are there
-  bool all = false;     ///< these are all of the store's
-  std::string problem;  ///< why some are missing; empty when none are
+  Box box;                           ///< in which all are there, but for what is missing
+  bool all = false;                  ///< these are all of the store's, but for what is missing
+  std::vector<std::string> missing;  ///< tiles and pages that cannot be read, and why
 };
 
 /// Those within `reach` m of a place along each axis; within less where there are more than `most` of them. `goes_on`
