@@ -34,16 +34,18 @@ Box box_of(std::span<const Piece> pieces) {
   return box;
 }
 
-Mesh read_triangles(const Store& store, const Box& box) {
+/// `missing` as of Store::for_each_triangle; empty: what cannot be read is an error.
+Mesh read_triangles(const Store& store, const Box& box, const std::function<void(const std::string&)>& missing = {}) {
   Mesh mesh;
-  store.for_each_triangle(box, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
     stop_if_interrupted();
     append(mesh, triangles);
     if (mesh.triangles.size() > most_triangles) {
       throw Error(fmt::format("{}: more than {} triangles lie around this way; look at a shorter part of it",
                               store.name(), short_count(static_cast<double>(most_triangles))));
     }
-  });
+  };
+  store.for_each_triangle(box, take, missing);
   return mesh;
 }
 
@@ -132,13 +134,10 @@ void OpenScene::wait_at(const Body& body, const Vec3& place) {
   stop_if_interrupted();
 }
 
-void OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& motion) {
-  if (!pager_) return;
-  // Little by little: what is near the beginning first, and no more than a part of it at once.
-  const double length = glm::length(motion);
-  const Vec3 step = length > stretch ? motion * (stretch / length) : motion;
-  pager_->wait(body, from, step, longest_wait, 1.0);
+bool OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds) {
+  const bool known = !pager_ || pager_->wait(body, from, velocity, seconds, 1.0);
   stop_if_interrupted();
+  return known;
 }
 
 void OpenScene::follow(const Walker& walker) {
@@ -152,7 +151,9 @@ SourceTriangle OpenScene::source(TriangleId triangle) const {
 }
 
 Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {
-  return read_triangles(*store_, grown(box_of(pieces), reach));
+  return read_triangles(*store_, grown(box_of(pieces), reach), [](const std::string& what) {
+    fmt::print(stderr, "roam: note: left out of the picture: {}\n", what);
+  });
 }
 
 Verification OpenScene::verified(std::span<const Piece> pieces,

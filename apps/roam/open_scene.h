@@ -41,8 +41,9 @@ class OpenScene {
   [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode) const;
   /// Waits until a body there has ground to stand on, where it must be waited for.
   void wait_at(const Body& body, const Vec3& place);
-  /// Waits until what lies along a way is known, as far as memory holds it.
-  void wait_along(const Body& body, const Vec3& from, const Vec3& motion);
+  /// Waits until what a body can reach within a second at this velocity is known or cannot be read, `seconds` at most.
+  /// Returns whether it is.
+  bool wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds);
   /// To be called after every step: takes into use what has come. A walk that is computed faster than a person walks
   /// waits for what that person would have had, at most as long as the step lasts.
   void follow(const Walker& walker);
@@ -50,7 +51,8 @@ class OpenScene {
   /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
 
-  /// The triangles of the store, as stored, around these pieces. There must be a store.
+  /// The triangles of the store, as stored, around these pieces. There must be a store. What cannot be read is left
+  /// out, and told on standard error.
   [[nodiscard]] Mesh stored_triangles(std::span<const Piece> pieces, double reach) const;
   /// Every piece against every triangle: of the scene as read, of the store as stored.
   [[nodiscard]] Verification verified(std::span<const Piece> pieces,

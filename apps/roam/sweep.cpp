@@ -15,6 +15,7 @@
 
 #include "interrupt.h"
 #include "open_scene.h"
+#include "paged_sweep.h"
 #include "roam/error.h"
 #include "sweep_rows.h"
 #include "verbs.h"
@@ -86,9 +87,6 @@ class RowReader {
   bool ended_ = false;
 };
 
-// How far around a way that is free its gap is looked for, in metres: near first, which is cheap and mostly enough.
-constexpr double gap_reaches[] = {1.0, 10.0};
-
 /// The sweep, and for a miss how near the body came to anything: Space::sweep only says that it did not touch.
 Impact sweep_and_measure(const Space& space, const SweepQuery& query) {
   Impact answer = space.sweep(query.body, query.from, query.motion);
@@ -97,7 +95,6 @@ Impact sweep_and_measure(const Space& space, const SweepQuery& query) {
     const Clearance nearest = space.clearance(query.body, query.from, query.motion, reach);
     // The sweep has certified at least 0, whatever the grid takes off here.
     answer.distance = std::max(0.0, nearest.distance);
-    answer.unknown = nearest.unknown;
     if (nearest.found) break;
   }
   return answer;
@@ -113,35 +110,8 @@ class WholeScene {
   const World& world_;
 };
 
-/// Answers from a store, one thread at a time: what a query meets and is not there is brought, and the query asked
-/// again.
-class PagedScene {
- public:
-  explicit PagedScene(OpenScene& scene) : scene_(scene) {}
-
-  [[nodiscard]] Impact operator()(const SweepQuery& query) const {
-    for (int round = 0; round < most_rounds; ++round) {
-      Impact answer = sweep_and_measure(scene_.space(), query);
-      if (!answer.unknown) {
-        if (answer.hit) answer.triangle = scene_.source(answer.triangle).scene;
-        return answer;
-      }
-      // Where it is not known yet: where a hit was, or somewhere beside the way.
-      scene_.wait_along(query.body, query.from + (answer.hit ? answer.time : 0.0) * query.motion,
-                        (answer.hit ? 1.0 - answer.time : 1.0) * query.motion);
-    }
-    throw Error(
-        "what lies along this way cannot be read, or does not fit in memory: verify the store (roam verify), or "
-        "give --memory more");
-  }
-
- private:
-  static constexpr int most_rounds = 10'000;
-  OpenScene& scene_;
-};
-
 template <class Scene>
-Answers answer(const Scene& scene, const Rows& rows) {
+Answers answer(Scene&& scene, const Rows& rows) {
   Answers answers;
   std::string_view text = rows.text;
   if (rows.first_line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
@@ -181,6 +151,7 @@ ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
       options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
 
+  PagedSweep paged(scene);
   write(answer_header);
   RowReader reader;
   std::atomic<bool> failed_row{false};
@@ -190,7 +161,7 @@ ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
     return rows;
   };
   const auto work = [&](const Rows& rows) {
-    Answers answers = scene.store() ? answer(PagedScene(scene), rows) : answer(WholeScene(scene.loaded()), rows);
+    Answers answers = scene.store() ? answer(paged, rows) : answer(WholeScene(scene.loaded()), rows);
     if (answers.error) failed_row = true;
     return answers;
   };
@@ -212,9 +183,10 @@ constexpr const char* help =
     "  out  hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance\n"
     "The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of\n"
     "a vertical capsule's axis; 0, or left out, is a sphere. distance is a certified lower bound of the gap between\n"
-    "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m. A row "
-    "that\n"
-    "cannot be read ends the program with status 1 and a message that names its line.\n\n"
+    "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m, or less\n"
+    "where the --memory of a store does not hold what lies around the way. A row that cannot be read, or answered, "
+    "ends\n"
+    "the program with status 1 and a message that names its line.\n\n"
     "Examples:\n"
     "  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae\n"
     "  roam sweep --lossless gallery.ply < queries.csv > answers.csv\n";

@@ -1,0 +1,109 @@
+#include "paged_sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <thread>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Metres. What lies along so little fits into the least memory.
+constexpr double least_part = 0.5;
+/// Seconds for which it is waited at a time.
+constexpr double slice = 0.02;
+/// Seconds without anything that came: memory is full, and the rest does not come.
+constexpr double full_after = 0.1;
+/// Seconds until what does not come of the least part, and what cannot be read, is given up.
+constexpr double late_after = 60.0, broken_after = 3.0;
+
+/// Waits while something comes.
+class Arrivals {
+ public:
+  explicit Arrivals(OpenScene& scene) : scene_(scene), loads_(scene.paging()->loads) {}
+
+  /// Seconds since anything came. What is wanted is what a body could reach that moves at `velocity` from `place`.
+  double wait(const Body& body, const Vec3& place, const Vec3& velocity) {
+    settled_ = scene_.wait_along(body, place, velocity, slice);
+    if (settled_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::uint64_t now = scene_.paging()->loads;
+    if (now != loads_) last_ = Clock::now();
+    loads_ = now;
+    return std::chrono::duration<double>(Clock::now() - last_).count();
+  }
+  /// Whether all is there, but for what cannot be read.
+  [[nodiscard]] bool settled() const { return settled_; }
+
+ private:
+  OpenScene& scene_;
+  std::uint64_t loads_;
+  Clock::time_point last_ = Clock::now();
+  bool settled_ = false;
+};
+
+}  // namespace
+
+/// Nothing where memory does not hold what must be known, and `may_part`.
+std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
+  Arrivals arrivals(scene_);
+  for (;;) {
+    const Impact answer = scene_.space().sweep(part.body, part.from, part.motion);
+    if (!answer.unknown) return answer;
+    const double quiet = arrivals.wait(part.body, part.from, part.motion);
+    if (may_part && !arrivals.settled() && quiet > full_after) return std::nullopt;
+    if (quiet < (arrivals.settled() ? broken_after : late_after)) continue;
+    const std::string why = scene_.space().object_name(answer.triangle);
+    throw Error("what lies along this way cannot be had" + (why.empty() ? "" : ": " + why) +
+                "; verify the store (roam verify), or give --memory more");
+  }
+}
+
+double PagedSweep::gap(const SweepQuery& part) {
+  double distance = 0.0;
+  const double length = glm::length(part.motion);
+  const Vec3 ahead = length > 0.0 ? part.motion / length : Vec3(1.0, 0.0, 0.0);
+  for (const double reach : gap_reaches) {
+    Arrivals arrivals(scene_);
+    Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
+    while (nearest.unknown && arrivals.wait(part.body, part.from, ahead * (length + reach)) < full_after) {
+      nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
+    }
+    // The sweep has certified at least 0, whatever the grid takes off here; what is unknown only makes it less.
+    distance = std::max(distance, nearest.distance);
+    if (nearest.found) break;
+  }
+  return distance;
+}
+
+Impact PagedSweep::operator()(const SweepQuery& query) {
+  const double length = glm::length(query.motion);
+  double least = std::numeric_limits<double>::infinity();
+  Impact answer;
+  for (double begin = 0.0; begin < 1.0;) {
+    const bool whole = length <= fits_;
+    const double end = whole ? 1.0 : std::min(1.0, begin + fits_ / length);
+    const SweepQuery part{query.from + begin * query.motion, (end - begin) * query.motion, query.body};
+    const auto found = sweep(part, fits_ > least_part);
+    if (!found) {
+      fits_ = std::max(least_part, 0.5 * std::min(fits_, length));
+      continue;
+    }
+    answer = *found;
+    if (answer.hit) {
+      answer.time = begin + answer.time * (end - begin);
+      answer.triangle = scene_.source(answer.triangle).scene;
+      return answer;
+    }
+    least = std::min(least, gap(part));
+    begin = end;
+  }
+  answer.distance = least;
+  return answer;
+}
+
+}  // namespace roam::app
