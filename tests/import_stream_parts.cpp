@@ -128,6 +128,21 @@ TEST_F(ImportStreamParts, TellTheirFiles) {
   EXPECT_EQ(file.tile, "");
 }
 
+TEST_F(ImportStreamParts, OfGltfAreReadFromItsBuffersToo) {
+  const auto gltf = [&](const std::string& buffers) {
+    return folder_.write("room.gltf", R"({"asset":{"version":"2.0"},"buffers":)" + buffers + "}");
+  };
+  const fs::path first = folder_.write("a room.bin", "numbers"), second = folder_.write("data/more.bin", "more");
+  const fs::path named =
+      gltf(R"([{"uri":"data/more.bin"},{"uri":"a%20room.bin"},{"uri":"gone.bin"},{"uri":"data:;base64,AA=="},{}])");
+  const ScenePart part = scene_parts({{named}}).at(0);
+  EXPECT_EQ(part.files, (std::vector<fs::path>{named, first, second}));
+  EXPECT_EQ(part.bytes, fs::file_size(named) + 7 + 4);
+  for (const char* odd : {"{}", "[1, null, {\"uri\": 3}]", "[", "\"x\""}) {
+    EXPECT_EQ(scene_parts({{gltf(odd)}}).at(0).files, std::vector<fs::path>{named}) << odd;
+  }
+}
+
 TEST_F(ImportStreamParts, OfATileThatIsMissingGiveNothingAndSaySo) {
   std::vector<ScenePart> parts = scene_parts(write_scene("scene"));
   Pieces pieces;

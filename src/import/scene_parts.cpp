@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "import/find_reader.h"
+#include "import/gltf_buffers.h"
 #include "import/read_all.h"
 #include "roam/import.h"
 
@@ -165,14 +166,16 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     TileList list(report, options.ignore.size());
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
-    if (fs::is_directory(path)) {
+    std::error_code none;
+    if (fs::is_directory(path, none)) {
       add_tiles(path, list.tiles(), frame, names, parts);
       continue;
     }
     ScenePart part;
     part.name = names.unique(normal(path).filename().string());
     part.path = path;
-    part.files = {normal(path)};
+    part.files = reader::gltf_buffers(normal(path));
+    part.files.insert(part.files.begin(), normal(path));
     count_bytes(part);
     parts.push_back(std::move(part));
   }
