@@ -20,8 +20,8 @@ namespace {
 constexpr double reached_column = 0.3;
 /// The samples that are looked at together: few at first, for most lie in what the first ones reach.
 constexpr std::size_t first_batch = 16, last_batch = 4096;
-/// How many more places there may be of what is not open to the sky, and of all together.
-constexpr std::uint64_t closed_factor = 10;
+/// How many times as many places there may be of all components together as of one.
+constexpr std::uint64_t all_factor = 2;
 /// Of open ground so many places are looked at in any case.
 constexpr std::uint64_t least_open = 200'000;
 /// Fewer places that are closed are only what lies under something in an open scene.
@@ -130,8 +130,8 @@ class Search {
 
   void grow(NodeId root, Sight sight) {
     const std::size_t before = tree_.size();
-    const std::uint64_t most_of_all = most_places_ * closed_factor;
-    const std::uint64_t most = sight == Sight::open ? std::min(before + most_open(), most_of_all) : most_of_all;
+    const std::uint64_t most_of_all = most_places_ * all_factor;
+    const std::uint64_t most = std::min(before + (sight == Sight::open ? most_open() : most_places_), most_of_all);
     std::uint64_t mark = before + first_asked, turns = 0;
     int open_running = 0;
     bool out = false;
@@ -175,16 +175,17 @@ class Search {
   }
 
   /// Windings may be the wrong way round: then what sees backs is the scene. It is not where what is closed and sees
-  /// fronts is more than a share of all floors: see judge().
+  /// fronts is a good part of all floors: see judge().
   [[nodiscard]] bool backs_may_be_the_scene() const {
-    if (backs_.empty() || closed_places_ == 0) return true;
+    if (closed_places_ == 0) return true;
     double area = 0.0;
     for (const TriangleId id : survey_.floor_triangles()) {
       const Triangle t = survey_.triangle(id);
       area += 0.5 * std::abs(glm::cross(t[1] - t[0], t[2] - t[0]).z);
     }
     const double cell = spacing_of(tree_, whole_.front());
-    return static_cast<double>(closed_places_) * reversed_ratio * cell * cell < area;
+    const double closed = static_cast<double>(closed_places_) * cell * cell;
+    return closed * reversed_ratio < area - closed;
   }
 
   [[nodiscard]] std::vector<Component> components() const {

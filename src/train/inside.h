@@ -26,9 +26,9 @@ struct Surroundings {
 /// Whether nearly all of them do.
 [[nodiscard]] bool windings_can_be_trusted(const Survey& survey);
 
-/// What looks at fronts is the outside of a scene that is wound the wrong way round when it has not one place to so
-/// many that look at backs.
-inline constexpr double reversed_ratio = 10.0;
+/// What looks at fronts is the outside of a scene that is wound the wrong way round, or lies within its walls, when it
+/// has not one place to so many that look at backs. The streets of a city have more to what is within its blocks.
+inline constexpr double reversed_ratio = 2.0;
 
 /// Metres between neighbours of the lattice, seen from above on foot; 0 for a place without any. `id` has been reached.
 [[nodiscard]] double spacing_of(const WidestTree& tree, NodeId id);

@@ -38,13 +38,13 @@ struct Component {
 /// All components of the scene: sampled on its floors by area and by triangle (flying: in its box too), each grown
 /// whole in `tree`, most places first. At least one is inside, where there is any. What only sees the backs of
 /// triangles is left out where it is plain that the windings are right.
-/// `most_places`: what is open to the sky is not grown beyond so many places, or beyond as many as there are of what is
-/// closed; all together not beyond ten times as many. `goes_on` is asked now and then with the fraction of the samples
-/// that were looked at; false ends it with what was found.
+/// `most_places`: no component is grown beyond so many places, what is open to the sky not beyond as many as there are
+/// of what is closed, and all together not beyond twice as many. `goes_on` is asked now and then with the fraction of
+/// the samples that were looked at; false ends it with what was found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                                      std::uint64_t seed,
                                                      const std::function<bool(double)>& goes_on = {},
-                                                     std::uint64_t most_places = 2'000'000);
+                                                     std::uint64_t most_places = 500'000);
 
 /// Asks for the rooms of a component without naming a radius: see find_rooms.
 inline constexpr double any_radius = std::numeric_limits<double>::infinity();

@@ -27,6 +27,9 @@ struct Sample {
   std::uint64_t turn = 0;
   Vec3 place{0.0};
 };
+/// The halves of all turns: samples by triangle come before those by area and by volume.
+constexpr std::uint64_t first_half(std::uint64_t turn) { return turn >> 1; }
+constexpr std::uint64_t second_half(std::uint64_t turn) { return turn | (std::uint64_t(1) << 63); }
 
 double area(const Triangle& t) { return 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
@@ -63,7 +66,7 @@ void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uin
       const double u = plan_area(p, t[1], t[2]) / whole, v = plan_area(t[0], p, t[2]) / whole, w = 1.0 - u - v;
       if (u < 0.0 || v < 0.0 || w < 0.0) continue;
       const std::uint64_t turn = mixed(mixed(seed ^ std::bit_cast<std::uint64_t>(i)) ^ std::bit_cast<std::uint64_t>(j));
-      out.push_back({turn, {p.x, p.y, u * t[0].z + v * t[1].z + w * t[2].z}});
+      out.push_back({second_half(turn), {p.x, p.y, u * t[0].z + v * t[1].z + w * t[2].z}});
     }
   }
 }
@@ -82,7 +85,8 @@ std::vector<Sample> sample_floors(const Survey& survey, std::uint64_t seed) {
     const Triangle t = ordered(survey.triangle(id));
     sample_by_area(t, origin, cell, seed, samples);
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    if (const std::uint64_t turn = hash(middle, seed); turn % one_in == 0) samples.push_back({mixed(turn), middle});
+    if (const std::uint64_t turn = hash(middle, seed); turn % one_in == 0)
+      samples.push_back({first_half(mixed(turn)), middle});
   }
   return samples;
 }
@@ -105,7 +109,7 @@ void sample_air(const Survey& survey, std::uint64_t seed, std::vector<Sample>& o
         const std::uint64_t turn = mixed(mixed(mixed(seed ^ i) ^ j) ^ k);
         const Vec3 part(static_cast<double>(i) + unit(mixed(turn)), static_cast<double>(j) + unit(mixed(turn + 1)),
                         static_cast<double>(k) + unit(mixed(turn + 2)));
-        out.push_back({turn, box.lower + cell * part});
+        out.push_back({second_half(turn), box.lower + cell * part});
       }
     }
   }

@@ -1,0 +1,222 @@
+// Where bodies can be: components of the floor, and which of them are meant to be walked in.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "train/inside.h"
+#include "train/places.h"
+#include "train_shells.h"
+
+namespace roam::training {
+namespace {
+
+using shells::Look;
+
+std::size_t inside_of(const Look& look) {
+  return static_cast<std::size_t>(
+      std::count_if(look.components.begin(), look.components.end(), [](const Component& c) { return c.inside; }));
+}
+
+Mesh two_rooms() {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});
+  shells::add_room(mesh, {20, 0, 0}, {24, 5, 3});
+  return mesh;
+}
+
+/// Walls of half a metre; the roof has more places than the room.
+Mesh house() {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});
+  shells::add_room(mesh, {-0.5, -0.5, -0.5}, {8.5, 6.5, 3.5}, true);
+  return mesh;
+}
+
+TEST(TrainPlaces, DisjointRoomsAreComponentsOfTheirOwnAndBothInside) {
+  const Look look(two_rooms());
+  const Component* large = look.at({4, 3, 0});
+  const Component* small = look.at({22, 2, 0});
+  ASSERT_NE(large, nullptr);
+  ASSERT_NE(small, nullptr);
+  EXPECT_NE(large, small);
+  EXPECT_EQ(large, &look.components.front());
+  EXPECT_TRUE(large->inside);
+  EXPECT_TRUE(small->inside);
+  EXPECT_EQ(inside_of(look), 2u);
+  EXPECT_NEAR(static_cast<double>(large->nodes.size()), 7.8 * 5.8 / 0.04, 120.0);
+  EXPECT_TRUE(large->whole);
+}
+
+TEST(TrainPlaces, TheTopOfATunnelIsNotInside) {
+  const Look look(two_rooms());
+  EXPECT_EQ(look.at({4, 3, 3}), nullptr) << "what only sees backs need not be looked at";
+}
+
+TEST(TrainPlaces, TheRoofOfAHouseIsOutside) {
+  const Look look(house());
+  const Component* room = look.at({4, 3, 0});
+  const Component* roof = look.at({4, 3, 3.5});
+  ASSERT_NE(room, nullptr);
+  ASSERT_NE(roof, nullptr);
+  EXPECT_GT(roof->nodes.size(), room->nodes.size());
+  EXPECT_TRUE(room->inside);
+  EXPECT_EQ(roof->verdict, Verdict::on_top);
+}
+
+TEST(TrainPlaces, AHouseWoundTheWrongWayRoundIsTheSame) {
+  Mesh mesh = house();
+  shells::flip(mesh);
+  const Look look(mesh);
+  const Component* room = look.at({4, 3, 0});
+  ASSERT_NE(room, nullptr);
+  EXPECT_EQ(room->back_share, 1.0);
+  EXPECT_TRUE(room->inside);
+  EXPECT_EQ(inside_of(look), 1u);
+}
+
+TEST(TrainPlaces, TunnelsWoundTheWrongWayRoundAreTheSame) {
+  Mesh mesh = two_rooms();
+  shells::flip(mesh);
+  const Look look(mesh);
+  ASSERT_NE(look.at({4, 3, 0}), nullptr);
+  EXPECT_TRUE(look.at({4, 3, 0})->inside);
+  EXPECT_TRUE(look.at({22, 2, 0})->inside);
+  EXPECT_EQ(inside_of(look), 2u);
+}
+
+TEST(TrainPlaces, WindingsAreTrustedWhereSharedEdgesRunBothWays) {
+  const auto share = [](const Mesh& mesh) { return winding_share(Survey::build({mesh})); };
+  Mesh mesh = two_rooms();
+  EXPECT_EQ(share(mesh), 1.0);
+  const std::vector<std::array<std::uint32_t, 3>> once = mesh.triangles;
+  mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+  EXPECT_EQ(share(mesh), 1.0) << "twice the same way round is as once";
+  mesh.triangles = once;
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  EXPECT_LT(share(mesh), 1.0);
+  mesh.triangles = once;
+  shells::add_backs(mesh);
+  EXPECT_EQ(share(mesh), 0.0);
+  Mesh loose;
+  scenes::add_triangle(loose, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  EXPECT_EQ(share(loose), 0.0) << "no edge is shared";
+}
+
+TEST(TrainPlaces, WhereFacesAreThereFromBothSidesOnlyTheLargestComponentIsInside) {
+  Mesh mesh = two_rooms();
+  shells::add_backs(mesh);
+  const Look look(mesh);
+  ASSERT_EQ(inside_of(look), 1u);
+  EXPECT_TRUE(look.at({4, 3, 0})->inside);
+  EXPECT_EQ(look.at({22, 2, 0})->verdict, Verdict::smaller);
+}
+
+TEST(TrainPlaces, TheTopOfAWallIsALedge) {
+  Mesh mesh;
+  scenes::add_floor(mesh, 0, 0, 12, 12, 0.0);
+  scenes::add_box(mesh, {5, 3, 0}, {5.6, 9, 2.5});
+  const Look look(mesh);
+  const Component* top = look.at({5.3, 6, 2.5});
+  ASSERT_NE(top, nullptr);
+  EXPECT_EQ(top->verdict, Verdict::on_top);
+  EXPECT_TRUE(look.at({1, 1, 0})->inside);
+}
+
+TEST(TrainPlaces, OpenGroundIsTheSceneWhereNothingIsInside) {
+  Mesh mesh;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j) {
+      const auto z = [](int x, int y) { return 0.3 * ((x * 7 + y * 3) % 4); };
+      const auto at = [&](int x, int y) { return Vec3(2.0 * x, 2.0 * y, z(x, y)); };
+      scenes::add_quad(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  for (const bool flipped : {false, true}) {
+    if (flipped) shells::flip(mesh);
+    const Look look(mesh, 0.4);
+    ASSERT_FALSE(look.components.empty());
+    EXPECT_TRUE(look.components.front().inside) << flipped;
+    EXPECT_EQ(look.components.front().open_share, 1.0);
+    EXPECT_GT(look.components.front().nodes.size(), 2000u);
+  }
+}
+
+TEST(TrainPlaces, OneTriangleIsAScene) {
+  Mesh mesh;
+  scenes::add_triangle(mesh, {0, 0, 0}, {3, 0, 0}, {0, 3, 0});
+  const Look look(mesh);
+  ASSERT_EQ(look.components.size(), 1u);
+  EXPECT_TRUE(look.components.front().inside);
+}
+
+TEST(TrainPlaces, WithoutFloorThereIsNoPlace) {
+  Mesh wall;
+  scenes::add_wall(wall, 0, 0, 5, 1, 0.0, 3.0);
+  EXPECT_TRUE(Look(wall).components.empty());
+  EXPECT_TRUE(Look(Mesh{}).components.empty());
+}
+
+TEST(TrainPlaces, ALowRoomHasNoPlaceForAPerson) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 1.8});
+  EXPECT_EQ(Look(mesh).at({4, 3, 0}), nullptr);
+}
+
+TEST(TrainPlaces, WhatIsTooLargeIsCutAndSaysSo) {
+  const Look look(two_rooms(), 0.2, 300);
+  const Component* cut = look.at({4, 3, 0});
+  if (cut == nullptr) cut = look.at({22, 2, 0});
+  ASSERT_NE(cut, nullptr);
+  EXPECT_TRUE(std::any_of(look.components.begin(), look.components.end(), [](const auto& c) { return !c.whole; }));
+  EXPECT_LT(look.tree.size(), 2000u);
+}
+
+TEST(TrainPlaces, EndedEarlyItAnswersWhatWasFound) {
+  const Survey survey = Survey::build({two_rooms()});
+  const Measure measure = shells::person();
+  WidestTree tree(survey, measure, 0.2);
+  int asked = 0;
+  const auto found = find_components(survey, measure, tree, 1, [&](double) { return ++asked < 4; });
+  EXPECT_LT(tree.size(), 2000u);
+  for (const Component& c : found) EXPECT_FALSE(c.nodes.empty());
+}
+
+TEST(TrainPlaces, TheOrderOfTrianglesAndAPlaceFarAwayChangeNothing) {
+  const Look plain(two_rooms());
+  Mesh mesh = two_rooms();
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  const Look reversed(mesh);
+  scenes::shift(mesh, {-13739, 253, 182});
+  const Look moved(mesh);
+  for (const Look* other : {&reversed, &moved}) {
+    ASSERT_EQ(other->components.size(), plain.components.size());
+    for (std::size_t i = 0; i < plain.components.size(); ++i) {
+      const double places = static_cast<double>(plain.components[i].nodes.size());
+      EXPECT_NEAR(static_cast<double>(other->components[i].nodes.size()), places, 0.1 * places);
+      EXPECT_EQ(other->components[i].verdict, plain.components[i].verdict);
+    }
+  }
+}
+
+TEST(TrainPlaces, FlyingTheClosedIsInsideAndTheAirAroundIsNot) {
+  const Survey survey = Survey::build({house()}, {.threads = 1, .lossless = true, .progress = {}});
+  Measure measure;
+  measure.mode = Mode::fly;
+  measure.narrowest = 0.2;
+  Box within = survey.world().bounds();
+  within.lower -= Vec3(2.0);
+  within.upper += Vec3(2.0);
+  WidestTree tree(survey, measure, 0.4, within);
+  const auto found = find_components(survey, measure, tree, 1);
+  ASSERT_FALSE(found.empty());
+  for (const Component& c : found) {
+    const Vec3 place = tree.node(c.root).place;
+    const bool in_room = place.x > 0 && place.x < 8 && place.y > 0 && place.y < 6 && place.z > 0 && place.z < 3;
+    EXPECT_EQ(c.inside, in_room) << place.x << " " << place.y << " " << place.z;
+  }
+}
+
+}  // namespace
+}  // namespace roam::training

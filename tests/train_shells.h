@@ -1,0 +1,81 @@
+#pragma once
+/// \file
+/// Closed shells whose triangles are wound alike, and floors with walls that divide them: what rooms are made of.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "train/places.h"
+#include "walker_scenes.h"
+
+namespace shells {
+
+using roam::Mesh;
+using roam::Vec3;
+
+/// A box that is a room: its triangles are seen from the front by who stands in it; `solid`: by who is outside.
+inline void add_room(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool solid = false) {
+  const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    if (solid)
+      scenes::add_quad(mesh, d, c, b, a);
+    else
+      scenes::add_quad(mesh, a, b, c, d);
+  };
+  face({lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z});
+  face({lo.x, lo.y, hi.z}, {lo.x, hi.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, lo.y, hi.z});
+  face({lo.x, lo.y, lo.z}, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, lo.y, lo.z});
+  face({lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});
+  face({lo.x, lo.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z}, {lo.x, lo.y, hi.z});
+  face({hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z});
+}
+
+inline void flip(Mesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// The same triangles once more, the other way round.
+inline void add_backs(Mesh& mesh) {
+  Mesh backs = mesh;
+  flip(backs);
+  mesh.triangles.insert(mesh.triangles.end(), backs.triangles.begin(), backs.triangles.end());
+}
+
+/// A wall along y = `y` from x0 to x1 with an opening of `width` about `x`, 3 m high.
+inline void add_wall_with_door(Mesh& mesh, double x0, double x1, double y, double x, double width) {
+  scenes::add_wall(mesh, x0, y, x - 0.5 * width, y, 0.0, 3.0);
+  scenes::add_wall(mesh, x + 0.5 * width, y, x1, y, 0.0, 3.0);
+}
+
+/// A person's body.
+inline roam::training::Measure person() {
+  roam::training::Measure m;
+  m.height = 1.9;
+  m.narrowest = 0.1;
+  return m;
+}
+
+/// A scene, and the places of it.
+struct Look {
+  roam::Survey survey;
+  roam::training::Measure measure = person();
+  roam::training::WidestTree tree;
+  std::vector<roam::training::Component> components;
+
+  explicit Look(const Mesh& mesh, double spacing = 0.2, std::uint64_t most_places = 500'000)
+      : survey(roam::Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}})),
+        tree(survey, measure, spacing),
+        components(roam::training::find_components(survey, measure, tree, 1, {}, most_places)) {}
+
+  /// The component that has a place within half a metre of this one.
+  [[nodiscard]] const roam::training::Component* at(const Vec3& place) const {
+    for (const auto& c : components)
+      for (const auto id : c.nodes) {
+        const Vec3 to = tree.node(id).place - place;
+        if (std::abs(to.x) < 0.5 && std::abs(to.y) < 0.5 && std::abs(to.z) < 0.5) return &c;
+      }
+    return nullptr;
+  }
+};
+
+}  // namespace shells
