@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "train/detour.h"
 #include "train/neck_ways.h"
 #include "train/refine.h"
 #include "train/regions.h"
@@ -34,43 +35,77 @@ CrackOptions crack_options(const TrainOptions& options, const Measure& measure) 
   return how;
 }
 
-void describe_paths(const Layout& layout, Training& training, Evidence& evidence) {
-  for (std::size_t i = 0; i < layout.paths.size(); ++i) {
-    const Passage& passage = layout.paths[i].passage;
+/// Fills in what is found out path by path.
+class Paths {
+ public:
+  Paths(const Survey& survey, const TrainOptions& options, Layout& layout, Training& training, Evidence& evidence)
+      : survey_(survey), options_(options), layout_(layout), training_(training), evidence_(evidence) {
+    for (std::size_t i = 0; i < layout.paths.size(); ++i) describe(i);
+  }
+
+  void cross_all() {
+    const Crossings crossings(survey_, evidence_.cracks, layout_.measure.narrowest);
+    for (std::size_t i = 0; i < training_.paths.size(); ++i) cross(crossings, i);
+    if (options_.paths == 0) add_crossings(crossings);
+    for (const FoundCrack& crack : evidence_.cracks) {
+      if (crack.kind == Crack::Kind::crack)
+        evidence_.widest_anywhere = std::max(evidence_.widest_anywhere, crack.radius);
+      training_.cracks.push_back(crack);
+    }
+  }
+
+ private:
+  void describe(std::size_t i) {
+    const Passage& passage = layout_.paths[i].passage;
     TrainedPath path;
     path.from = passage.way.front();
     path.to = passage.way.back();
     path.way = passage.way;
     if (passage.limited) path.largest = passage.radius;
-    if (path.largest && (!training.largest || *path.largest < *training.largest)) {
-      training.largest = path.largest;
-      evidence.narrowest = i;
+    if (path.largest && (!training_.largest || *path.largest < *training_.largest)) {
+      training_.largest = path.largest;
+      evidence_.narrowest = i;
     }
-    training.paths.push_back(std::move(path));
+    training_.paths.push_back(std::move(path));
   }
-}
 
-void cross(const Survey& survey, const Measure& measure, Training& training, Evidence& evidence) {
-  const Crossings crossings(survey, evidence.cracks, measure.narrowest);
-  for (std::size_t i = 0; i < training.paths.size(); ++i) {
-    TrainedPath& path = training.paths[i];
+  void cross(const Crossings& crossings, std::size_t i) {
+    TrainedPath& path = training_.paths[i];
     for (const Crossing& crossing : crossings.on(path.way)) {
-      FoundCrack& crack = evidence.cracks[crossing.crack];
+      FoundCrack& crack = evidence_.cracks[crossing.crack];
       crack.on_a_path = true;
       if (crack.kind != Crack::Kind::crack) continue;
-      evidence.crossings.push_back({i, crossing});
+      evidence_.crossings.push_back({i, crossing});
       path.smallest = std::max(path.smallest, crack.radius);
-      if (crack.radius > training.smallest) {
-        training.smallest = crack.radius;
-        evidence.widest = crossing.crack;
+      if (crack.radius > training_.smallest) {
+        training_.smallest = crack.radius;
+        evidence_.widest = crossing.crack;
       }
     }
   }
-  for (const FoundCrack& crack : evidence.cracks) {
-    if (crack.kind == Crack::Kind::crack) evidence.widest_anywhere = std::max(evidence.widest_anywhere, crack.radius);
-    training.cracks.push_back(crack);
+
+  /// Cracks are in the order of their width: the first that must be crossed decides.
+  void add_crossings(const Crossings& crossings) {
+    const Reached reached(layout_, options_.spacing);
+    for (const FoundCrack& crack : evidence_.cracks) {
+      if (crack.kind != Crack::Kind::crack || crack.on_a_path) continue;
+      if (crack.radius <= training_.smallest) return;
+      const std::optional<Ends> ends = must_be_crossed(survey_, layout_, reached, crack);
+      if (!ends) continue;
+      Passage passage = plan_path(survey_, layout_, options_.spacing, *ends);
+      if (passage.way.size() < 2) continue;
+      layout_.paths.push_back({*ends, std::move(passage)});
+      describe(layout_.paths.size() - 1);
+      cross(crossings, layout_.paths.size() - 1);
+    }
   }
-}
+
+  const Survey& survey_;
+  const TrainOptions& options_;
+  Layout& layout_;
+  Training& training_;
+  Evidence& evidence_;
+};
 
 void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
   if (evidence.narrowest) {
@@ -86,18 +121,17 @@ void describe_decisive(const Layout& layout, const Evidence& evidence, Training&
 
 }  // namespace
 
-Evidence find_ends(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
+Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Stages& stages,
                    Training& training) {
   Evidence evidence;
-  describe_paths(layout, training, evidence);
-  if (options.mode == Mode::walk && !layout.components.empty()) {
+  Paths paths(survey, options, layout, training, evidence);
+  if (options.mode == Mode::walk && !layout.components.empty() && !stages.ended()) {
     stages.begin("looking for cracks");
-    if (!stages.ended()) {
-      const Reached reached(layout, options.spacing);
-      evidence.cracks = find_cracks(survey, crack_options(options, layout.measure), reached,
-                                    [&](double done) { return stages.at(done); });
-    }
-    cross(survey, layout.measure, training, evidence);
+    const Reached reached(layout, options.spacing);
+    evidence.cracks = find_cracks(
+        survey, crack_options(options, layout.measure), [&](const Vec3& foot) { return reached(foot); },
+        [&](double done) { return stages.at(done); });
+    paths.cross_all();
   }
   training.trapped_radius = trapped_below(training.smallest, options.step);
   describe_decisive(layout, evidence, training);

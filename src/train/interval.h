@@ -36,9 +36,11 @@ struct Evidence {
   double widest_anywhere = 0.0;          ///< m, radius of the widest crack, on a path or not
 };
 
-/// Looks for the cracks of what was reached, and fills in paths, cracks, both ends, trapped_radius and decisive.
-[[nodiscard]] Evidence find_ends(const Survey& survey, const TrainOptions& options, const Layout& layout,
-                                 Stages& stages, Training& training);
+/// Looks for the cracks of what was reached, and fills in paths, cracks, both ends, trapped_radius
+/// and decisive. Where the number of paths is left open, a crack that is wider than those on the paths and that nobody
+/// can walk around gets a path of its own.
+[[nodiscard]] Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Stages& stages,
+                                 Training& training);
 
 /// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
 [[nodiscard]] double trapped_below(double crack_radius, double step);

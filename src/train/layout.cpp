@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "train/refine.h"
@@ -37,10 +38,7 @@ void refine_paths(const Survey& survey, double spacing, Layout& layout, Stages& 
   tbb::parallel_for(std::size_t(0), layout.paths.size(), [&](std::size_t i) {
     PlannedPath& path = layout.paths[i];
     if (!stages.ended()) {
-      std::vector<Vec3> places;
-      for (const NodeId id : layout.tree.way(path.ends.from, path.ends.to))
-        places.push_back(layout.tree.node(id).place);
-      path.passage = refine(survey, layout.measure, spacing, places);
+      path.passage = plan_path(survey, layout, spacing, path.ends);
     }
     stages.at(static_cast<double>(++done) / static_cast<double>(layout.paths.size()));
   });
@@ -69,6 +67,12 @@ BodyKind kind_of(const Survey& survey, const TrainOptions& options) {
   return kind;
 }
 
+Passage plan_path(const Survey& survey, const Layout& layout, double spacing, const Ends& ends) {
+  std::vector<Vec3> places;
+  for (const NodeId id : layout.tree.way(ends.from, ends.to)) places.push_back(layout.tree.node(id).place);
+  return refine(survey, layout.measure, spacing, places);
+}
+
 Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages) {
   const Measure measure = measure_of(options);
   Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, 0, {}};
@@ -88,7 +92,7 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
     if (!counts[i]) continue;
     for (const Ends& ends :
          draw_paths(layout.tree, layout.components[i], layout.rooms[i], *counts[i], options.seed + i))
-      layout.paths.push_back({i, ends, {}});
+      layout.paths.push_back({ends, {}});
   }
   refine_paths(survey, options.spacing, layout, stages);
   return layout;
@@ -111,9 +115,11 @@ Reached::Reached(const Layout& layout, double spacing)
 
 std::int64_t Reached::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
 
-bool Reached::operator()(const Vec3& foot) const {
+NodeId Reached::near(const Vec3& foot) const {
   // No node farther than half of `widest` need be asked: there are others nearer by, unless the way there is closed.
   const std::int64_t x = cell(foot.x), y = cell(foot.y);
+  NodeId nearest = no_node;
+  double least = std::numeric_limits<double>::infinity();
   for (std::int64_t dx = -1; dx <= 1; ++dx) {
     auto at = std::lower_bound(
         cells_.begin(), cells_.end(), std::pair(x + dx, y - 1),
@@ -121,11 +127,15 @@ bool Reached::operator()(const Vec3& foot) const {
     for (; at != cells_.end() && at->x == x + dx && at->y <= y + 1; ++at) {
       const Node& node = tree_->node(at->node);
       const double apart = std::hypot(foot.x - node.place.x, foot.y - node.place.y);
-      if (apart <= std::max(beside_, static_cast<double>(node.clearance)) && std::abs(foot.z - node.place.z) <= level_)
-        return true;
+      const bool reaches =
+          apart <= std::max(beside_, static_cast<double>(node.clearance)) && std::abs(foot.z - node.place.z) <= level_;
+      if (reaches && apart < least) {
+        least = apart;
+        nearest = at->node;
+      }
     }
   }
-  return false;
+  return nearest;
 }
 
 }  // namespace roam::training

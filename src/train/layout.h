@@ -17,7 +17,6 @@
 namespace roam::training {
 
 struct PlannedPath {
-  std::size_t component = 0;  ///< of Layout::components
   Ends ends;
   Passage passage;  ///< between them, refined
 };
@@ -35,6 +34,9 @@ struct Layout {
 [[nodiscard]] Measure measure_of(const TrainOptions& options);
 [[nodiscard]] BodyKind kind_of(const Survey& survey, const TrainOptions& options);
 
+/// The way between two places of a component, refined.
+[[nodiscard]] Passage plan_path(const Survey& survey, const Layout& layout, double spacing, const Ends& ends);
+
 /// Components, rooms and paths; where `stages` says to end, what was found by then.
 [[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);
 
@@ -43,7 +45,9 @@ struct Layout {
 class Reached {
  public:
   Reached(const Layout& layout, double spacing);
-  [[nodiscard]] bool operator()(const Vec3& foot) const;
+  [[nodiscard]] bool operator()(const Vec3& foot) const { return near(foot) != no_node; }
+  /// The nearest of the places that reach it; no_node where it is not reached.
+  [[nodiscard]] NodeId near(const Vec3& foot) const;
 
  private:
   struct Cell {

@@ -55,7 +55,7 @@ void take_usual_body(const TrainOptions& options, const BodyKind& kind, Training
   training.radius = std::min({usual_radius, options.radius_max, largest_radius(kind)});
 }
 
-void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,
+void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Layout& layout,
                    Stages& stages, Training& training) {
   const Evidence evidence = find_ends(survey, options, layout, stages, training);
   choose_body(kind, options, evidence, training);
@@ -108,7 +108,7 @@ Training train(const Survey& survey, const TrainOptions& options) {
   const BodyKind kind = kind_of(survey, options);
   TrainOptions laid = options;
   if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
-  const Layout layout = lay_out(survey, laid, stages);
+  Layout layout = lay_out(survey, laid, stages);
   for (const Component& component : layout.components) training.places += component.nodes.size();
   if (layout.components.empty()) {
     take_usual_body(options, kind, training);

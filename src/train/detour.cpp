@@ -1,0 +1,42 @@
+#include "train/detour.h"
+
+#include <deque>
+#include <unordered_set>
+
+namespace roam::training {
+
+namespace {
+
+/// Places that are looked at for a way around, at most: at 0.2 m those of 800 m^2. Nobody walks farther around a crack.
+constexpr std::size_t most_places = 20'000;
+/// m beside the rim, where somebody stands before he crosses.
+constexpr double before_rim = 0.3;
+/// m. A foot with floor so near stands on it.
+constexpr double on_floor = 0.04;
+
+}  // namespace
+
+std::optional<Ends> must_be_crossed(const Survey& survey, const Layout& layout, const Reached& reached,
+                                    const Crack& crack) {
+  const Vec3 aside = (crack.radius + before_rim) * crack.direction;
+  const Ends ends{reached.near(crack.point - aside), reached.near(crack.point + aside)};
+  if (ends.from == no_node || ends.to == no_node || ends.from == ends.to) return std::nullopt;
+  if (layout.tree.root(ends.from) != layout.tree.root(ends.to)) return std::nullopt;
+  const auto stands = [&](NodeId id) {
+    return survey.floor().clearance({on_floor, 0.0}, layout.tree.node(id).place, 0.0).found;
+  };
+  if (!stands(ends.from) || !stands(ends.to)) return std::nullopt;
+  std::deque<NodeId> next{ends.from};
+  std::unordered_set<NodeId> seen{ends.from};
+  while (!next.empty() && seen.size() < most_places) {
+    const NodeId id = next.front();
+    next.pop_front();
+    for (const NodeId other : layout.tree.neighbours(id)) {
+      if (other == ends.to) return std::nullopt;
+      if (seen.insert(other).second && stands(other)) next.push_back(other);
+    }
+  }
+  return ends;
+}
+
+}  // namespace roam::training

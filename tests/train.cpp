@@ -1,0 +1,258 @@
+// Training: what is answered of a scene, and both halves of the paper's claim on the made gallery.
+#include "roam/train.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "roam/generate.h"
+#include "train/trials.h"
+#include "train_scenes.h"
+
+namespace {
+
+using roam::Mesh;
+using roam::Method;
+using roam::Mode;
+using roam::Outcome;
+using roam::Survey;
+using roam::Training;
+using roam::TrainOptions;
+using roam::Vec3;
+using roam::training::BodyKind;
+using roam::training::settings_of;
+using roam::training::try_way;
+
+bool says(const Training& t, const std::string& part) { return t.answer.find(part) != std::string::npos; }
+
+/// Every body of a training that is sent along a path by hand does as the training says.
+Outcome walked(const Survey& survey, double radius, double support, const std::vector<Vec3>& way, double height = 0.0) {
+  return try_way(survey, BodyKind{.height = height}, radius, support, way).outcome;
+}
+
+TEST(Training, FindsBothEndsAndTakesAPersonWhereOneFits) {
+  const Training t = roam::train(corridor({.door = 1.0, .split = 0.4}), {.height = 1.8});
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.5, 5e-4);
+  EXPECT_NEAR(t.smallest, 0.2, 5e-4);
+  EXPECT_TRUE(t.feasible);
+  EXPECT_DOUBLE_EQ(t.radius, 0.3);
+  EXPECT_DOUBLE_EQ(t.support_radius, 0.0);
+  EXPECT_TRUE(t.complete);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  ASSERT_EQ(t.decisive.size(), 2u);
+  EXPECT_EQ(t.decisive[0].kind, roam::Decisive::Kind::opening);
+  EXPECT_NEAR(t.decisive[0].width, 1.0, 1e-3);
+  EXPECT_NEAR(t.decisive[0].point.x, 7.1, 0.2);
+  EXPECT_EQ(t.decisive[1].kind, roam::Decisive::Kind::split);
+  EXPECT_NEAR(t.decisive[1].width, 0.4, 1e-3);
+  EXPECT_NEAR(t.decisive[1].point.x, 3.0, 0.01);
+}
+
+TEST(Training, TakesARadiusOfTheIntervalWhereAPersonIsTooWideOrTooSlim) {
+  const Training slim = roam::train(corridor({.door = 0.5}), {.height = 1.8});
+  EXPECT_LT(slim.radius, 0.25);
+  EXPECT_GT(slim.radius, 0.23);
+  const Training wide = roam::train(corridor({.door = 1.6, .split = 0.9}), {.height = 1.8});
+  EXPECT_TRUE(wide.feasible);
+  EXPECT_GT(wide.radius, 0.45);
+  EXPECT_LT(wide.radius, 0.8);
+  EXPECT_TRUE(wide.contradictions.empty()) << wide.answer;
+}
+
+TEST(Training, GivesAFootWhereNoOneRadiusServes) {
+  const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.height = 1.8});
+  EXPECT_FALSE(t.feasible);
+  EXPECT_DOUBLE_EQ(t.radius, 0.3);
+  EXPECT_NEAR(t.support_radius, 0.645, 1e-3);
+  EXPECT_NEAR(t.trapped_radius, (0.625 * 0.625 + 0.09) / 0.6, 1e-3);
+  EXPECT_TRUE(says(t, "No one radius serves")) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+}
+
+TEST(Training, ProvesBothEndsByBodiesJustInsideAndJustOutside) {
+  const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.height = 1.8});
+  int inside = 0, blocked = 0, fell = 0;
+  for (const roam::TrainedPath& path : t.paths) {
+    for (const roam::Trial& trial : path.trials) {
+      if (trial.outcome == Outcome::reached) {
+        ++inside;
+        EXPECT_LT(trial.radius, 0.4);
+      } else if (trial.outcome == Outcome::blocked) {
+        ++blocked;
+        EXPECT_NEAR(trial.radius, 1.02 * 0.4, 1e-3);
+      } else {
+        ++fell;
+        EXPECT_EQ(trial.outcome, Outcome::fell);
+        EXPECT_NEAR(trial.support_radius, 0.605, 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(blocked, 0);
+  EXPECT_GT(fell, 0);
+}
+
+TEST(Training, IsTheSameForTheSameSeedAndAnyNumberOfThreads) {
+  const Survey survey = corridor({.door = 0.8, .split = 0.5});
+  for (const Method method : {Method::interval, Method::paper}) {
+    const Training a = roam::train(survey, {.method = method, .seed = 7, .threads = 1});
+    const Training b = roam::train(survey, {.method = method, .seed = 7, .threads = 0});
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.smallest, b.smallest);
+    EXPECT_EQ(a.largest, b.largest);
+    EXPECT_EQ(a.answer, b.answer);
+    ASSERT_EQ(a.paths.size(), b.paths.size());
+    for (std::size_t i = 0; i < a.paths.size(); ++i) {
+      EXPECT_EQ(a.paths[i].way, b.paths[i].way);
+      ASSERT_EQ(a.paths[i].trials.size(), b.paths[i].trials.size());
+      for (std::size_t k = 0; k < a.paths[i].trials.size(); ++k)
+        EXPECT_EQ(a.paths[i].trials[k].at, b.paths[i].trials[k].at);
+    }
+  }
+}
+
+TEST(Training, ByThePapersMethodEndsBetweenWhatFellAndWhatWasBlocked) {
+  const Training t = roam::train(corridor({.door = 1.2, .split = 0.8}), {.method = Method::paper});
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_GT(t.radius, 0.4);
+  EXPECT_LT(t.radius, 0.6);
+  const Training none = roam::train(corridor({.door = 0.8, .split = 1.25}), {.method = Method::paper});
+  EXPECT_FALSE(none.feasible);
+  EXPECT_TRUE(says(none, "contradiction")) << none.answer;
+}
+
+TEST(Training, SaysWhyThereIsNothingToTrain) {
+  EXPECT_TRUE(says(roam::train(survey_of({})), "no triangle"));
+  Mesh wall;
+  scenes::add_wall(wall, 0.0, 0.0, 5.0, 0.0, 0.0, 3.0);
+  EXPECT_TRUE(says(roam::train(survey_of({wall})), "no floor"));
+  Mesh low;
+  scenes::add_box(low, {0.0, 0.0, 0.0}, {5.0, 5.0, 0.35});
+  scenes::add_floor(low, -1.0, -1.0, 6.0, 6.0, 0.4);  // nobody stands in or under this
+  const Training t = roam::train(survey_of({low}), {.height = 1.8});
+  EXPECT_TRUE(t.complete);
+  EXPECT_FALSE(t.answer.empty());
+}
+
+TEST(Training, OfOneTriangleIsNotLimited) {
+  Mesh mesh;
+  scenes::add_triangle(mesh, {0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 4.0, 0.0});
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  EXPECT_TRUE(t.feasible);
+  EXPECT_FALSE(t.largest);
+  EXPECT_EQ(t.smallest, 0.0);
+  EXPECT_DOUBLE_EQ(t.radius, 0.3);
+}
+
+TEST(Training, OfRoomsWithoutAWayBetweenThemSaysSoAndTrainsInEach) {
+  Mesh both = corridor_mesh({.door = 0.8}), other = corridor_mesh({.door = 0.6});
+  scenes::shift(other, {0.0, 20.0, 0.0});
+  const Training t = roam::train(survey_of({both, other}), {.height = 1.8});
+  EXPECT_TRUE(says(t, "2 parts")) << t.answer;
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.3, 5e-4);
+}
+
+TEST(Training, ThatIsToldToEndAnswersWhatItKnowsAndSaysSo) {
+  const Survey survey = corridor({.door = 0.8, .split = 0.5});
+  for (const char* at : {"looking for places", "planning paths", "looking for cracks", "trials"}) {
+    TrainOptions options;
+    options.progress = [&](const std::string& stage, double) { return stage != at; };
+    const Training t = roam::train(survey, options);
+    EXPECT_FALSE(t.complete) << at;
+    EXPECT_GT(t.radius, 0.0) << at;
+    EXPECT_TRUE(says(t, "Ended early")) << t.answer;
+  }
+}
+
+TEST(Training, RefusesOptionsThatNobodyCanMean) {
+  const Survey survey = corridor({});
+  EXPECT_THROW((void)roam::train(survey, {.mode = Mode::ghost}), roam::Error);
+  EXPECT_THROW((void)roam::train(survey, {.radius_max = 0.0}), roam::Error);
+  EXPECT_THROW((void)roam::train(survey, {.height = 0.3}), roam::Error);
+  EXPECT_THROW((void)roam::train(survey, {.spacing = -1.0}), roam::Error);
+  EXPECT_THROW((void)roam::train(survey, {.paths = -1}), roam::Error);
+}
+
+TEST(Training, ForFlyingLimitsTheSphereByTheDoor) {
+  const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.mode = Mode::fly});
+  ASSERT_TRUE(t.largest) << t.answer;
+  EXPECT_NEAR(*t.largest, 0.4, 1e-3);
+  EXPECT_EQ(t.smallest, 0.0);
+  EXPECT_TRUE(t.feasible);
+}
+
+// ---------------------------------------------------------------------------------------- the paper's claim
+
+/// The lower gallery of the dam with its split and two drainage grottos: too large a body stays out of the grottos, too
+/// small a one falls into the split.
+class PapersClaim : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    std::vector<Mesh> meshes;
+    for (Mesh& mesh : roam::generate::collect(roam::generate::gallery({.triangles = 100'000})))
+      if (mesh.name.starts_with("lower_gallery")) meshes.push_back(std::move(mesh));
+    meshes_ = new std::vector<Mesh>(meshes);
+    survey_ = new Survey(survey_of(std::move(meshes)));
+    training_ = new Training(roam::train(*survey_, {.height = 1.7}));
+  }
+  static void TearDownTestSuite() {
+    delete training_;
+    delete survey_;
+    delete meshes_;
+  }
+
+  static std::vector<Mesh>* meshes_;
+  static Survey* survey_;
+  static Training* training_;
+};
+
+std::vector<Mesh>* PapersClaim::meshes_ = nullptr;
+Survey* PapersClaim::survey_ = nullptr;
+Training* PapersClaim::training_ = nullptr;
+
+TEST_F(PapersClaim, NoOneRadiusEntersTheGrottosAndIsCarriedOverTheSplit) {
+  const Training& t = *training_;
+  ASSERT_TRUE(t.largest) << t.answer;
+  EXPECT_NEAR(*t.largest, 0.5 * roam::generate::gallery_door_width, 0.002);
+  EXPECT_NEAR(t.smallest, 0.5 * roam::generate::gallery_split_width, 0.01);
+  EXPECT_FALSE(t.feasible);
+  EXPECT_DOUBLE_EQ(t.radius, 0.3);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+}
+
+TEST_F(PapersClaim, TooLargeIsKeptOutTooSmallFallsAndTheTrainedBodyDoesNeither) {
+  const Training& t = *training_;
+  bool kept_out = false, fell = false;
+  for (const roam::TrainedPath& path : t.paths) {
+    if (path.largest) kept_out = kept_out || walked(*survey_, 0.5, 0.7, path.way, 1.7) == Outcome::blocked;
+    if (path.smallest > 0.5) fell = fell || walked(*survey_, 0.3, 0.0, path.way, 1.7) == Outcome::fell;
+    EXPECT_EQ(walked(*survey_, t.radius, t.support_radius, path.way, 1.7), Outcome::reached);
+  }
+  EXPECT_TRUE(kept_out);
+  EXPECT_TRUE(fell);
+}
+
+TEST_F(PapersClaim, TheTrainedBodyViolatesNothing) {
+  const Training& t = *training_;
+  Mesh all;
+  for (const Mesh& mesh : *meshes_) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& c : mesh.triangles) all.triangles.push_back({c[0] + first, c[1] + first, c[2] + first});
+  }
+  const scenes::Judge judge(all);
+  const roam::TrainedPath& path = t.paths.front();
+  const roam::WalkerSettings settings = settings_of(BodyKind{.height = 1.7}, t.radius, t.support_radius);
+  std::vector<Vec3> centres;
+  for (const Vec3& foot : path.way) centres.push_back(foot + Vec3(0.0, 0.0, 0.5 * settings.height + 0.05));
+  roam::Walker walker(survey_->world(), settings, Mode::walk, centres.front());
+  roam::Route route(walker, centres, {.dt = 0.1});
+  double least = 0.0;
+  while (!route.done()) least = std::min(least, scenes::margin(judge, route.advance(), settings.radius));
+  EXPECT_EQ(route.result().outcome, Outcome::reached);
+  EXPECT_GE(least, 0.0);
+}
+
+}  // namespace
