@@ -1,0 +1,159 @@
+// roam train: which sizes of a body serve a scene.
+#include "roam/train.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "picture/picture.h"
+#include "progress.h"
+#include "roam/error.h"
+#include "surveyed.h"
+#include "train_report.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+struct TrainVerbOptions {
+  SceneOptions scene;
+  TrainOptions train;
+  std::string mode = "walk", method = "interval";
+  double slope = 45.0;
+  std::filesystem::path picture, profile;
+  bool no_profile = false;
+  bool json = false;
+};
+
+/// Training in the stages that it names, on standard error.
+class StagedProgress {
+ public:
+  bool at(const std::string& stage, double done) {
+    if (!progress_ || stage != stage_) {
+      progress_.emplace(stage, "steps");
+      stage_ = stage;
+    }
+    constexpr std::uint64_t whole = 1000;
+    return progress_->goes_on(static_cast<std::uint64_t>(done * whole), whole);
+  }
+
+ private:
+  std::optional<Progress> progress_;
+  std::string stage_;
+};
+
+void check_output(const TrainVerbOptions& o, const char* option, const std::filesystem::path& output) {
+  std::error_code none;
+  for (const auto& scene : o.scene.scenes) {
+    if (!output.empty() && std::filesystem::equivalent(scene, output, none))
+      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output.string()));
+  }
+}
+
+ExitStatus train(TrainVerbOptions o) {
+  o.train.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
+  o.train.method = o.method == "paper" ? Method::paper : Method::interval;
+  o.train.threads = o.scene.threads;
+  if (o.train.mode == Mode::fly && o.train.height > 0.0)
+    throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
+  if (o.no_profile && !o.profile.empty()) throw UsageError("-o and --no-profile: one of them");
+  check_output(o, "--picture", o.picture);
+  check_output(o, "-o", o.profile);
+  if (!o.picture.empty() && !picture::is_picture(o.picture))
+    throw UsageError("--picture " + o.picture.string() + ": a picture is an .svg or a .png, by its extension");
+  std::optional<picture::PictureFile> drawing;
+  if (!o.picture.empty()) drawing.emplace(o.picture);
+  const Surveyed scene = survey_scene(o.scene, o.slope);
+  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, o.slope, {}, {}};
+  {
+    StagedProgress progress;
+    o.train.progress = [&](const std::string& stage, double done) { return progress.at(stage, done); };
+    report.training = train(scene.survey, o.train);
+  }
+  if (!o.no_profile && report.training.places > 0) {
+    report.profile = o.profile.empty() ? profile_path(o.scene.scenes) : o.profile;
+    save_profile(profile_of(report, scene.identity), report.profile);
+  }
+  if (drawing) drawing->write(picture::opening_sheet(report.scene, views_of(report), scene.survey.meshes()));
+  if (o.json) {
+    print(json_report(report));
+  } else {
+    print(text_report(report));
+  }
+  if (!report.training.complete) return failed;
+  return report.training.feasible ? done : answer_no;
+}
+
+constexpr const char* help =
+    "Finds the sizes of a body that go everywhere in a scene and fall nowhere: paths between its rooms, the narrowest\n"
+    "opening on them (the largest radius), the widest crack they cross (the smallest), proven by bodies that walk "
+    "them.\n"
+    "What it answers is kept beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 "
+    "when\n"
+    "one body serves all paths, 3 when none does: then the report says why, where and what to use. Ctrl-C ends it "
+    "with\n"
+    "what is known by then, marked as such.\n\n"
+    "--method paper is Xie and Niu's: paths are roamed in turn with a radius that goes down where it cannot enter and\n"
+    "up where it falls. Without --height the body is their sphere.\n\n"
+    "Examples:\n"
+    "  roam train gallery.ply --height 1.8\n"
+    "  roam train gallery.ply --method paper --seed 7 --json --no-profile\n"
+    "  roam train mine.dae --height 1.9 --picture decides.svg\n"
+    "  roam train pipes.ply --mode fly --radius-max 0.8\n";
+
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
+    },
+    "");
+
+}  // namespace
+
+void add_train(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("train", "Finds which sizes of a body serve a scene");
+  verb->footer(help);
+  const auto options = std::make_shared<TrainVerbOptions>();
+  TrainVerbOptions& o = *options;
+  add_surveyed_to(*verb, o.scene);
+  verb->add_option("--paths", o.train.paths, "To plan (default: 5, or one for each dead end where there are more)")
+      ->check(CLI::Range(1, 10'000))
+      ->type_name("N");
+  verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")->type_name("S");
+  verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
+      ->check(CLI::Range(0.01, 100.0))
+      ->type_name("R");
+  verb->add_option("--support-max", o.train.support_max,
+                   "The largest foot, in metres: wider cracks are open drops (default: 1)")
+      ->check(CLI::Range(0.1, 100.0))
+      ->type_name("R");
+  verb->add_option("--height", o.train.height, "Whole height, in metres (default: a sphere)")
+      ->check(positive)
+      ->type_name("H");
+  verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
+      ->check(CLI::IsMember({"walk", "fly"}))
+      ->type_name("MODE");
+  verb->add_option("--method", o.method, "interval: from the scene; paper: by trials (default: interval)")
+      ->check(CLI::IsMember({"interval", "paper"}))
+      ->type_name("METHOD");
+  verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("M");
+  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
+      ->check(CLI::Range(0.0, 89.0))
+      ->type_name("DEG");
+  verb->add_option("--spacing", o.train.spacing,
+                   "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
+                   "overlooked")
+      ->check(CLI::Range(0.02, 100.0))
+      ->type_name("M");
+  verb->add_option("--picture", o.picture, "Draw what decides, as .svg or .png")->type_name("FILE");
+  verb->add_option("-o,--output", o.profile, "Write the profile there (default: SCENE.roam.json)")->type_name("FILE");
+  verb->add_flag("--no-profile", o.no_profile, "Write no profile");
+  verb->add_flag("--json", o.json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return train(*options); }; });
+}
+
+}  // namespace roam::app
