@@ -242,6 +242,18 @@ inline void add_drops(std::vector<FloorCase>& cases) {
   enclose(beside);
   cases.push_back(
       {.name = "GapAlongAWallWithAPitBehind", .mesh = std::move(beside), .cracks = {0.2}, .has_drop = true});
+  // The same with a window 0.3 m wide, through which the gap and the pit are one void. A body leans into it: it
+  // touches both jambs and the rim, (0.4 - r)^2 + 0.15^2 = r^2.
+  Mesh window;
+  scenes::add_floor(window, 0.0, 0.0, 4.0, short_side, 0.0);
+  scenes::add_wall(window, 4.4, 0.0, 4.4, 0.2, 0.0, 3.0);
+  scenes::add_wall(window, 4.4, 0.5, 4.4, short_side, 0.0, 3.0);
+  scenes::add_floor(window, 6.9, 0.0, long_side, short_side, 0.0);
+  enclose(window);
+  cases.push_back({.name = "GapAlongAWallWithAWindowToAPit",
+                   .mesh = std::move(window),
+                   .cracks = {0.1825 / 0.8},
+                   .has_drop = true});
   // Two low sofas on the floor of the room, 0.4 m apart.
   Mesh sofas = holed({});
   scenes::add_box(sofas, {2.0, 0.0, 0.0}, {3.8, 1.0, 0.5});
