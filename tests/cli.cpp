@@ -4,14 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli_scenes.h"
+#include "messages.h"
 #include "program.h"
 #include "progress.h"
 
 namespace {
 
 ProgramResult roam(const std::vector<std::string>& arguments) { return run_program(ROAM_PROGRAM, arguments); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(CommandLine, TellsItsVersion) {
   const ProgramResult result = roam({"--version"});

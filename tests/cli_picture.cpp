@@ -9,11 +9,10 @@
 #include <set>
 
 #include "cli_scenes.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A room with something to walk along in a folder of its own.
 struct Picture {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli_scenes.h"
+#include "messages.h"
 #include "program.h"
 #include "roam/error.h"
 #include "sweep_rows.h"
@@ -14,8 +15,6 @@ namespace {
 using roam::app::append_answer;
 using roam::app::is_query_header;
 using roam::app::parse_query;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string message(const std::string& row) {
   try {

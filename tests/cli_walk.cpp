@@ -5,11 +5,10 @@
 #include <sstream>
 
 #include "cli_scenes.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// One walk in a folder of its own.
 struct Walk {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "messages.h"
 #include "program.h"
 #include "roam/generate.h"
 
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 inline ProgramResult run(const std::vector<std::string>& arguments, const std::string& input = {}) {
   return run_program(ROAM_PROGRAM, arguments, {.input = input});
 }
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A gallery, its store, and the straight way through it, cut short: made once.
 class StoreVerbs : public testing::Test {

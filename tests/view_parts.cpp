@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "exit_status.h"
+#include "messages.h"
 #include "program.h"
 #include "roam/error.h"
 #include "view/bookmarks.h"
@@ -19,18 +20,6 @@ namespace {
 
 using namespace roam;
 using namespace roam::app;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-template <class Run>
-std::string error_of(const Run& run) {
-  try {
-    run();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 // ------------------------------------------------------------------------------------------------------ settings
 

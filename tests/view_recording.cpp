@@ -1,6 +1,7 @@
 // What roam view records: the way, and the body that went it.
 #include <gtest/gtest.h>
 
+#include "messages.h"
 #include "program.h"
 #include "recorded_body.h"
 #include "roam/error.h"
@@ -12,18 +13,6 @@ namespace {
 
 using namespace roam;
 using namespace roam::app;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-template <class Run>
-std::string error_of(const Run& run) {
-  try {
-    run();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 TEST(PathRecorder, WritesAPathThatCanBeWalked) {
   const TestFolder folder;

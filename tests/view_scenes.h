@@ -12,9 +12,8 @@
 
 #include "cli_scenes.h"
 #include "import_files.h"
+#include "messages.h"
 #include "program.h"
-
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A picture that was written.
 struct Shot {
