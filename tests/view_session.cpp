@@ -6,43 +6,23 @@
 #include <thread>
 
 #include "roam/error.h"
-#include "view/session.h"
-#include "view_scenes.h"
+#include "view_driven.h"
 
 namespace {
 
 using namespace roam;
 using namespace roam::app;
 
-/// A person's keyboard, and the session that they are in.
-class Driven {
+/// In a scene of a few triangles.
+class Driven : public DrivenSession {
  public:
   explicit Driven(const std::string& text, const std::vector<double>& at = {}, const ViewSettings& settings = {}) {
-    use_no_settings(folder);
-    setenv("ROAM_READER", ROAM_READER_PROGRAM, 1);
-    options.scene.scenes = {folder.write("scene.obj", text)};
-    options.headless = true;
-    options.size = "160x100";
-    options.time_limit = 1e6;
+    write_scene(text);
     options.verify = true;
     options.at = at;
-    session.emplace(options, make_plan(options, settings), settings);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!session->roaming() && std::chrono::steady_clock::now() < end) session->frame();
-    if (!session->roaming()) throw std::runtime_error("nothing was loaded");
+    begin(settings);
   }
-  ~Driven() { unsetenv("ROAM_READER"); }
 
-  void press(int key) { events().keyPress(key); }
-  void release(int key) { events().keyRelease(key); }
-  void tap(int key) {
-    press(key);
-    release(key);
-    run(1.0 / 60.0);
-  }
-  void run(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 60.0 + 0.5); ++i) ASSERT_TRUE(session->frame());
-  }
   /// Where the window's middle is (0, 0), from -1 to 1.
   void double_click(float x, float y) {
     osgGA::EventQueue& queue = events();
@@ -55,22 +35,10 @@ class Driven {
     queue.mouseButtonRelease(across, up, 1);
     run(1.0 / 60.0);
   }
-  [[nodiscard]] const Vec3& place() { return session->roamer().walker()->position(); }
-  [[nodiscard]] std::string hud() {
-    run(0.2);
-    return session->stage().hud().text();
-  }
   [[nodiscard]] Verification verified() {
     const ViewReport report = session->finish();
     return verify(report.meshes, report.pieces);
   }
-
-  TestFolder folder;
-  ViewOptions options;
-  std::optional<Session> session;
-
- private:
-  osgGA::EventQueue& events() { return *session->stage().viewer().getEventQueue(); }
 };
 
 TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
