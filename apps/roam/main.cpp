@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   Run chosen;
   add_view(program, chosen);
   add_walk(program, chosen);
+  add_probe(program, chosen);
   add_sweep(program, chosen);
   add_info(program, chosen);
   add_make(program, chosen);

@@ -114,6 +114,7 @@ LoadedScene load(const SceneOptions& options, Source source) {
     for (const Vec3& vertex : mesh.vertices) loaded.bounds.include(vertex);
   }
   loaded.floors = floor_samples(scene.meshes);
+  if (options.identify) loaded.identity = identity_of(scene.meshes);
   if (source == Source::keep) loaded.meshes = std::move(scene.meshes);
   loaded.report = std::move(scene.report);
   return loaded;

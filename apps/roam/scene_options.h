@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roam/import.h"
+#include "roam/profile.h"
 #include "roam/world.h"
 
 namespace roam::app {
@@ -19,6 +20,7 @@ struct SceneOptions {
   std::vector<std::string> ignore;
   bool lossless = false;
   int threads = 0;
+  bool identify = false;  ///< no option of the command line: whether LoadedScene::identity is wanted
 
   /// Adds SCENE..., --up, --unit, --ignore, --lossless and --threads.
   void add_to(CLI::App& verb);
@@ -39,6 +41,7 @@ struct LoadedScene {
   World world;
   std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
   ImportReport report;
+  SceneIdentity identity;    ///< where it was asked for
   Box bounds;                ///< of the triangles as read
   std::vector<Vec3> floors;  ///< see floor_samples
   double read_seconds = 0.0;

@@ -13,78 +13,17 @@
 #include "open_scene.h"
 #include "picture/picture.h"
 #include "progress.h"
-#include "recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
 #include "verbs.h"
+#include "walk_options.h"
 #include "walk_record.h"
 #include "walk_report.h"
 #include "wander.h"
 
 namespace roam::app {
 namespace {
-
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
-    },
-    "");
-
-struct WalkOptions {
-  SceneOptions scene;
-  std::filesystem::path path;
-  std::optional<double> wander;  ///< seconds
-  std::vector<double> from;      ///< where wandering starts: x, y, z, or nothing
-  std::optional<std::string> mode;
-  WalkerSettings settings;
-  std::optional<double> radius, height, eye, step, slope;
-  std::optional<RecordedBody> recorded;  ///< that the path was recorded with
-  RouteOptions route;
-  std::filesystem::path trace;
-  std::filesystem::path picture;
-  bool verify = false;
-  StoreOptions store;
-  SceneOptions against;  ///< the scene that a store was made of
-  bool json = false;
-
-  /// Whether every move is checked against triangles.
-  [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }
-  [[nodiscard]] Mode walker_mode() const {
-    if (!mode) return recorded ? recorded->mode : Mode::walk;
-    return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;
-  }
-};
-
-/// The options as they are meant: the body that recorded the path, where its radius is left out; the height that
-/// follows from the radius, the eye that follows from the height. Throws UsageError for what cannot be.
-WalkerSettings walker_settings(const WalkOptions& options) {
-  constexpr double sphere = 2.0;  // height of a sphere in radii
-  WalkerSettings settings = options.settings;
-  if (options.recorded && !options.radius) {
-    const RecordedBody& body = *options.recorded;
-    settings.radius = body.radius;
-    settings.height = options.height.value_or(body.height);
-    settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
-    settings.step = options.step.value_or(std::min(body.step, 0.5 * settings.height));
-    settings.slope_degrees = body.slope_degrees;
-  } else {
-    settings.radius = options.radius.value_or(settings.radius);
-    settings.height = options.height.value_or(sphere * settings.radius);
-    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
-    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
-  }
-  settings.slope_degrees = options.slope.value_or(settings.slope_degrees);
-  settings.speed = options.route.speed;
-  try {
-    check(settings);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
-  return settings;
-}
 
 /// Takes down every step while a walk goes on.
 class Recorder {
@@ -178,34 +117,6 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
   return route.result();
 }
 
-/// Refuses to write an output over what is read.
-void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {
-  const auto is_output = [&](const std::filesystem::path& file) {
-    std::error_code none;
-    return !file.empty() && std::filesystem::equivalent(file, output, none);
-  };
-  if (output.empty()) return;
-  const std::string what = std::string(option) + " " + output.string();
-  for (const auto& scene : options.scene.scenes) {
-    if (is_output(scene)) throw UsageError(what + " would overwrite the scene");
-  }
-  if (is_output(options.path)) throw UsageError(what + " would overwrite the path");
-}
-
-void check_outputs(const WalkOptions& options) {
-  check_output(options, "--trace", options.trace);
-  check_output(options, "--picture", options.picture);
-  if (options.picture.empty()) return;
-  if (!picture::is_picture(options.picture)) {
-    throw UsageError("--picture " + options.picture.string() + ": a picture is an .svg or a .png, by its extension");
-  }
-  std::error_code none;
-  if (std::filesystem::weakly_canonical(options.picture, none) ==
-      std::filesystem::weakly_canonical(options.trace, none)) {
-    throw UsageError("--picture " + options.picture.string() + " would overwrite the trace");
-  }
-}
-
 /// What a picture is called.
 std::string title(const WalkOptions& options) {
   std::string text;
@@ -241,6 +152,7 @@ ExitStatus walk(WalkOptions options) {
     check_against(options.against);
   }
   if (!options.path.empty()) options.recorded = recorded_body(options.path);
+  take_profile(options);
   options.settings = walker_settings(options);
   check_outputs(options);
   if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
@@ -265,6 +177,11 @@ ExitStatus walk(WalkOptions options) {
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, options.store, needs_triangles ? Source::keep : Source::release);
+  if (options.profile) {
+    demand_belongs(*options.profile, scene.store() ? identity_of(scene.store()->info()) : scene.loaded().identity,
+                   options.scene.names());
+    fmt::print(stderr, "roam: {}\n", describe(*options.profile));
+  }
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, scene, seconds / options.route.dt);
@@ -273,6 +190,7 @@ ExitStatus walk(WalkOptions options) {
                                            : path.front();
   scene.wait_at(Body::capsule(options.settings.radius, options.settings.height), start);
   Walker walker(scene.space(), options.settings, mode, start);
+  if (options.profile) walker.set_regions(options.profile->profile.regions);
   WalkReport report;
   if (options.wander) {
     Wander wander(walker, options.route, *options.wander);
@@ -295,6 +213,7 @@ ExitStatus walk(WalkOptions options) {
   report.triangles = scene.triangles();
   report.mode = mode;
   report.settings = options.settings;
+  if (options.profile) report.profile = options.profile->file.string();
   report.waypoints = path.size();
   report.eye = walker.eye();
   if (report.result.blocked_at) {
@@ -341,6 +260,9 @@ constexpr const char* help =
     "waypoint\n"
     "counts as reached within the body's radius, and, walking, within the step height above and below. A path that\n"
     "`roam view` recorded says its body and mode: they are taken where --radius or --mode do not say another.\n\n"
+    "Without --radius the body is the one that `roam train` found for the scene, SCENE.roam.json beside it, smaller\n"
+    "where only a smaller one fits; --height, --step and --slope change it in that. A profile of another scene is\n"
+    "refused; --no-profile does without.\n\n"
     "Examples:\n"
     "  roam walk mine.dae --path tour.path\n"
     "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
@@ -354,44 +276,7 @@ void add_walk(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("walk", "Sends a body through a scene and tells how it went");
   verb->footer(help);
   const auto options = std::make_shared<WalkOptions>();
-  WalkOptions& o = *options;
-  o.scene.add_to(*verb);
-  auto* ways = verb->add_option_group("Way", "One of");
-  ways->add_option("--path", o.path, "Waypoints to go along")->type_name("FILE");
-  auto* wander =
-      ways->add_option("--wander", o.wander, "Without a path: go where the body has been least, for S seconds")
-          ->check(positive)
-          ->type_name("S");
-  ways->require_option(1);
-  verb->add_option("--from", o.from, "Where to start wandering (default: where there is most room and walls in sight)")
-      ->expected(3)
-      ->delimiter(',')
-      ->type_name("X,Y,Z")
-      ->needs(wander);
-  verb->add_option("--mode", o.mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
-      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
-      ->type_name("MODE");
-  verb->add_option("--radius", o.radius, "Of the body, in metres (default: 0.3)")->type_name("R");
-  verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")->type_name("H");
-  verb->add_option("--eye", o.eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H)")
-      ->type_name("E");
-  verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
-      ->type_name("M");
-  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")->type_name("DEG");
-  verb->add_option("--speed", o.route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
-  verb->add_option("--dt", o.route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
-      ->check(positive)
-      ->type_name("S");
-  verb->add_option("--trace", o.trace, "Write every step to a CSV file")->type_name("FILE");
-  verb->add_option("--picture", o.picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
-  verb->add_flag("--verify", o.verify,
-                 "Check every move against all triangles, in higher precision, without the index");
-  verb->add_option("--against", o.against.scenes,
-                   "For a store: check every move against the triangles of the scene that it was made of, as they are "
-                   "read")
-      ->type_name("SCENE");
-  o.store.add_to(*verb);
-  verb->add_flag("--json", o.json, "Print one JSON object");
+  options->add_to(*verb);
   verb->callback([options, &run] { run = [options] { return walk(*options); }; });
 }
 

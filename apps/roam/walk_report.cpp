@@ -125,6 +125,7 @@ Json json_report(const WalkReport& report) {
                {"end", {{"position", to_json(result.end)}, {"eye", to_json(report.eye)}}},
                {"verified", nullptr},
                {"events", events}};
+  json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   if (report.paging) json["paging"] = json_report(*report.paging);
   if (report.verified) {
     const Verification& v = *report.verified;
@@ -153,6 +154,7 @@ std::string text_report(const WalkReport& report) {
   line("body",
        fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));
   if (report.settings.support_radius > 0.0) line("", fmt::format("support radius {} m", report.settings.support_radius));
+  if (!report.profile.empty()) line("profile", report.profile);
   line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
   if (report.mode != Mode::ghost) {
     line("least clearance", fmt::format("{:.6f} m from its axis, {:.6f} m from its surface (certified)",

@@ -19,6 +19,7 @@ struct WalkReport {
   std::uint64_t triangles = 0;
   Mode mode = Mode::walk;
   WalkerSettings settings;
+  std::string profile;  ///< the file that the body was taken from; empty: none
   RouteResult result;
   std::size_t waypoints = 0;  ///< of the path; 0 when wandering
   Vec3 eye{0.0};              ///< the camera at the end

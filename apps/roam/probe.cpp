@@ -1,0 +1,215 @@
+// roam probe: whether a body of a given size gets from one place to another.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "interrupt.h"
+#include "probe_answer.h"
+#include "progress.h"
+#include "recorded_body.h"
+#include "roam/error.h"
+#include "surveyed.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+struct ProbeOptions {
+  SceneOptions scene;
+  ProbeQuestion question;
+  std::vector<double> from, to;
+  std::string mode = "walk";
+  std::optional<double> radius, height;
+  std::string matrix;  ///< sizes, or a file of them
+  std::filesystem::path picture, path;
+  bool json = false;
+};
+
+/// Sizes in lines, with comments behind #.
+std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<ProbedSize> sizes;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number));
+    sizes.insert(sizes.end(), more.begin(), more.end());
+  }
+  if (in.bad()) throw Error(file.string() + ": cannot be read; is it a file, and may you read it?");
+  return sizes;
+}
+
+std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
+  std::vector<ProbedSize> sizes;
+  if (o.matrix.empty()) {
+    if (!o.radius) throw UsageError("probe: how large is the body? Give it a --radius, or sizes by --matrix");
+    sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
+  } else {
+    if (o.radius || o.height) throw UsageError("--matrix says all sizes: leave out --radius and --height");
+    if (!o.picture.empty() || !o.path.empty())
+      throw UsageError("--matrix has no one way: leave out --picture and --path");
+    std::error_code none;
+    const bool is_file = std::filesystem::is_regular_file(o.matrix, none);
+    sizes = is_file ? read_sizes(o.matrix) : parse_sizes(o.matrix, "--matrix");
+    if (sizes.empty()) throw UsageError(fmt::format("--matrix {}: there are no sizes in it", o.matrix));
+  }
+  for (const ProbedSize& size : sizes) {
+    try {
+      static_cast<void>(settings_of(o.question, size));
+    } catch (const Error& error) {
+      throw UsageError(error.what());
+    }
+    if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius) {
+      throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
+    }
+  }
+  return sizes;
+}
+
+void check_output(const ProbeOptions& o, const char* option, const std::filesystem::path& output) {
+  std::error_code none;
+  for (const auto& scene : o.scene.scenes) {
+    if (!output.empty() && std::filesystem::equivalent(scene, output, none)) {
+      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output.string()));
+    }
+  }
+}
+
+void write_path(const ProbeOptions& o, const ProbeAnswer& answer) {
+  std::ofstream out(o.path);
+  out << "# " << explain(o.question, answer) << "\n";
+  out << body_line(settings_of(o.question, answer.size), o.question.mode) << "\n";
+  for (const Vec3& p : centres(o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  out.close();
+  if (!out) throw Error(o.path.string() + ": cannot be written; is its folder yours, and the disk not full?");
+}
+
+Json json_report(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
+  const bool one = o.matrix.empty();
+  Json json = {{"scene", o.scene.names()},          {"triangles", scene.survey.triangles()},
+               {"mode", name(o.question.mode)},     {"from", to_json(o.question.from)},
+               {"to", to_json(o.question.to)},      {"step", o.question.step},
+               {"slope", o.question.slope_degrees}, {"support_radius", o.question.support_radius},
+               {"spacing", o.question.spacing}};
+  if (one) {
+    json.update(json_report(answers.front(), true));
+    json["answer"] = explain(o.question, answers.front());
+    return json;
+  }
+  Json sizes = Json::array();
+  for (const ProbeAnswer& answer : answers) sizes.push_back(json_report(answer, false));
+  json["sizes"] = std::move(sizes);
+  return json;
+}
+
+ExitStatus probe(ProbeOptions o) {
+  o.question.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
+  o.question.from = {o.from[0], o.from[1], o.from[2]};
+  o.question.to = {o.to[0], o.to[1], o.to[2]};
+  const std::vector<ProbedSize> sizes = sizes_of(o);
+  check_output(o, "--path", o.path);
+  check_output(o, "--picture", o.picture);
+  if (!o.picture.empty() && !picture::is_picture(o.picture)) {
+    throw UsageError("--picture " + o.picture.string() + ": a picture is an .svg or a .png, by its extension");
+  }
+  std::optional<tbb::global_control> limit;
+  if (o.scene.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
+  }
+  std::optional<picture::PictureFile> drawing;
+  if (!o.picture.empty()) drawing.emplace(o.picture);
+  const Surveyed scene = survey_scene(o.scene, o.question.slope_degrees);
+  std::vector<ProbeAnswer> answers;
+  {
+    Progress progress("looking for a way", "places");
+    answers = probe(scene.survey, o.question, sizes, [&](std::uint64_t places) { return progress.goes_on(places, 0); });
+  }
+  ProbeAnswer& first = answers.front();
+  if (o.matrix.empty() && first.passable) {
+    first.walk = walk_way(scene.survey, o.question, first);
+    if (!o.path.empty()) write_path(o, first);
+  }
+  if (drawing) {
+    std::vector<picture::OpeningView> views;
+    if (const auto view = view_of(scene.survey, o.question, first)) views.push_back(*view);
+    const std::string title = o.scene.names() + (views.empty() ? ": " + explain(o.question, first) : "");
+    drawing->write(picture::opening_sheet(title, views, scene.survey.meshes()));
+  }
+  if (o.json) {
+    print(json_report(o, scene, answers));
+  } else {
+    print(o.matrix.empty() ? explain(o.question, first) + "\n" : table(answers));
+  }
+  const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
+  return all ? done : answer_no;
+}
+
+constexpr const char* help =
+    "Says whether a body of a given size gets from one place to another: yes with the way and its narrowest place, or\n"
+    "no with the opening that stops it and what is missing. The widest way there is decides, not where some walker\n"
+    "stopped; the way is certified. Exit status 0 for yes, 3 for no; of --matrix 0 when all sizes get there.\n\n"
+    "Places are of the feet or the eyes of a person, taken down to the floor; flying, of the centre. What is lower "
+    "than\n"
+    "--step above the floor is walked over: a sphere climbs at most its radius. --path writes the way as the body's\n"
+    "centre goes, with the body, for `roam walk --path FILE --verify`. --matrix takes sizes, R or RxH, separated by\n"
+    "commas, or a file with some in each line; one survey serves all.\n\n"
+    "Examples:\n"
+    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9\n"
+    "  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --path way.path --picture door.png\n"
+    "  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json\n"
+    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2\n";
+
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
+    },
+    "");
+
+}  // namespace
+
+void add_probe(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("probe", "Says whether a body of a given size gets from A to B");
+  verb->footer(help);
+  const auto options = std::make_shared<ProbeOptions>();
+  ProbeOptions& o = *options;
+  add_surveyed_to(*verb, o.scene);
+  const auto place = [&](const char* name, std::vector<double>& value, const char* text) {
+    verb->add_option(name, value, text)->expected(3)->delimiter(',')->type_name("X,Y,Z")->required();
+  };
+  place("--from", o.from, "Where it starts");
+  place("--to", o.to, "Where it is to get");
+  verb->add_option("--radius", o.radius, "Of the body, in metres")->check(positive)->type_name("R");
+  verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")
+      ->check(positive)
+      ->type_name("H");
+  verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
+  verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
+      ->check(CLI::IsMember({"walk", "fly"}))
+      ->type_name("MODE");
+  verb->add_option("--step", o.question.step, "What walking steps up and down, in metres (default: 0.3)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("M");
+  verb->add_option("--slope", o.question.slope_degrees, "What walking climbs, in degrees (default: 45)")
+      ->check(CLI::Range(0.0, 89.0))
+      ->type_name("DEG");
+  verb->add_option("--support-radius", o.question.support_radius,
+                   "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
+      ->check(positive)
+      ->type_name("RS");
+  verb->add_option("--spacing", o.question.spacing,
+                   "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
+                   "overlooked")
+      ->check(positive)
+      ->type_name("M");
+  verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");
+  verb->add_flag("--json", o.json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return probe(*options); }; });
+}
+
+}  // namespace roam::app

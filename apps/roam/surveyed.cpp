@@ -1,0 +1,105 @@
+#include "surveyed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+
+#include "exit_status.h"
+#include "interrupt.h"
+#include "loose_triangles.h"
+#include "progress.h"
+#include "roam/store.h"
+
+namespace roam::app {
+namespace {
+
+/// Bytes that a triangle of a store takes here at most: loose corners, the same once more for floor, both indexes and
+/// what building them needs.
+constexpr std::uint64_t bytes_a_triangle = 400;
+
+/// Of the machine, now; nothing where it does not say.
+std::optional<std::uint64_t> free_memory() {
+  std::ifstream in("/proc/meminfo");
+  std::string name, unit;
+  std::uint64_t kilobytes = 0;
+  while (in >> name >> kilobytes) {
+    std::getline(in, unit);
+    if (name == "MemAvailable:") return kilobytes << 10;
+  }
+  return std::nullopt;
+}
+
+std::vector<Mesh> read_store(const Store& store) {
+  const StoreInfo& info = store.info();
+  const std::uint64_t needed = info.triangles * bytes_a_triangle;
+  const auto free = free_memory();
+  if (free && needed > *free) {
+    throw Error(
+        fmt::format("{}: its {} triangles take about {}B when they are surveyed, and {}B are free; survey the "
+                    "part of the scene that matters, or take a machine with more memory",
+                    store.name(), info.triangles, short_count(static_cast<double>(needed)),
+                    short_count(static_cast<double>(*free))));
+  }
+  Mesh mesh;
+  mesh.vertices.reserve(3 * info.triangles);
+  mesh.triangles.reserve(info.triangles);
+  Progress progress("reading " + store.name(), "triangles");
+  store.for_each_triangle(info.bounds, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+    append(mesh, triangles);
+    progress.at(mesh.triangles.size(), info.triangles);
+  });
+  std::vector<Mesh> meshes;
+  meshes.push_back(std::move(mesh));
+  return meshes;
+}
+
+std::vector<Mesh> read_scene(const SceneOptions& options) {
+  options.check_there();
+  ImportOptions how = options.import_options();
+  Progress progress("reading " + options.names(), "B");
+  how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
+  Scene scene = import_scene(options.scenes, how);
+  for (const std::string& note : scene.report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  return std::move(scene.meshes);
+}
+
+}  // namespace
+
+void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
+  verb.add_option("SCENE", options.scenes, "Files, folders of photogrammetry tiles, or a store; several make one scene")
+      ->required()
+      ->type_name("");
+  options.add_reading_to(verb);
+}
+
+Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
+  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
+  std::vector<Mesh> meshes;
+  SceneIdentity identity;
+  if (std::any_of(options.scenes.begin(), options.scenes.end(), is_store)) {
+    if (options.scenes.size() > 1 || options.says_how_to_read()) {
+      throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
+    }
+    const auto store = Store::open(options.scenes.front());
+    identity = identity_of(store->info());
+    meshes = read_store(*store);
+  } else {
+    meshes = read_scene(options);
+    identity = identity_of(meshes);
+  }
+  stop_if_interrupted();
+  SurveyOptions how;
+  how.slope_degrees = slope_degrees;
+  how.threads = options.threads;
+  how.lossless = true;
+  Progress progress("surveying", "triangles");
+  how.progress = [&](double share) {
+    const auto done = static_cast<double>(identity.triangles) * share;
+    return progress.goes_on(static_cast<std::uint64_t>(done), identity.triangles);
+  };
+  return {Survey::build(std::move(meshes), how), std::move(identity)};
+}
+
+}  // namespace roam::app
