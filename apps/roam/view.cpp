@@ -35,6 +35,17 @@ std::string keys_of(const ViewSettings& settings) {
   return key_table(roamer->controls());
 }
 
+/// The scene's profile, where the radius is left out.
+std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
+  if (options.no_profile || options.radius) return std::nullopt;
+  const std::string mode = options.mode.value_or(name(recorded ? recorded->mode : Mode::walk));
+  return find_scene_profile(options.scene,
+                            mode == "ghost" ? Mode::ghost
+                            : mode == "fly" ? Mode::fly
+                                            : Mode::walk,
+                            recorded);
+}
+
 /// Every move against every triangle: of the scene as read, of a store as stored.
 Verification verified(const ViewReport& report, const ViewOptions& options,
                       const std::function<bool(std::uint64_t)>& progress) {
@@ -54,7 +65,7 @@ ExitStatus view(const ViewOptions& options) {
   if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
   std::optional<RecordedBody> recorded;
   if (!options.path.empty()) recorded = recorded_body(options.path);
-  const ViewPlan plan = make_plan(options, settings, recorded);
+  const ViewPlan plan = make_plan(options, settings, recorded, profile_for(options, recorded));
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));

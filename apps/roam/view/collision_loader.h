@@ -10,6 +10,7 @@
 
 #include "roam/import.h"
 #include "roam/pager.h"
+#include "roam/profile.h"
 #include "roam/world.h"
 #include "view/loading.h"
 #include "view/start.h"
@@ -23,6 +24,7 @@ struct Collision {
   std::shared_ptr<Pager> pager;        ///< of a store; else null
   std::uint64_t triangles = 0;
   std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
+  SceneIdentity identity;    ///< of the scene or the store, where it was asked for
   ImportReport report;
   std::optional<StartPlace> start;  ///< where one was asked for
 };
@@ -30,6 +32,7 @@ struct Collision {
 /// What is asked for beside the world.
 struct CollisionWish {
   bool keep_meshes = false;
+  bool identify = false;
   std::optional<Vec3> place;  ///< where the body will be put; none: a start is to be found
   WalkerSettings walker;
   Mode mode = Mode::walk;

@@ -63,7 +63,8 @@ std::vector<double> parse_place(const std::string& text) {
 }
 
 WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& settings,
-                               const std::optional<RecordedBody>& recorded) {
+                               const std::optional<RecordedBody>& recorded,
+                               const std::optional<SceneProfile>& profile) {
   WalkerSettings walker;
   const bool replay = !options.path.empty();
   ViewSettings known = replay ? ViewSettings{} : settings;
@@ -75,7 +76,17 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
     known.slope = recorded->slope_degrees;
     if (!options.radius) walker.support_radius = recorded->support_radius;
   }
-  const bool described = options.radius.has_value() || (replay && !recorded);
+  if (profile && !options.radius) {
+    const Profile& trained = profile->profile;
+    known.radius = trained.radius;
+    known.height = trained.height;
+    if (known.eye) known.eye = std::min(*known.eye, trained.height);
+    known.step = trained.step;
+    known.slope = trained.slope_degrees;
+    walker.support_radius = trained.support_radius;
+  }
+  const bool known_body = recorded || profile;
+  const bool described = options.radius.has_value() || (replay && !known_body);
   // What belongs together is taken from one place: a height from the settings is no height for a radius from the
   // command line.
   const auto body = [&](const std::optional<double>& option, const std::optional<double>& setting) {
@@ -89,8 +100,8 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   const double eye = std::max(std::min(walker.eye, walker.height - walker.radius), 0.0);
   walker.eye = body(options.eye, known.eye).value_or(eye);
   walker.step = body(options.step, known.step).value_or(std::min(walker.step, 0.5 * walker.height));
-  if (recorded && options.height) {
-    // Another height for the body that was recorded: the rest of it is made to fit.
+  if (known_body && options.height) {
+    // Another height for the body that was recorded or trained: the rest of it is made to fit.
     walker.eye = options.eye.value_or(std::min(walker.eye, walker.height));
     walker.step = options.step.value_or(std::min(walker.step, 0.5 * walker.height));
   }
@@ -175,7 +186,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--mode", mode, "walk, fly or ghost to begin with (default: walk)")
       ->check(CLI::IsMember({"fly", "walk", "ghost"}))
       ->type_name("MODE");
-  verb.add_option("--radius", radius, "Of the body, in metres (default: 0.3)")
+  verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, or 0.3)")
       ->check(within(1e-6, 0.5 * metres))
       ->type_name("R");
   verb.add_option("--height", height, "Whole height, in metres (default: a person's 1.8; with --radius or --path: 2 R)")
@@ -190,6 +201,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")
       ->check(within(0.0, 89.0))
       ->type_name("DEG");
+  verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
   verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(within(1e-3, 1e4))->type_name("V");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },
@@ -233,14 +245,15 @@ void ViewOptions::add_to(CLI::App& verb) {
 }
 
 ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
-                   const std::optional<RecordedBody>& recorded) {
+                   const std::optional<RecordedBody>& recorded, const std::optional<SceneProfile>& profile) {
   for (const auto& scene : options.scene.scenes) {
     if (scene.empty()) throw UsageError("view: a scene has no name: \"\"; give it a file or a folder");
   }
   check_kinds(options);
   check_files(options, settings);
   ViewPlan plan;
-  plan.walker = walker_settings(options, settings, recorded);
+  plan.walker = walker_settings(options, settings, recorded, profile);
+  if (!options.radius) plan.profile = profile;
   try {
     check(plan.walker);
   } catch (const Error& error) {

@@ -12,6 +12,7 @@
 #include "recorded_body.h"
 #include "roam/walker.h"
 #include "scene_options.h"
+#include "scene_profile.h"
 #include "view/pose.h"
 #include "view/settings.h"
 
@@ -37,6 +38,7 @@ struct ViewOptions {
   bool verify = false;
   bool json = false;
   bool keys = false;
+  bool no_profile = false;
 
   /// Adds all of them to a verb.
   void add_to(CLI::App& verb);
@@ -45,6 +47,7 @@ struct ViewOptions {
 /// What a session is to do: nothing that was left out is left open.
 struct ViewPlan {
   WalkerSettings walker;
+  std::optional<SceneProfile> profile;  ///< that the body is taken from
   Mode mode = Mode::walk;
   double fov = 65.0;  ///< degrees
   double sensitivity = 1.0;
@@ -57,9 +60,11 @@ struct ViewPlan {
 
 /// A body that nobody described is a grown person (WalkerSettings); of one that was, as of `roam walk`, the height
 /// follows from the radius. A path is replayed by the body that `recorded` it, else by that of `roam walk`, described
-/// or not. Throws UsageError for what cannot be meant, naming the settings file where a value comes from there, and for
-/// outputs that cannot be written or would overwrite each other or what is read.
+/// or not. A `profile` says the body where no radius is on the command line, whatever the settings file says. Throws
+/// UsageError for what cannot be meant, naming the settings file where a value comes from there, and for outputs that
+/// cannot be written or would overwrite each other or what is read.
 [[nodiscard]] ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
-                                 const std::optional<RecordedBody>& recorded = std::nullopt);
+                                 const std::optional<RecordedBody>& recorded = std::nullopt,
+                                 const std::optional<SceneProfile>& profile = std::nullopt);
 
 }  // namespace roam::app

@@ -32,6 +32,7 @@ constexpr auto shortest_frame = std::chrono::microseconds(6900);
 CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path) {
   CollisionWish wish;
   wish.keep_meshes = options.verify;
+  wish.identify = plan.profile.has_value();
   if (plan.at) {
     wish.place = plan.at->position;
   } else if (!path.empty()) {

@@ -71,6 +71,7 @@ class Session {
   void set_up_cameras();
   void receive_collision();
   void place();
+  void take_regions();
   void place_ghost(const std::string& why);
   void enter();
   void tell_where_put();

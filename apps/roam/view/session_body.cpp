@@ -35,6 +35,10 @@ void Session::receive_collision() {
     place_ghost(status_.collision.error);
   } else {
     loaded_ = collision_->take();
+    if (plan_.profile) {
+      demand_belongs(*plan_.profile, loaded_->identity, options_.scene.names());
+      fmt::print(stderr, "roam: {}\n", describe(*plan_.profile));
+    }
     place();
   }
 }
@@ -59,8 +63,14 @@ void Session::place() {
     roamer_->setSpace(std::shared_ptr<const Space>(loaded_->world));
     status_.world_bytes = loaded_->world->stats().bytes;
   }
+  take_regions();
   enter();
   if (!path_.empty()) begin_replay();
+}
+
+/// To be called whenever there is another walker.
+void Session::take_regions() {
+  if (plan_.profile && roamer_->walker() != nullptr) roamer_->walker()->set_regions(plan_.profile->profile.regions);
 }
 
 void Session::place_ghost(const std::string& why) {

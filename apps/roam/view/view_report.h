@@ -25,6 +25,7 @@ struct ViewReport {
   std::string scene;
   std::uint64_t triangles = 0;  ///< of the collision; 0 when it did not come
   WalkerSettings settings;
+  std::string profile;                ///< the file that the body was taken from; empty: none
   Mode mode = Mode::walk;             ///< at the end
   std::optional<RouteResult> result;  ///< of a path
   bool path_ended = false;            ///< the result has an outcome: nobody ended the session before
