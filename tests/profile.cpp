@@ -190,6 +190,7 @@ TEST(Profile, GivesAPersonTheBodyThatWasTrained) {
   EXPECT_EQ(body.height, 1.8);
   EXPECT_EQ(body.step, 0.25);
   EXPECT_EQ(body.slope_degrees, 50.0);
+  EXPECT_EQ(body.support_radius, 0.45);
   EXPECT_EQ(body.eye, 1.6);
   EXPECT_EQ(body.speed, 3.0);
   roam::check(body);

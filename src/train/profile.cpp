@@ -306,6 +306,7 @@ WalkerSettings apply(const Profile& profile, const WalkerSettings& settings) {
   applied.eye = std::min(settings.eye, profile.height);
   applied.step = profile.step;
   applied.slope_degrees = profile.slope_degrees;
+  applied.support_radius = profile.support_radius;
   return applied;
 }
 
