@@ -22,6 +22,8 @@ constexpr double reached_column = 0.3;
 constexpr std::size_t first_batch = 16, last_batch = 4096;
 /// How many times as many places there may be of all components together as of one.
 constexpr std::uint64_t all_factor = 2;
+/// Of what is closed so many places at first: one that is huge is not to leave nothing for the others.
+constexpr std::uint64_t first_look = 30'000;
 /// Of open ground so many places are looked at in any case.
 constexpr std::uint64_t least_open = 200'000;
 /// Fewer places that are closed are only what lies under something in an open scene.
@@ -65,9 +67,11 @@ class Search {
       done_ = end;
       batch = std::min(2 * batch, last_batch);
     }
-    // What came out into the open is grown on: it takes over all other trees that it meets.
+    // What is large is grown on, and then what came out into the open: they take over all other trees that they meet.
+    for (const NodeId root : large_)
+      if (!ended_ && tree_.root(root) == root) grow(root, Sight::closed, most_places_);
     for (const NodeId root : came_out_)
-      if (!ended_ && !open_was_cut_ && tree_.root(root) == root) grow(root, Sight::open);
+      if (!ended_ && !open_was_cut_ && tree_.root(root) == root) grow(root, Sight::open, most_open());
     for (const Start& start : open_)
       if (!ended_) grow_from(start);
     if (backs_may_be_the_scene())
@@ -124,14 +128,17 @@ class Search {
     if (start.open && open_was_cut_) return;
     const auto seed = tree_.seed(start.place);
     if (!seed || tree_.root(*seed) != no_node) return;
-    grow(*seed, start.open ? Sight::open : start.sight);
+    const Sight sight = start.open ? Sight::open : start.sight;
+    grow(*seed, sight, sight == Sight::open ? most_open() : sight == Sight::closed ? first_look : most_places_);
     reached_.add(start.place, 0);
   }
 
-  void grow(NodeId root, Sight sight) {
+  /// By at most `most_new` places.
+  void grow(NodeId root, Sight sight, std::uint64_t most_new) {
     const std::size_t before = tree_.size();
     const std::uint64_t most_of_all = most_places_ * all_factor;
-    const std::uint64_t most = std::min(before + (sight == Sight::open ? most_open() : most_places_), most_of_all);
+    const std::uint64_t most = std::min(before + std::min(most_new, most_places_), most_of_all);
+    const bool is_look = sight == Sight::closed && most_new == first_look;
     std::uint64_t mark = before + first_asked, turns = 0;
     int open_running = 0;
     bool out = false;
@@ -141,13 +148,18 @@ class Search {
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
       // It makes no new places where it has met a tree that came out before.
-      out = open_running == 2 || (sight == Sight::closed && turns++ > most_turns + (places - before) / places_a_turn);
+      out = open_running == 2 || (is_look && turns++ > most_turns + (places - before) / places_a_turn);
       return !out && places < most && asked_to_go_on();
     });
     if (tree_.size() >= most_of_all) ended_ = true;
     if (out) came_out_.push_back(root);
     if (!whole && sight == Sight::open) open_was_cut_ = true;
-    if (!whole && !out) cut_ = root;
+    if (!whole && !out) {
+      if (is_look && !ended_)
+        large_.push_back(root);
+      else
+        cut_ = root;
+    }
     if (whole) whole_.push_back(root);
     for (std::size_t id = before; id < tree_.size(); ++id) {
       const auto node = static_cast<NodeId>(id);
@@ -220,6 +232,7 @@ class Search {
   std::vector<NodeId> whole_;        ///< roots of trees that nothing is beside
   NodeId cut_ = no_node;             ///< root of the last tree that was not grown whole
   std::vector<Start> open_, backs_;  ///< samples that wait
+  std::vector<NodeId> large_;        ///< roots of what is closed and was looked at, not grown whole
   std::vector<NodeId> came_out_;     ///< roots of what began closed and goes on in the open
   std::uint64_t closed_places_ = 0;  ///< that were reached from closed samples
   std::size_t done_ = 0;
