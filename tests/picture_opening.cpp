@@ -1,0 +1,166 @@
+// The sheet of an opening: that its measures are true, the body is where it stands, and its texts can be read.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "picture/opening.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace roam::app::picture;
+using roam::Mesh;
+using roam::Vec3;
+
+/// A wall along `across` through `at` with a door of `width` in it, on a floor.
+std::vector<Mesh> door(const Vec3& at, const Vec3& across, double width) {
+  Mesh mesh;
+  scenes::add_floor(mesh, at.x - 20.0, at.y - 20.0, at.x + 20.0, at.y + 20.0, at.z);
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 jamb = at + 0.5 * width * side * across, far = at + 10.0 * side * across;
+    scenes::add_wall(mesh, jamb.x, jamb.y, far.x, far.y, at.z, at.z + 3.0);
+  }
+  return {mesh};
+}
+
+OpeningView view_of_door(const Vec3& at, const Vec3& across, double width) {
+  OpeningView view;
+  view.heading = "Door";
+  view.text = "A body of radius 0.3 m and height 1.9 m passes.";
+  view.point = at + Vec3(0.0, 0.0, 1.0);
+  view.direction = across;
+  view.width = width;
+  view.floor = at.z;
+  view.radius = 0.3;
+  view.height = 1.9;
+  view.fits = true;
+  return view;
+}
+
+template <class Item>
+std::vector<Item> all(const Sheet& sheet, const std::string& what) {
+  std::vector<Item> found;
+  for (const auto& item : sheet.items) {
+    const Item* one = std::get_if<Item>(&item);
+    if (one != nullptr && one->what == what) found.push_back(*one);
+  }
+  return found;
+}
+
+/// From the bar and what stands over it.
+double pixels_per_metre(const Sheet& sheet) {
+  const auto bars = all<Lines>(sheet, "scale bar");
+  const auto texts = all<Text>(sheet, "scale");
+  if (bars.empty() || texts.empty()) return 0.0;
+  const Polyline& bar = bars[0].lines[0];
+  const double unit = texts[0].text.find("mm") != std::string::npos ? 1e-3 : 1.0;
+  return glm::distance(bar[1], bar[2]) / (std::stod(texts[0].text) * unit);
+}
+
+void expect_readable(const Sheet& sheet) {
+  std::vector<Text> texts;
+  for (const auto& item : sheet.items) {
+    if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
+  }
+  const Rect paper{{0.0, 0.0}, {sheet.width, sheet.height}};
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    EXPECT_TRUE(paper.contains(texts[i].box)) << texts[i].text;
+    for (std::size_t k = 0; k < i; ++k) {
+      // Lines of one label touch.
+      EXPECT_FALSE(texts[i].box.grown(-2.0).overlaps(texts[k].box.grown(-2.0)))
+          << texts[i].text << " over " << texts[k].text;
+    }
+  }
+}
+
+TEST(OpeningPicture, MeasuresTheDoorToScaleInPlanAndSection) {
+  const Vec3 at(-13739.0, 253.0, 181.0), across = glm::normalize(Vec3(0.6, 0.8, 0.0));
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view_of_door(at, across, 0.84)}, door(at, across, 0.84));
+  const double scale = pixels_per_metre(sheet);
+  ASSERT_GT(scale, 0.0);
+  const auto measures = all<Lines>(sheet, "measure");
+  ASSERT_EQ(measures.size(), 2u);
+  for (const Lines& measure : measures) {
+    EXPECT_NEAR(glm::distance(measure.lines[0][0], measure.lines[0][1]), 0.84 * scale, 0.5);
+  }
+  // The jambs are where the measure ends.
+  const auto walls = all<Lines>(sheet, "plan walls");
+  ASSERT_EQ(walls.size(), 1u);
+  for (const Point& end : measures[0].lines[0]) {
+    double nearest = 1e9;
+    for (const Polyline& line : walls[0].lines) {
+      for (const Point& p : line) nearest = std::min(nearest, glm::distance(p, end));
+    }
+    EXPECT_LT(nearest, 1.0);
+  }
+  const auto bodies = all<Disc>(sheet, "plan body");
+  ASSERT_EQ(bodies.size(), 1u);
+  EXPECT_NEAR(bodies[0].radius, 0.3 * scale, 0.5);
+  const auto widths = all<Text>(sheet, "width");
+  ASSERT_EQ(widths.size(), 2u);
+  EXPECT_EQ(widths[0].text, "0.840 m");
+  expect_readable(sheet);
+}
+
+TEST(OpeningPicture, StandsTheBodyOnTheFloorOfTheSection) {
+  const Vec3 at(5.0, -2.0, 30.0), across(0.0, 1.0, 0.0);
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view_of_door(at, across, 0.7)}, door(at, across, 0.7));
+  const double scale = pixels_per_metre(sheet);
+  const auto bodies = all<Lines>(sheet, "section body");
+  const auto walls = all<Lines>(sheet, "section walls");
+  ASSERT_EQ(bodies.size(), 1u);
+  ASSERT_EQ(walls.size(), 1u);
+  Rect body, scene;
+  for (const Point& p : bodies[0].lines[0]) body.include(p);
+  for (const Polyline& line : walls[0].lines) {
+    for (const Point& p : line) scene.include(p);
+  }
+  EXPECT_NEAR(body.height(), 1.9 * scale, 1.0);
+  EXPECT_NEAR(body.width(), 0.6 * scale, 1.0);
+  EXPECT_NEAR(body.upper.y, scene.upper.y, 1.0);  // the sheet's y points down: the feet are on the floor
+}
+
+TEST(OpeningPicture, ShowsFallingAndTheFootOverACrack) {
+  Mesh mesh;
+  scenes::add_floor(mesh, -10.0, -2.0, -0.4, 2.0, 0.0);
+  scenes::add_floor(mesh, 0.4, -2.0, 10.0, 2.0, 0.0);
+  const std::vector<Mesh> meshes{mesh};
+  OpeningView view = view_of_door({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.8);
+  view.kind = OpeningView::Kind::crack;
+  view.point = {0.0, 0.0, 0.0};
+  view.fits = false;
+  const Sheet falls = opening_sheet("scene.obj", std::vector{view}, meshes);
+  EXPECT_EQ(all<Lines>(falls, "fall").size(), 1u);
+  EXPECT_TRUE(all<Disc>(falls, "plan foot").empty());
+  expect_readable(falls);
+  view.fits = true;
+  view.support_radius = 0.45;
+  const Sheet carried = opening_sheet("scene.obj", std::vector{view}, meshes);
+  EXPECT_TRUE(all<Lines>(carried, "fall").empty());
+  ASSERT_EQ(all<Disc>(carried, "plan foot").size(), 1u);
+  EXPECT_NEAR(all<Disc>(carried, "plan foot")[0].radius, 0.45 * pixels_per_metre(carried), 0.5);
+  expect_readable(carried);
+}
+
+TEST(OpeningPicture, PutsSeveralOneBelowTheOther) {
+  const Vec3 at(0.0, 0.0, 0.0), across(0.0, 1.0, 0.0);
+  OpeningView tight = view_of_door(at, across, 0.5), high = view_of_door(at, across, 0.5);
+  tight.fits = false;
+  high.direction = {0.0, 0.0, 1.0};
+  high.heading_to = {1.0, 0.0, 0.0};
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{tight, high}, door(at, across, 0.5));
+  EXPECT_EQ(all<Disc>(sheet, "plan body").size(), 2u);
+  EXPECT_EQ(all<Lines>(sheet, "measure").size(), 3u);  // an upright width shows in no plan
+  expect_readable(sheet);
+  const Sheet one = opening_sheet("scene.obj", std::vector{tight}, door(at, across, 0.5));
+  EXPECT_GT(sheet.height, 1.7 * one.height);
+}
+
+TEST(OpeningPicture, HasATitleWhereNothingDecides) {
+  const Sheet sheet = opening_sheet("scene.obj: nothing is as narrow", {}, {});
+  EXPECT_GT(sheet.height, 50.0);
+  EXPECT_EQ(all<Text>(sheet, "title").size(), 1u);
+}
+
+}  // namespace
