@@ -65,8 +65,7 @@ class Recorder {
  private:
   void take(const StepReport& report) {
     if (trace_) trace_->add(steps_, time_, report);
-    if (options_.checks() || !options_.picture.empty())
-      append_pieces(pieces_, steps_, report);
+    if (options_.checks() || !options_.picture.empty()) append_pieces(pieces_, steps_, report);
     if (!options_.picture.empty()) append(record_, report, steps_ == 0);
   }
 

@@ -153,7 +153,8 @@ std::string text_report(const WalkReport& report) {
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
   line("body",
        fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));
-  if (report.settings.support_radius > 0.0) line("", fmt::format("support radius {} m", report.settings.support_radius));
+  if (report.settings.support_radius > 0.0)
+    line("", fmt::format("support radius {} m", report.settings.support_radius));
   if (!report.profile.empty()) line("profile", report.profile);
   line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
   if (report.mode != Mode::ghost) {
