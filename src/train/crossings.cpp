@@ -15,11 +15,11 @@ constexpr double look_every = 0.03;
 /// m. How far above and below a rim floor is looked for on its two sides.
 constexpr double rim_level = 0.3;
 
-bool is_over_floor(const Survey& survey, const Vec3& foot) {
+}  // namespace
+
+bool stands_on_floor(const Survey& survey, const Vec3& foot) {
   return survey.floor().clearance({on_floor, 0.0}, foot, 0.0).found;
 }
-
-}  // namespace
 
 Crossings::Crossings(const Survey& survey, std::span<const FoundCrack> cracks, double smallest)
     : survey_(&survey), reach_(2.0 * smallest + on_floor + look_every) {
@@ -50,7 +50,7 @@ std::vector<Crossing> Crossings::on(std::span<const Vec3> way) const {
     for (int k = 0; k < looks; ++k) {
       const double part = static_cast<double>(k) / looks;
       const Vec3 foot = way[i - 1] + part * along;
-      if (!is_over_floor(*survey_, foot)) add_near(foot, gone + part * length);
+      if (!stands_on_floor(*survey_, foot)) add_near(foot, gone + part * length);
     }
     gone += length;
   }

@@ -35,6 +35,9 @@ class Crossings {
   std::vector<Place> places_;  ///< sorted by x
 };
 
+/// Whether floor lies under a foot, or so near beside it that the foot stands on it.
+[[nodiscard]] bool stands_on_floor(const Survey& survey, const Vec3& foot);
+
 /// The part of a way within `reach` (m, along it) of a place on it, at least two points.
 [[nodiscard]] std::vector<Vec3> stretch(std::span<const Vec3> way, double at, double reach);
 

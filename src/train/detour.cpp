@@ -3,6 +3,8 @@
 #include <deque>
 #include <unordered_set>
 
+#include "train/crossings.h"
+
 namespace roam::training {
 
 namespace {
@@ -11,8 +13,6 @@ namespace {
 constexpr std::size_t most_places = 20'000;
 /// m beside the rim, where somebody stands before he crosses.
 constexpr double before_rim = 0.3;
-/// m. A foot with floor so near stands on it.
-constexpr double on_floor = 0.04;
 
 }  // namespace
 
@@ -22,9 +22,7 @@ std::optional<Ends> must_be_crossed(const Survey& survey, const Layout& layout, 
   const Ends ends{reached.near(crack.point - aside), reached.near(crack.point + aside)};
   if (ends.from == no_node || ends.to == no_node || ends.from == ends.to) return std::nullopt;
   if (layout.tree.root(ends.from) != layout.tree.root(ends.to)) return std::nullopt;
-  const auto stands = [&](NodeId id) {
-    return survey.floor().clearance({on_floor, 0.0}, layout.tree.node(id).place, 0.0).found;
-  };
+  const auto stands = [&](NodeId id) { return stands_on_floor(survey, layout.tree.node(id).place); };
   if (!stands(ends.from) || !stands(ends.to)) return std::nullopt;
   std::deque<NodeId> next{ends.from};
   std::unordered_set<NodeId> seen{ends.from};

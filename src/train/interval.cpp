@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "train/detour.h"
 #include "train/neck_ways.h"
@@ -19,6 +20,9 @@ constexpr double person = 0.3;
 /// A round body is carried by both rims of a crack from 1 / sin(70 degrees) of its half width on (docs/walking.md); and
 /// a little for rims that are not straight.
 constexpr double carried_share = 1.08;
+/// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
+constexpr std::size_t most_searched = 8;
+constexpr double least_searched = 0.05;
 
 /// Radii that a body of this kind can have at all.
 double cap(const BodyKind& kind, const TrainOptions& options) {
@@ -33,6 +37,24 @@ CrackOptions crack_options(const TrainOptions& options, const Measure& measure) 
   how.support_max = options.support_max;
   how.threads = options.threads;
   return how;
+}
+
+/// Component by component, for the floor at the bottom of a gap is a step down only where one can walk there.
+std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& options, const Layout& layout,
+                                  Stages& stages) {
+  std::vector<FoundCrack> cracks;
+  for (std::size_t i = 0; i < layout.components.size() && i < most_searched && !stages.ended(); ++i) {
+    const Component& component = layout.components[i];
+    if (static_cast<double>(component.nodes.size()) < least_searched * layout.components[0].nodes.size()) break;
+    const Reached reached(layout, options.spacing, {&component, 1});
+    std::vector<FoundCrack> found = find_cracks(
+        survey, crack_options(options, layout.measure), [&](const Vec3& foot) { return reached(foot); },
+        [&](double done) { return stages.at(done); });
+    cracks.insert(cracks.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+  }
+  std::stable_sort(cracks.begin(), cracks.end(),
+                   [](const FoundCrack& a, const FoundCrack& b) { return a.radius > b.radius; });
+  return cracks;
 }
 
 /// Fills in what is found out path by path.
@@ -86,7 +108,7 @@ class Paths {
 
   /// Cracks are in the order of their width: the first that must be crossed decides.
   void add_crossings(const Crossings& crossings) {
-    const Reached reached(layout_, options_.spacing);
+    const Reached reached(layout_, options_.spacing, layout_.components);
     for (const FoundCrack& crack : evidence_.cracks) {
       if (crack.kind != Crack::Kind::crack || crack.on_a_path) continue;
       if (crack.radius <= training_.smallest) return;
@@ -127,10 +149,7 @@ Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& la
   Paths paths(survey, options, layout, training, evidence);
   if (options.mode == Mode::walk && !layout.components.empty() && !stages.ended()) {
     stages.begin("looking for cracks");
-    const Reached reached(layout, options.spacing);
-    evidence.cracks = find_cracks(
-        survey, crack_options(options, layout.measure), [&](const Vec3& foot) { return reached(foot); },
-        [&](double done) { return stages.at(done); });
+    evidence.cracks = cracks_of(survey, options, layout, stages);
     paths.cross_all();
   }
   training.trapped_radius = trapped_below(training.smallest, options.step);

@@ -98,12 +98,12 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
   return layout;
 }
 
-Reached::Reached(const Layout& layout, double spacing)
+Reached::Reached(const Layout& layout, double spacing, std::span<const Component> components)
     : tree_(&layout.tree),
       side_(std::max(2.0 * spacing, 0.5 * layout.measure.widest)),
       beside_(1.1 * spacing),
       level_(layout.measure.step) {
-  for (const Component& component : layout.components) {
+  for (const Component& component : components) {
     for (const NodeId id : component.nodes) {
       const Node& node = tree_->node(id);
       cells_.push_back({cell(node.place.x), cell(node.place.y), id});

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,11 +41,11 @@ struct Layout {
 /// Components, rooms and paths; where `stages` says to end, what was found by then.
 [[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);
 
-/// Whether a place of the floor is one that bodies come to: it lies within the clearance of a place of the components,
+/// Whether a place of the floor is one that bodies come to: it lies within the clearance of a place of `components`,
 /// or hardly more than a spacing beside one, at its level.
 class Reached {
  public:
-  Reached(const Layout& layout, double spacing);
+  Reached(const Layout& layout, double spacing, std::span<const Component> components);
   [[nodiscard]] bool operator()(const Vec3& foot) const { return near(foot) != no_node; }
   /// The nearest of the places that reach it; no_node where it is not reached.
   [[nodiscard]] NodeId near(const Vec3& foot) const;

@@ -86,7 +86,7 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   }
   trial.outcome = fits && !ended ? result.outcome : Outcome::held;
   trial.at = result.end;
-  if (kind.mode == Mode::walk && trial.outcome == Outcome::blocked) {
+  if (kind.mode == Mode::walk && (trial.outcome == Outcome::blocked || trial.outcome == Outcome::reached)) {
     const double sunk = level_at(way, result.waypoints, result.end) - (result.end.z - 0.5 * settings.height);
     if (sunk > settings.step + uneven) trial.outcome = Outcome::fell;
   }

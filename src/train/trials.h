@@ -28,7 +28,7 @@ struct BodyKind {
 
 /// Sends a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
 ///   - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
-///   - a body that was stopped more than a step below the way has fallen into what stops it, however shallow: `fell`.
+///   - a body that ends more than a step below the way has fallen into what stops it, however shallow: `fell`.
 /// `goes_on` is asked now and then; false ends the trial, with the outcome so far `held`.
 [[nodiscard]] Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
                             std::span<const Vec3> way, const std::function<bool()>& goes_on = {});
