@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   add_probe(program, chosen);
   add_sweep(program, chosen);
   add_info(program, chosen);
+  add_train(program, chosen);
   add_make(program, chosen);
   add_verify(program, chosen);
   add_build(program, chosen);

@@ -17,6 +17,8 @@ constexpr double run_up = 1.5;
 /// m, at most: there a body that is to be stopped by an opening has found room to stand before it.
 constexpr double longest_run_up = 12.0;
 
+/// m beyond an opening that a path must lead, and a body's radius, for a body to be stopped by it.
+constexpr double past_opening = 0.1;
 /// m/s. Who is to fall goes slowly: at a walking pace a body hops across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
@@ -98,7 +100,8 @@ class Proof {
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)
       through = stretch(passage.way, place, reach);
-    if (!has_room()) return;  // the path begins or ends in what is narrow
+    // Where the path begins or ends in what is narrow, or within a radius of it, nothing is to be stopped.
+    if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
     all.push_back({path, outside, foot_, std::move(through), Judgement::cannot_enter, "just outside the opening"});
   }
 
