@@ -105,7 +105,7 @@ double climbed(const ProbeQuestion& question, const ProbedSize& size) {
 WalkerSettings settings_of(const ProbeQuestion& question, const ProbedSize& size) {
   WalkerSettings settings;
   settings.radius = size.radius;
-  settings.height = std::max(size.height, 2.0 * size.radius);
+  settings.height = size.height;
   settings.eye = std::min(settings.eye, settings.height);
   settings.step = std::min(question.step, 0.5 * settings.height);
   settings.slope_degrees = question.slope_degrees;
@@ -165,7 +165,7 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
 std::vector<Vec3> centres(const ProbeQuestion& question, const ProbeAnswer& answer) {
   std::vector<Vec3> path = answer.passage.way;
   if (question.mode == Mode::fly) return path;
-  for (Vec3& place : path) place.z += 0.5 * std::max(answer.size.height, 2.0 * answer.size.radius);
+  for (Vec3& place : path) place.z += 0.5 * answer.size.height;
   return path;
 }
 
@@ -263,7 +263,7 @@ std::optional<picture::OpeningView> view_of(const Survey& survey, const ProbeQue
 Json json_report(const ProbeAnswer& answer, bool with_way) {
   const Passage& p = answer.passage;
   Json json = {{"radius", answer.size.radius},
-               {"height", std::max(answer.size.height, 2.0 * answer.size.radius)},
+               {"height", answer.size.height},
                {"passable", answer.passable},
                {"clearance_m", p.radius},
                {"limited", p.limited}};
@@ -297,9 +297,8 @@ std::string table(std::span<const ProbeAnswer> answers) {
     const Passage& p = answer.passage;
     const std::string width = p.found ? metres(2.0 * p.radius) : "no way";
     const std::string where = p.opening ? fmt::format("{} at {}", name(p.opening->kind), at(p.opening->point)) : "";
-    text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>10}  {:>10}  {}\n", answer.size.radius,
-                        std::max(answer.size.height, 2.0 * answer.size.radius), answer.passable ? "yes" : "no",
-                        p.found && !p.limited ? ">= " + width : width,
+    text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>10}  {:>10}  {}\n", answer.size.radius, answer.size.height,
+                        answer.passable ? "yes" : "no", p.found && !p.limited ? ">= " + width : width,
                         answer.passable ? std::string() : metres(answer.missing), where);
   }
   return text;
