@@ -166,14 +166,6 @@ TEST(Training, RefusesOptionsThatNobodyCanMean) {
   EXPECT_THROW((void)roam::train(survey, {.paths = -1}), roam::Error);
 }
 
-TEST(Training, ForFlyingLimitsTheSphereByTheDoor) {
-  const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.mode = Mode::fly});
-  ASSERT_TRUE(t.largest) << t.answer;
-  EXPECT_NEAR(*t.largest, 0.4, 1e-3);
-  EXPECT_EQ(t.smallest, 0.0);
-  EXPECT_TRUE(t.feasible);
-}
-
 // ---------------------------------------------------------------------------------------- the paper's claim
 
 /// The lower gallery of the dam with its split and two drainage grottos: too large a body stays out of the grottos, too

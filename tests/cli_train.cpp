@@ -1,0 +1,94 @@
+// roam train as a shell sees it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "train_scenes.h"
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string obj(const roam::Mesh& mesh) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const roam::Vec3& v : mesh.vertices) out << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const auto& t : mesh.triangles) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  return out.str();
+}
+
+/// One training in a folder of its own.
+struct Train {
+  TestFolder folder;
+  ProgramResult result;
+
+  explicit Train(const CorridorOptions& scene, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"train", folder.write("scene.obj", obj(corridor_mesh(scene)))};
+    for (const std::string& argument : more)
+      arguments.push_back(argument.starts_with("@") ? folder.file(argument.substr(1)) : argument);
+    result = run_program(ROAM_PROGRAM, arguments);
+  }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(result.out, nullptr, false); }
+  [[nodiscard]] bool wrote(const std::string& name) const { return std::filesystem::exists(folder.file(name)); }
+};
+
+TEST(TrainVerb, ReportsTheIntervalAndWritesTheProfileBesideTheScene) {
+  const Train train({.door = 1.0, .split = 0.4}, {"--height", "1.8", "--json"});
+  EXPECT_EQ(train.result.status, 0) << train.result.err;
+  const nlohmann::json report = train.json();
+  for (const char* key : {"radius", "interval", "feasible", "paths", "decisive", "regions", "seconds", "support_radius",
+                          "trapped_radius", "answer", "complete", "cracks", "contradictions"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_NEAR(report["interval"]["min"], 0.2, 1e-3);
+  EXPECT_NEAR(report["interval"]["max"], 0.5, 1e-3);
+  EXPECT_EQ(report["feasible"], true);
+  EXPECT_EQ(report["decisive"][0]["kind"], "opening");
+  EXPECT_EQ(report["decisive"][1]["kind"], "split");
+  ASSERT_FALSE(report["paths"].empty());
+  EXPECT_TRUE(report["paths"][0]["trials"][0].contains("outcome"));
+  EXPECT_TRUE(train.wrote("scene.obj.roam.json"));
+}
+
+TEST(TrainVerb, EndsWithThreeWhereNoOneBodyServesAndSaysWhatToUse) {
+  const Train train({.door = 0.8, .split = 1.25}, {"--height", "1.8", "-o", "@p.json"});
+  EXPECT_EQ(train.result.status, 3) << train.result.err;
+  EXPECT_TRUE(contains(train.result.out, "No one radius serves")) << train.result.out;
+  EXPECT_TRUE(contains(train.result.out, "0.645")) << train.result.out;
+  EXPECT_TRUE(train.wrote("p.json"));
+  EXPECT_FALSE(train.wrote("scene.obj.roam.json"));
+}
+
+TEST(TrainVerb, SaysNullForAnEndThatNothingLimits) {
+  const Train train({}, {"--json", "--no-profile"});
+  EXPECT_EQ(train.result.status, 0) << train.result.err;
+  EXPECT_TRUE(train.json()["interval"]["max"].is_null());
+  EXPECT_EQ(train.json()["interval"]["min"], 0.0);
+  EXPECT_FALSE(train.wrote("scene.obj.roam.json"));
+}
+
+TEST(TrainVerb, FollowsThePaperWhenAskedTo) {
+  const Train train({.door = 0.8, .split = 1.25}, {"--method", "paper", "--json", "--no-profile"});
+  EXPECT_EQ(train.result.status, 3) << train.result.err;
+  EXPECT_TRUE(contains(train.json()["answer"], "contradiction")) << train.result.out;
+}
+
+TEST(TrainVerb, DrawsWhatDecides) {
+  const Train train({.door = 0.8, .split = 0.5}, {"--no-profile", "--picture", "@d.svg"});
+  EXPECT_EQ(train.result.status, 0) << train.result.err;
+  EXPECT_TRUE(contains(train.folder.read("d.svg"), "Opening"));
+  EXPECT_TRUE(contains(train.folder.read("d.svg"), "Crack"));
+}
+
+TEST(TrainVerb, RefusesWhatCannotBeMeant) {
+  EXPECT_EQ(Train({}, {"--mode", "ghost"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--mode", "fly", "--height", "1.8"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"-o", "@p.json", "--no-profile"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--picture", "@scene.obj"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--paths", "0"}).result.status, 2);
+}
+
+}  // namespace
