@@ -78,6 +78,16 @@ void check_output(const ProbeOptions& o, const char* option, const std::filesyst
   }
 }
 
+/// What a picture is called: its scene, without folders.
+std::string file_names(const SceneOptions& scene) {
+  std::string text;
+  for (const auto& path : scene.scenes) {
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    text += (text.empty() ? "" : ", ") + name.string();
+  }
+  return text;
+}
+
 void write_path(const ProbeOptions& o, const ProbeAnswer& answer) {
   std::ofstream out(o.path);
   out << "# " << explain(o.question, answer) << "\n";
@@ -135,7 +145,7 @@ ExitStatus probe(ProbeOptions o) {
   if (drawing) {
     std::vector<picture::OpeningView> views;
     if (const auto view = view_of(scene.survey, o.question, first)) views.push_back(*view);
-    const std::string title = o.scene.names() + (views.empty() ? ": " + explain(o.question, first) : "");
+    const std::string title = file_names(o.scene) + (views.empty() ? ": " + explain(o.question, first) : "");
     drawing->write(picture::opening_sheet(title, views, scene.survey.meshes()));
   }
   if (o.json) {

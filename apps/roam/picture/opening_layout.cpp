@@ -67,7 +67,10 @@ std::vector<Polyline> floor_around(std::span<const Mesh> meshes, const OpeningVi
       if (!box.overlaps(l.plan.view)) continue;
       const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
       if (!(std::abs(normal.z) >= least_level * glm::length(normal)) || normal.z == 0.0) continue;
-      areas.push_back({map(l.turn.plan(t[0])), map(l.turn.plan(t[1])), map(l.turn.plan(t[2]))});
+      // All turn one way: where a face lies on the back of another, areas would cancel each other.
+      const bool turns_back = normal.z < 0.0;
+      areas.push_back(
+          {map(l.turn.plan(t[0])), map(l.turn.plan(t[turns_back ? 2 : 1])), map(l.turn.plan(t[turns_back ? 1 : 2]))});
       if (areas.size() > most_floor) return {};
     }
   }
