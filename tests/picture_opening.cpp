@@ -143,6 +143,25 @@ TEST(OpeningPicture, ShowsFallingAndTheFootOverACrack) {
   expect_readable(carried);
 }
 
+TEST(OpeningPicture, ShowsFloorsWhoseFacesAreThereTwice) {
+  const Vec3 at(0.0, 0.0, 0.0), across(0.0, 1.0, 0.0);
+  std::vector<Mesh> meshes = door(at, across, 0.7);
+  const std::size_t count = meshes[0].triangles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [a, b, c] = meshes[0].triangles[i];
+    meshes[0].triangles.push_back({a, c, b});
+  }
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view_of_door(at, across, 0.7)}, meshes);
+  const auto floors = all<Lines>(sheet, "floor");
+  ASSERT_EQ(floors.size(), 1u);
+  ASSERT_EQ(floors[0].lines.size(), 4u);
+  // Areas that turn one way and the other would cancel each other.
+  for (const Polyline& area : floors[0].lines) {
+    const Point d = area[1] - area[0], e = area[2] - area[0];
+    EXPECT_LT(d.x * e.y - d.y * e.x, 0.0);  // the sheet's y points down
+  }
+}
+
 TEST(OpeningPicture, PutsSeveralOneBelowTheOther) {
   const Vec3 at(0.0, 0.0, 0.0), across(0.0, 1.0, 0.0);
   OpeningView tight = view_of_door(at, across, 0.5), high = view_of_door(at, across, 0.5);
