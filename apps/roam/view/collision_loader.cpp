@@ -75,7 +75,7 @@ void CollisionLoader::load_store(std::shared_ptr<const Store> store) {
   const auto goes_on = [this] { return loading_.wanted(); };
   Collision loaded;
   loaded.triangles = store->info().triangles;
-  if (wish_.identify) loaded.identity = identity_of(store->info());
+  loaded.identity = identity_of(store->info());
   loading_.tell(LoadState::Phase::looking, 0.0, loaded.triangles);
   loaded.pager = std::make_shared<Pager>(store, PagerOptions{.memory = wish_.memory});
   if (!wish_.place) loaded.start = find_start(*store, wish_.walker, wish_.mode, goes_on);
@@ -110,7 +110,7 @@ void CollisionLoader::load_scene() {
   loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
   loaded.triangles = loaded.world->stats().triangles;
   loaded.report = std::move(scene.report);
-  if (wish_.identify) loaded.identity = identity_of(scene.meshes);
+  loaded.identity = identity_of(scene.meshes);
   if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
   scene.meshes.clear();
   scene.meshes.shrink_to_fit();

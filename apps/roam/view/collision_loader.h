@@ -24,7 +24,7 @@ struct Collision {
   std::shared_ptr<Pager> pager;        ///< of a store; else null
   std::uint64_t triangles = 0;
   std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
-  SceneIdentity identity;    ///< of the scene or the store, where it was asked for
+  SceneIdentity identity;    ///< of the scene or the store
   ImportReport report;
   std::optional<StartPlace> start;  ///< where one was asked for
 };
@@ -32,7 +32,6 @@ struct Collision {
 /// What is asked for beside the world.
 struct CollisionWish {
   bool keep_meshes = false;
-  bool identify = false;
   std::optional<Vec3> place;  ///< where the body will be put; none: a start is to be found
   WalkerSettings walker;
   Mode mode = Mode::walk;

@@ -30,6 +30,7 @@ constexpr Line lines[] = {
     {Command::picture, "picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
     {Command::record, "record", "R", "begins or ends recording the way, as roam-1.path and so on"},
     {Command::store, "store", "O", "builds the scene's collision store in the background, or stops that"},
+    {Command::adapt, "adapt", "Y", "takes the size of the body that would get on here"},
     {Command::quit, "quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 

@@ -21,6 +21,7 @@ enum class Command : std::uint8_t {
   next_bookmark,
   marks,
   store,
+  adapt,
   quit,
   none,  ///< a name that is not the viewer's
 };

@@ -202,6 +202,9 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->check(within(0.0, 89.0))
       ->type_name("DEG");
   verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
+  verb.add_flag("--adapt", adapt,
+                "Learn on the way: a smaller body at an opening that stops it, a larger foot where it falls; kept in "
+                "SCENE.roam.json");
   verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(within(1e-3, 1e4))->type_name("V");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },

@@ -39,6 +39,7 @@ struct ViewOptions {
   bool json = false;
   bool keys = false;
   bool no_profile = false;
+  bool adapt = false;
 
   /// Adds all of them to a verb.
   void add_to(CLI::App& verb);

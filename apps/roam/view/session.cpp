@@ -32,7 +32,6 @@ constexpr auto shortest_frame = std::chrono::microseconds(6900);
 CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path) {
   CollisionWish wish;
   wish.keep_meshes = options.verify;
-  wish.identify = plan.profile.has_value();
   if (plan.at) {
     wish.place = plan.at->position;
   } else if (!path.empty()) {
@@ -140,6 +139,7 @@ bool Session::frame() {
     pager_->wait(walker.body(), walker.position(), walker.velocity(), frame_time_);
   }
   fly_without_ground();
+  take_lesson();
   if (quits_ || stage_->viewer().done()) return false;
   if (placed_) {
     if (replay_) look_along_path(frame_time_);

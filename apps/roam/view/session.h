@@ -16,6 +16,7 @@
 #include "view/collision_loader.h"
 #include "view/commands.h"
 #include "view/hold.h"
+#include "view/learning.h"
 #include "view/options.h"
 #include "view/path_recorder.h"
 #include "view/replay.h"
@@ -71,7 +72,9 @@ class Session {
   void set_up_cameras();
   void receive_collision();
   void place();
-  void take_regions();
+  void begin_learning();
+  void take_sizes();
+  void take_lesson();
   void place_ghost(const std::string& why);
   void enter();
   void tell_where_put();
@@ -135,6 +138,8 @@ class Session {
   std::optional<Replay> replay_;
   std::optional<PathRecorder> recorder_;
   Hold hold_;
+  std::optional<Learning> learning_;
+  bool lesson_wanted_ = false;   ///< by the person
   bool has_stood_ = false;       ///< since it was placed
   int put_backs_ = 0;            ///< since it stood last
   bool without_ground_ = false;  ///< it walks, and would fall for ever

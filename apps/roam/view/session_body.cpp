@@ -63,14 +63,9 @@ void Session::place() {
     roamer_->setSpace(std::shared_ptr<const Space>(loaded_->world));
     status_.world_bytes = loaded_->world->stats().bytes;
   }
-  take_regions();
+  begin_learning();
   enter();
   if (!path_.empty()) begin_replay();
-}
-
-/// To be called whenever there is another walker.
-void Session::take_regions() {
-  if (plan_.profile && roamer_->walker() != nullptr) roamer_->walker()->set_regions(plan_.profile->profile.regions);
 }
 
 void Session::place_ghost(const std::string& why) {
@@ -148,6 +143,7 @@ void Session::step_taken(const StepReport& report, double seconds) {
   }
   if (roamer_->walker() == nullptr) return;
   hold_.take(*roamer_->walker(), wish(), report.elapsed, status_.paging && status_.paging->failed > 0);
+  if (learning_) learning_->watch(*roamer_->walker(), wish(), report.elapsed);
   watch_footing(report, seconds);
 }
 
@@ -244,7 +240,8 @@ void Session::update_status(bool at_once) {
   if (placed_) {
     const Walker& walker = *roamer_->walker();
     s.mode = roamer_->mode();
-    s.body = roamer_->settings();
+    s.body = walker.settings();
+    s.size_reason = size_reason(walker);
     s.crouched = walker.crouched();
     s.grounded = walker.grounded();
     const Pose at = pose();
@@ -256,6 +253,9 @@ void Session::update_status(bool at_once) {
     s.collision_us = static_cast<double>(roamer_->collisionNanoseconds()) * 1e-3;
     s.camera = roamer_leads() ? std::string() : camera_name();
     s.hold = hold_.told();
+    if (const std::string offer = learning_ ? learning_->offer(key_of("adapt")) : std::string(); !offer.empty()) {
+      s.hold.text += (s.hold.text.empty() ? "" : "\n") + offer;
+    }
   }
   stage_->show(s);
 }

@@ -102,6 +102,9 @@ void Session::run(Command command) {
       case Command::store:
         toggle_building();
         break;
+      case Command::adapt:
+        lesson_wanted_ = true;
+        break;
       case Command::quit:
         quits_ = true;
         break;

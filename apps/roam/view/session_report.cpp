@@ -53,6 +53,7 @@ ViewReport Session::report() {
   report.triangles = status_.triangles;
   report.settings = roamer_->settings();
   report.mode = roamer_->mode();
+  if (learning_) report.learned = learning_->taken();
   if (plan_.profile) report.profile = plan_.profile->file.string();
   report.roamed = placed_;
   report.start = start_;

@@ -83,7 +83,7 @@ void Session::change_to(std::shared_ptr<Pager> pager) {
   auto before = std::exchange(pager_, std::move(pager));
   store_is_stale_ = false;
   roamer_->setSpace(pager_);
-  take_regions();
+  take_sizes();
   status_.triangles = pager_->store().info().triangles;
   tell(fmt::format("the walls come from {} now", pager_->store().name()));
   std::shared_ptr<const World> world;

@@ -28,7 +28,8 @@ struct Status {
   std::optional<Mode> mode;  ///< none: no body yet
   double speed = 0.0;        ///< m/s, now
   double pace = 0.0;         ///< m/s, what keys move at
-  WalkerSettings body;
+  WalkerSettings body;       ///< as it is now
+  std::string size_reason;   ///< why it is not as large as elsewhere; empty: it is
   bool crouched = false;
   bool grounded = false;
   Vec3 place{0.0};                ///< of the body's centre, in the scene's frame

@@ -66,6 +66,7 @@ Json json_report(const ViewReport& report) {
                {"missing_pages", report.missing_pages},
                {"written", report.written}};
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
+  json["learned"] = report.learned;
   json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
   if (report.paging) json["paging"] = app::json_report(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);

@@ -26,6 +26,7 @@ struct ViewReport {
   std::uint64_t triangles = 0;  ///< of the collision; 0 when it did not come
   WalkerSettings settings;
   std::string profile;                ///< the file that the body was taken from; empty: none
+  int learned = 0;                    ///< sizes that were taken on the way
   Mode mode = Mode::walk;             ///< at the end
   std::optional<RouteResult> result;  ///< of a path
   bool path_ended = false;            ///< the result has an outcome: nobody ended the session before

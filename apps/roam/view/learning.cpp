@@ -1,0 +1,66 @@
+#include "view/learning.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+/// Seconds after which nobody who went on wants what was offered any more.
+constexpr double offer_lasts = 3.0;
+
+bool holds(const Box& box, const Vec3& p) {
+  for (int k = 0; k < 3; ++k) {
+    if (p[k] < box.lower[k] || p[k] > box.upper[k]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Learning::Learning(Profile known, std::filesystem::path file, bool takes)
+    : learner_(std::move(known)), file_(std::move(file)), takes_(takes) {}
+
+void Learning::watch(const Walker& walker, const Vec3& wish, double seconds) {
+  if (std::optional<Lesson> lesson = learner_.watch(walker, wish, seconds)) {
+    lesson_ = std::move(lesson);
+    seconds_free_ = 0.0;
+  } else if (lesson_ && !walker.report().blocked) {
+    seconds_free_ += seconds;
+    if (seconds_free_ > offer_lasts) lesson_.reset();
+  }
+}
+
+std::string Learning::offer(const std::string& key) const {
+  if (!lesson_ || takes_ || key.empty()) return {};
+  return fmt::format("{} takes it: {}", key, lesson_->why);
+}
+
+std::optional<Learning::Taken> Learning::take(Walker& walker, bool asked) {
+  if (!lesson_ || !(takes_ || asked)) return std::nullopt;
+  const Lesson lesson = *std::exchange(lesson_, std::nullopt);
+  learner_.take(walker, lesson);
+  ++taken_;
+  Taken taken{{lesson.why, false}, lesson.kind == Lesson::Kind::support};
+  if (file_.empty()) return taken;
+  try {
+    save_profile(learner_.profile(), file_);
+    learner_.saved();
+  } catch (const Error& error) {
+    taken.told = {fmt::format("{}; it could not be kept: {}", lesson.why, error.what()), true};
+  }
+  return taken;
+}
+
+std::string size_reason(const Walker& walker) {
+  for (const SizeRegion& region : walker.regions()) {
+    if (region.radius != walker.body().radius) continue;
+    if (holds(region.bounds, walker.position()) || holds(region.bounds, walker.feet())) return region.why;
+  }
+  return {};
+}
+
+}  // namespace roam::app
