@@ -33,6 +33,8 @@ constexpr std::uint64_t least_closed = 1'000;
 constexpr std::size_t newest = 16;
 constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
+/// Of the floors, to know where a scene is detailed.
+constexpr std::size_t triangles_asked = 10'000;
 /// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
 /// many.
 constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
@@ -55,19 +57,21 @@ class Search {
   std::vector<Component> run(const std::vector<Vec3>& samples) {
     share_of_one_ = samples.empty() ? 1.0 : 1.0 / static_cast<double>(samples.size());
     std::size_t batch = first_batch;
-    while (done_ < samples.size() && asked_to_go_on()) {
+    // What is huge and closed would else be begun again and again, until nothing is left for the rest.
+    while (done_ < samples.size() && tree_.size() < most_places_ && asked_to_go_on()) {
       const std::size_t end = std::min(samples.size(), done_ + batch);
       for (const Start& start : starts({samples.data() + done_, samples.data() + end})) {
         if (start.sight == Sight::closed)
           grow_from(start);
         else
           (start.sight == Sight::open ? open_ : backs_).push_back(start);
-        if (ended_) break;
+        if (ended_ || tree_.size() >= most_places_) break;
       }
       done_ = end;
       batch = std::min(2 * batch, last_batch);
     }
-    // What is large is grown on, and then what came out into the open: they take over all other trees that they meet.
+    // What is large is grown on, in the order in which it was met: where the scene is detailed comes first. Then what
+    // came out into the open. They take over all other trees that they meet.
     for (const NodeId root : large_)
       if (!ended_ && tree_.root(root) == root) grow(root, Sight::closed, most_places_);
     for (const NodeId root : came_out_)
@@ -217,9 +221,36 @@ class Search {
       const auto component = number.find(tree_.root(static_cast<NodeId>(id)));
       if (component != number.end()) found[component->second].nodes.push_back(static_cast<NodeId>(id));
     }
+    leave_out_waste(found);
     std::stable_sort(found.begin(), found.end(),
                      [](const Component& a, const Component& b) { return a.nodes.size() > b.nodes.size(); });
     return found;
+  }
+
+  /// What could not be grown whole is no part of the scene that people come for where some other part has more of the
+  /// floors' triangles: the ground under a dam, beside its gallery.
+  void leave_out_waste(std::vector<Component>& found) const {
+    const auto cut = std::find_if(found.begin(), found.end(), [](const Component& c) { return !c.whole; });
+    if (cut == found.end() || found.size() < 2) return;
+    const std::size_t detail = detail_of(*cut);
+    const bool is_waste =
+        std::any_of(found.begin(), found.end(), [&](const Component& c) { return c.whole && detail_of(c) > detail; });
+    if (is_waste) found.erase(cut);
+  }
+
+  /// How many of some triangles of the floors are under its places.
+  [[nodiscard]] std::size_t detail_of(const Component& component) const {
+    Columns places{reached_column};
+    for (const NodeId node : component.nodes) places.add(tree_.node(node).place, 0);
+    const auto ids = survey_.floor_triangles();
+    const std::size_t step = 1 + ids.size() / triangles_asked;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ids.size(); i += step) {
+      const Triangle t = survey_.triangle(ids[i]);
+      const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
+      if (places.any(middle, 0, [&](const auto& e) { return std::abs(e.z - middle.z) <= reached_column; })) ++count;
+    }
+    return count;
   }
 
   const Survey& survey_;
