@@ -22,7 +22,7 @@ constexpr double person = 0.3;
 constexpr double carried_share = 1.08;
 /// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
 constexpr std::size_t most_searched = 8;
-constexpr double least_searched = 0.05;
+constexpr double least_searched = 0.01;
 
 /// Radii that a body of this kind can have at all.
 double cap(const BodyKind& kind, const TrainOptions& options) {

@@ -17,6 +17,10 @@ namespace {
 /// m. No narrower way is looked for: nothing that a person or a device on wheels could be sent through.
 constexpr double narrowest = 0.05;
 
+/// A part that no body gets to from a part with more than so many times its places is no part that paths are planned
+/// in: tops of plinths, closets without a door.
+constexpr std::size_t least_part = 100;
+
 /// How many paths each component gets, 0 for as many as it needs, or none: each its dead ends where it is not said how
 /// many, else one each, as far as they go round, and the largest the rest.
 std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
@@ -77,9 +81,13 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
   const Measure measure = measure_of(options);
   Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, 0, {}};
   stages.begin("looking for places");
-  for (Component& component :
-       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); })) {
-    if (component.inside) {
+  std::vector<Component> found =
+      find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); });
+  // Most places first.
+  const auto largest = std::find_if(found.begin(), found.end(), [](const Component& c) { return c.inside; });
+  const std::size_t least = largest == found.end() ? 0 : largest->nodes.size() / least_part;
+  for (Component& component : found) {
+    if (component.inside && component.nodes.size() >= least) {
       layout.components.push_back(std::move(component));
     } else {
       ++layout.left_out;

@@ -27,7 +27,7 @@ struct Layout {
   WidestTree tree;
   std::vector<Component> components;  ///< that are roamed
   std::vector<Rooms> rooms;           ///< of each
-  std::size_t left_out = 0;           ///< components that are not, for they are outside or on top of something
+  std::size_t left_out = 0;           ///< components that are not: outside, on top of something, or tiny
   std::vector<PlannedPath> paths;
 };
 
