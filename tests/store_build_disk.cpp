@@ -68,9 +68,13 @@ TEST(StoreBuildDisk, AFileThatMayNotBeReadAsksForTheRightToReadIt) {
   fs::permissions(file, fs::perms::none);
   constexpr uid_t nobody = 65534;
   const bool root = ::geteuid() == 0;
-  if (root) ASSERT_EQ(::seteuid(nobody), 0);
+  if (root) {
+    ASSERT_EQ(::seteuid(nobody), 0);
+  }
   const std::string text = refusal([&] { static_cast<void>(roam::store::read_file(file, 100)); });
-  if (root) ASSERT_EQ(::seteuid(0), 0);
+  if (root) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
   EXPECT_NE(text.find("right to read it"), std::string::npos) << text;
   EXPECT_EQ(text.find("write"), std::string::npos) << text;
 }
