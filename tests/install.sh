@@ -3,6 +3,7 @@
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
+#   install.sh train   SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
@@ -48,6 +49,14 @@ case $what in
     expect 'built' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
     expect 'up to date' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
     expect 'reached after 9.9 m, 16 MB' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
+    ;;
+  train)
+    build train_a_scene
+    # A room of 9 m by 5 m by 3 m.
+    printf 'v 0 0 0\nv 9 0 0\nv 9 5 0\nv 0 5 0\nv 0 0 3\nv 9 0 3\nv 9 5 3\nv 0 5 3\n' > "$work/room.obj"
+    printf 'f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n' >> "$work/room.obj"
+    expect 'radius of 0.300 m' "$work/build/train_a_scene" "$work/room.obj"
+    [[ -s $work/room.obj.roam.json ]]
     ;;
   osg_one_line)
     build osg_one_line
