@@ -59,7 +59,9 @@ TEST_F(LargeStore, AnswersMotionsThatAreTooLongForItsMemory) {
     EXPECT_NEAR(answers[i][1], expected[i][1], 1e-4) << i;
     // Certified either way; less where memory did not hold what lies beside the way.
     EXPECT_LE(answers[i][10], expected[i][10] + 2e-3) << i;
-    if (answers[i][0] == 0.0) EXPECT_GT(answers[i][10], 0.2 * expected[i][10]) << i;
+    if (answers[i][0] == 0.0) {
+      EXPECT_GT(answers[i][10], 0.2 * expected[i][10]) << i;
+    }
   }
   EXPECT_EQ(answers[0][0], 0.0) << "one motion goes through all of the gallery";
   EXPECT_EQ(answers[2][0], 1.0);
