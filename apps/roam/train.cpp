@@ -72,8 +72,13 @@ ExitStatus train(TrainVerbOptions o) {
     report.training = train(scene.survey, o.train);
   }
   if (!o.no_profile && report.training.places > 0) {
-    report.profile = o.profile.empty() ? profile_path(o.scene.scenes) : o.profile;
-    save_profile(profile_of(report, scene.identity), report.profile);
+    const std::filesystem::path beside = profile_path(o.scene.scenes);
+    if (!report.training.complete && o.profile.empty() && std::filesystem::exists(beside)) {
+      fmt::print(stderr, "roam: {} is left as it is: this training ended early\n", beside.string());
+    } else {
+      report.profile = o.profile.empty() ? beside : o.profile;
+      save_profile(profile_of(report, scene.identity), report.profile);
+    }
   }
   if (drawing) drawing->write(picture::opening_sheet(report.scene, views_of(report), scene.survey.meshes()));
   if (o.json) {

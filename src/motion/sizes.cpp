@@ -1,6 +1,7 @@
 #include "motion/sizes.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "motion/recovery.h"
 
@@ -99,9 +100,11 @@ bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion) {
     return true;
   }
   Box way;
-  for (const Vec3& end : {Vec3(0.0), motion}) {
-    way.include(move.place + end);
-    way.include(move.place + end - Vec3(0.0, 0.0, 0.5 * move.height));
+  // Who slides ends anywhere as far away as that.
+  const Vec3 reach(glm::length(motion));
+  for (const double below : {0.0, 0.5 * move.height}) {
+    way.include(move.place - Vec3(0.0, 0.0, below) - reach);
+    way.include(move.place - Vec3(0.0, 0.0, below) + reach);
   }
   return std::any_of(sizes.regions.begin(), sizes.regions.end(), [&](const SizeRegion& region) {
     const Box box = grown(region.bounds, leaving);

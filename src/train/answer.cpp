@@ -35,35 +35,46 @@ std::string split_words(const Training& training) {
                : std::string("the widest crack");
 }
 
-std::string interval_words(const Training& training) {
+std::string interval_words(const Training& training, bool cracks_known) {
+  const char* const no_crack = cracks_known ? "no crack lies on the way" : "cracks were not looked for";
   const bool cracked = training.smallest > 0.0;
   if (!training.largest) {
     return cracked ? fmt::format("Any radius from {:.3f} m up does; {} decides, and no opening limits it.",
                                  training.smallest, split_words(training))
-                   : "No opening limits the radius, and no crack lies on the way.";
+                   : fmt::format("No opening limits the radius, and {}.", no_crack);
   }
   if (!cracked) {
-    return fmt::format("Any radius up to {:.3f} m does; {} decides, and no crack lies on the way.", *training.largest,
-                       opening_words(training));
+    return fmt::format("Any radius up to {:.3f} m does; {} decides, and {}.", *training.largest,
+                       opening_words(training), no_crack);
   }
   return fmt::format("Any radius from {:.3f} to {:.3f} m does; {} decides the upper end, {} the lower.",
                      training.smallest, *training.largest, opening_words(training), split_words(training));
 }
 
-std::string feasible_words(const Training& training) {
+std::string feasible_words(const Training& training, bool cracks_known) {
   std::string text = fmt::format("A body with {} serves {}. {}", body_words(training.radius, training.support_radius),
-                                 all_paths(training), interval_words(training));
+                                 all_paths(training), interval_words(training, cracks_known));
   if (training.support_radius > 0.0 && training.smallest < training.radius)
     text += " The foot is for cracks beside the paths.";
   return text;
 }
 
 std::string infeasible_words(const Training& training) {
+  if (!training.largest) {
+    return fmt::format(
+        "No one radius serves {}: {} carries none below {:.3f} m, more than such a body may have. Use {}.",
+        all_paths(training), split_words(training), training.smallest,
+        body_words(training.radius, training.support_radius));
+  }
+  if (training.smallest <= *training.largest) {
+    return fmt::format("The body with {} did not come through on all paths. {}",
+                       body_words(training.radius, training.support_radius), interval_words(training, true));
+  }
   return fmt::format(
       "No one radius serves {}: {} lets at most {:.3f} m through, and {} carries none below {:.3f} m. "
       "Use {}.",
-      all_paths(training), opening_words(training), training.largest.value_or(0.0), split_words(training),
-      training.smallest, body_words(training.radius, training.support_radius));
+      all_paths(training), opening_words(training), *training.largest, split_words(training), training.smallest,
+      body_words(training.radius, training.support_radius));
 }
 
 }  // namespace
@@ -89,14 +100,14 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options) 
              : "There is no free place: nowhere does even the smallest body fit. Is the unit of length right?";
 }
 
-std::string interval_answer(const Layout& layout, const Training& training) {
+std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known) {
   const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
   if (training.paths.empty()) {
     text = fmt::format("There is room to stand but no way to go: a body with {} fits there.",
                        body_words(training.radius, training.support_radius));
   } else {
-    text = training.feasible ? feasible_words(training) : infeasible_words(training);
+    text = training.feasible ? feasible_words(training, cracks_known) : infeasible_words(training);
   }
   if (layout.components.size() > 1) {
     text += fmt::format(" The scene has {} parts without a way between them; paths were planned in each.",

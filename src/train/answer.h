@@ -16,8 +16,8 @@ namespace roam::training {
 /// Why nothing could be trained: no triangle, no floor, no free place.
 [[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options);
 
-/// Of Method::interval.
-[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training);
+/// Of Method::interval. Whether all cracks were looked for.
+[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known);
 
 /// Of Method::paper.
 [[nodiscard]] std::string paper_answer(const PaperResult& result, const Training& training);

@@ -20,6 +20,8 @@ constexpr double person = 0.3;
 /// A round body is carried by both rims of a crack from 1 / sin(70 degrees) of its half width on (docs/walking.md); and
 /// a little for rims that are not straight.
 constexpr double carried_share = 1.08;
+/// m: FoundCrack::foot is found to this, and for the thinnest body that was asked for.
+constexpr double foot_precision = 0.03;
 /// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
 constexpr std::size_t most_searched = 8;
 constexpr double least_searched = 0.01;
@@ -70,13 +72,20 @@ class Paths {
     for (std::size_t i = 0; i < training_.paths.size(); ++i) cross(crossings, i);
     if (options_.paths == 0) add_crossings(crossings);
     for (const FoundCrack& crack : evidence_.cracks) {
-      if (crack.kind == Crack::Kind::crack)
-        evidence_.widest_anywhere = std::max(evidence_.widest_anywhere, crack.radius);
+      if (crack.kind == Crack::Kind::crack) note_width(crack);
       training_.cracks.push_back(crack);
     }
   }
 
  private:
+  void note_width(const FoundCrack& crack) {
+    evidence_.widest_anywhere = std::max(evidence_.widest_anywhere, crack.radius);
+    // Beside a wall a foot's disc finds room where no body does.
+    const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
+    const double foot = is_beside_wall ? crack.foot + foot_precision + layout_.measure.narrowest : crack.radius;
+    evidence_.least_foot = std::max(evidence_.least_foot, foot + foot_margin);
+  }
+
   void describe(std::size_t i) {
     const Passage& passage = layout_.paths[i].passage;
     TrainedPath path;
@@ -151,6 +160,7 @@ Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& la
     stages.begin("looking for cracks");
     evidence.cracks = cracks_of(survey, options, layout, stages);
     paths.cross_all();
+    evidence.complete = !stages.ended();
   }
   training.trapped_radius = trapped_below(training.smallest, options.step);
   describe_decisive(layout, evidence, training);
@@ -171,7 +181,7 @@ void choose_body(const BodyKind& kind, const TrainOptions& options, const Eviden
     training.radius = lower <= upper ? lower : 0.5 * (training.smallest + most);
   training.support_radius = 0.0;
   if (training.radius < carried_share * evidence.widest_anywhere)
-    training.support_radius = std::min(options.support_max, evidence.widest_anywhere + foot_margin);
+    training.support_radius = std::min(options.support_max, evidence.least_foot);
 }
 
 void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,

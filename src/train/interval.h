@@ -34,6 +34,8 @@ struct Evidence {
   std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
   std::optional<std::size_t> widest;     ///< the crack that decides the lower end
   double widest_anywhere = 0.0;          ///< m, radius of the widest crack, on a path or not
+  double least_foot = 0.0;               ///< m, of the least foot that is carried over all of them; 0: there are none
+  bool complete = true;                  ///< false: ended before all cracks were found
 };
 
 /// Looks for the cracks of what was reached, and fills in paths, cracks, both ends, trapped_radius
@@ -49,7 +51,9 @@ struct Evidence {
 ///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of
 ///     3 % to the upper end and 8 % to the lower, so that the rims carry it;
 ///   - where no radius is in the interval, the person's or the largest that passes, and a foot;
-///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm.
+///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall the largest
+///   disc
+///     whose centre is in the gap.
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training);
 
 /// Where the chosen body does not pass: smaller ones, for necks that are no part of a path, and the rooms behind.

@@ -22,13 +22,17 @@ constexpr double past_opening = 0.1;
 /// m/s. Who is to fall goes slowly: at a walking pace a body hops across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
+/// A way that comes to the middle of a crack only to this part of its radius grazes it.
+constexpr double grazing = 0.3;
+
 /// A trial that is to be made, and what it must come to.
 struct Attempt {
   std::size_t path = 0;
   double radius = 0.0, support_radius = 0.0;
   std::vector<Vec3> way;
   Judgement expected = Judgement::passed;
-  std::string why;  ///< "just inside the opening"
+  std::string why;      ///< "just inside the opening"
+  bool chosen = false;  ///< the body that is answered
 };
 
 std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
@@ -71,7 +75,7 @@ class Proof {
  public:
   Proof(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Training& training)
       : survey_(survey), kind_(kind), layout_(layout), evidence_(evidence), training_(training) {
-    foot_ = evidence.widest_anywhere > 0.0 ? evidence.widest_anywhere + foot_margin : 0.0;
+    foot_ = evidence.least_foot;
   }
 
   /// The chosen body on every path, then the sizes beside the ends.
@@ -79,7 +83,7 @@ class Proof {
     std::vector<Attempt> all;
     for (std::size_t i = 0; i < training_.paths.size(); ++i)
       all.push_back({i, training_.radius, training_.support_radius, training_.paths[i].way, Judgement::passed,
-                     "the chosen body"});
+                     "the chosen body", true});
     for (std::size_t i = 0; i < training_.paths.size(); ++i) add_opening(i, all);
     for (const PathCrossing& crossing : evidence_.crossings) {
       if (evidence_.cracks[crossing.crossing.crack].radius == training_.paths[crossing.path].smallest)
@@ -112,14 +116,31 @@ class Proof {
     const double small = crack.radius - foot_margin, body = std::min(passes, small);
     if (!(body > 0.0)) return;
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
-    if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back())) {
-      // The path begins or ends over the crack.
+    const double beside = distance_in_plan(way, crack.point);
+    if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) ||
+        (beside > grazing * crack.radius && beside < crack.radius)) {
+      // The path begins or ends over the crack, or grazes it: who does that need not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body)) return;
     }
     all.push_back({crossing.path, body, crack.radius + foot_margin, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
+  }
+
+  [[nodiscard]] static double distance_in_plan(const std::vector<Vec3>& way, const Vec3& point) {
+    const auto flat = [](Vec3 p) {
+      p.z = 0.0;
+      return p;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const Vec3 from = flat(way[i - 1]), along = flat(way[i]) - from;
+      const double square = glm::dot(along, along);
+      const double part = square > 0.0 ? std::clamp(glm::dot(flat(point) - from, along) / square, 0.0, 1.0) : 0.0;
+      least = std::min(least, glm::distance(flat(point), from + part * along));
+    }
+    return least;
   }
 
   [[nodiscard]] bool fits(const Vec3& place, double radius) const {
@@ -176,6 +197,7 @@ void prove(const Survey& survey, const BodyKind& kind, const Layout& layout, con
     trials[i].path = attempt.path;
     training.paths[attempt.path].trials.push_back(trials[i]);
     if (judged(trials[i].outcome) == attempt.expected) continue;
+    if (attempt.chosen) training.feasible = false;
     training.contradictions.push_back(
         fmt::format("On path {} a body with {} ({}) should {}, but {} at {}.", attempt.path + 1, size_text(attempt),
                     attempt.why, words(attempt.expected), what_it_did(trials[i].outcome), at(trials[i].at)));

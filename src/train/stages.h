@@ -18,6 +18,7 @@ class Stages {
 
   /// What is being done from now on.
   void begin(std::string stage) {
+    if (ended_) return;
     stage_ = std::move(stage);
     at(0.0);
   }

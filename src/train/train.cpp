@@ -61,7 +61,11 @@ void find_interval(const Survey& survey, const TrainOptions& options, const Body
   choose_body(kind, options, evidence, training);
   if (!stages.ended()) add_regions(survey, options, layout, stages, training);
   if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);
-  training.answer = interval_answer(layout, training);
+  training.answer = interval_answer(layout, training, evidence.complete);
+  if (evidence.least_foot > options.support_max && training.support_radius > 0.0)
+    training.answer +=
+        fmt::format(" A gap beside a wall needs a foot of {:.2f} m, more than was allowed: it is not carried.",
+                    evidence.least_foot);
 }
 
 void follow_paper(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,
@@ -87,7 +91,7 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const BodyK
         return stages.ended() ? std::nullopt : std::optional(trial);
       });
   for (const Trial& trial : result.trials) training.paths[trial.path].trials.push_back(trial);
-  training.feasible = result.ending == PaperResult::Ending::settled;
+  training.feasible = result.ending == PaperResult::Ending::settled && !layout.paths.empty();
   training.radius = result.radius;
   if (!(training.radius > 0.0)) take_usual_body(options, kind, training);
   if (result.fallen) training.smallest = result.fallen->radius;
@@ -119,7 +123,10 @@ Training train(const Survey& survey, const TrainOptions& options) {
     find_interval(survey, options, kind, layout, stages, training);
   }
   training.complete = !stages.ended();
-  if (!training.complete) training.answer += ended_early(stages.stage());
+  if (!training.complete) {
+    training.feasible = false;
+    training.answer += ended_early(stages.stage());
+  }
   training.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return training;
 }
