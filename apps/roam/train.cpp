@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "interrupt.h"
 #include "picture/picture.h"
 #include "progress.h"
 #include "roam/error.h"
@@ -80,11 +81,15 @@ ExitStatus train(TrainVerbOptions o) {
       save_profile(profile_of(report, scene.identity), report.profile);
     }
   }
-  if (drawing) drawing->write(picture::opening_sheet(report.scene, views_of(report), scene.survey.meshes()));
   if (o.json) {
     print(json_report(report));
   } else {
     print(text_report(report));
+  }
+  if (drawing && interrupted()) {
+    fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture.string());
+  } else if (drawing) {
+    drawing->write(picture::opening_sheet(report.scene, views_of(report), scene.survey.meshes()));
   }
   if (!report.training.complete) return failed;
   return report.training.feasible ? done : answer_no;

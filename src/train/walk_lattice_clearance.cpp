@@ -32,7 +32,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   double radius = largest;
   for (std::size_t i = 0; i < most_cuts && radius >= least; ++i) {
     // Nested bodies: what one that is too large touches bounds all that are free.
-    const Clearance c = survey.world().clearance(body_of(measure, radius - slack), centre, 0.0);
+    const Clearance c = survey.world().clearance(body_of(measure, std::max(radius - slack, 0.0)), centre, 0.0);
     if (!c.found) return Stand{radius, 0.0};
     const double limit = capsule_limit(std::hypot(c.point.x - centre.x, c.point.y - centre.y),
                                        c.point.z - (place.z + measure.step), place.z + measure.height - c.point.z);
@@ -63,7 +63,7 @@ Held sphere_lifted(const Survey& survey, const Measure& measure, const Vec3& pla
   const double lowest = place.z + lift;
   for (std::size_t i = 0; i < most_cuts && held.radius >= least; ++i) {
     const Vec3 centre(place.x, place.y, lowest + held.radius);
-    const Clearance c = survey.world().clearance(body_of(measure, held.radius - slack), centre, 0.0);
+    const Clearance c = survey.world().clearance(body_of(measure, std::max(held.radius - slack, 0.0)), centre, 0.0);
     if (!c.found) return held;
     held.aside = std::hypot(c.point.x - place.x, c.point.y - place.y);
     held.height = c.point.z - place.z;

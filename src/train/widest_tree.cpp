@@ -50,15 +50,17 @@ struct WidestTree::State {
     parent[id] = from;
     push(id, graph->expand(id));
   }
-  /// Makes `edges` those of the tree that `id` hangs in, or a new tree of it.
+  /// Makes `edges` those of the tree that `id` hangs in, or a new tree of it. A tree that was left for another one is
+  /// grown again from its root, over places that are known by now: the other may have taken some out of its middle, and
+  /// what hangs on those would hang on itself when they are taken back.
   void turn_to(NodeId id) {
     cover();
     if (root[id] != no_node && root[id] == growing) return;
     edges = {};
     growing = root[id] == no_node ? id : root[id];
-    if (root[id] == no_node) return take(id, no_node);
     for (NodeId n = 0; n < static_cast<NodeId>(root.size()); ++n)
-      if (root[n] == growing) push(n, graph->neighbours(n));
+      if (root[n] == growing) root[n] = parent[n] = no_node;
+    take(growing, no_node);
   }
 };
 
