@@ -122,6 +122,38 @@ TEST(Training, ByThePapersMethodEndsBetweenWhatFellAndWhatWasBlocked) {
   EXPECT_TRUE(says(none, "contradiction")) << none.answer;
 }
 
+/// The walls of a corridor lie beside the lattice as they like.
+TEST(Training, IsNotDecidedByTheWallBesideTheEndOfAPath) {
+  using namespace scenes;
+  for (const double width : {0.5, 0.6, 0.7, 0.8}) {
+    Mesh mesh;
+    add_floor(mesh, 0.0, 0.0, width, 6.0, 0.0);
+    for (const double x : {0.0, width}) add_wall(mesh, x, 0.0, x, 6.0, 0.0, 2.5);
+    for (const double y : {0.0, 6.0}) add_wall(mesh, 0.0, y, width, y, 0.0, 2.5);
+    const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+    ASSERT_TRUE(t.largest) << width << ": " << t.answer;
+    EXPECT_NEAR(*t.largest, 0.5 * width, 1e-3) << width;
+  }
+}
+
+TEST(Training, TakesAFootThatCarriesBesideAWall) {
+  using namespace scenes;
+  Mesh mesh;
+  constexpr double gap = 0.6;
+  add_floor(mesh, 0.0, gap, 8.0, 6.0, 0.0);
+  add_floor(mesh, 0.0, 0.0, 8.0, 6.0, 3.0);
+  add_floor(mesh, 0.0, 0.0, 8.0, gap, -5.0);
+  add_wall(mesh, 0.0, gap, 8.0, gap, -5.0, 0.0);
+  for (const double x : {0.0, 8.0}) add_wall(mesh, x, 0.0, x, 6.0, -5.0, 3.0);
+  for (const double y : {0.0, 6.0}) add_wall(mesh, 0.0, y, 8.0, y, -5.0, 3.0);
+  const Survey survey = survey_of({mesh});
+  const Training t = roam::train(survey, {.height = 1.8});
+  ASSERT_GT(t.support_radius, 0.5 * gap + 0.02) << t.answer;
+  const std::vector<Vec3> along{{2.0, 2.0, 0.0}, {3.0, 0.35, 0.0}, {5.0, 0.35, 0.0}, {6.0, 2.0, 0.0}};
+  EXPECT_EQ(walked(survey, 0.25, t.support_radius, along, 1.8), Outcome::reached);
+  EXPECT_EQ(walked(survey, 0.25, 0.5 * gap + 0.02, along, 1.8), Outcome::fell);
+}
+
 TEST(Training, SaysWhyThereIsNothingToTrain) {
   EXPECT_TRUE(says(roam::train(survey_of({})), "no triangle"));
   Mesh wall;

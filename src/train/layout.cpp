@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
 
@@ -71,9 +72,53 @@ BodyKind kind_of(const Survey& survey, const TrainOptions& options) {
   return kind;
 }
 
+namespace {
+
+/// m, to which an end of a path is moved to where it is widest.
+constexpr double end_precision = 1e-4;
+
+/// m, how far.
+constexpr double farthest_end = 1.0;
+
+/// The widest place beside one of the lattice: or the wall beside its end would decide what a path lets through.
+Vec3 widest_beside(const Survey& survey, const Measure& measure, double spacing, const Vec3& from) {
+  Vec3 best = from;
+  double most = clearance_at(survey, measure, from);
+  for (double step = 0.5 * spacing; step > end_precision; step *= 0.5) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      // In a corner only a slanting step makes room on both sides.
+      for (int direction = 0; direction < 9; ++direction) {
+        const Vec3 way(step * (direction % 3 - 1), step * (direction / 3 - 1), 0.0);
+        Vec3 place = best + way;
+        if (glm::distance(Vec3(place.x, place.y, from.z), from) > farthest_end) continue;
+        if (measure.mode == Mode::walk) {
+          const auto foot = foot_at(survey, measure, place);
+          if (!foot) continue;
+          place = *foot;
+        }
+        const double room = clearance_at(survey, measure, place);
+        if (room <= most || !passes(survey, measure, from, place, measure.narrowest)) continue;
+        best = place;
+        most = room;
+        moved = true;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
 Passage plan_path(const Survey& survey, const Layout& layout, double spacing, const Ends& ends) {
   std::vector<Vec3> places;
   for (const NodeId id : layout.tree.way(ends.from, ends.to)) places.push_back(layout.tree.node(id).place);
+  if (places.size() > 1) {
+    const auto widest = [&](const Vec3& end) { return widest_beside(survey, layout.measure, spacing, end); };
+    const Vec3 first = widest(places.front()), last = widest(places.back());
+    if (first != places.front()) places.insert(places.begin(), first);
+    if (last != places.back()) places.push_back(last);
+  }
   return refine(survey, layout.measure, spacing, places);
 }
 
