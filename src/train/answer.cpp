@@ -8,6 +8,8 @@ namespace {
 
 /// Contradictions that are told in full; of more only the number.
 constexpr std::size_t most_told = 2;
+/// A part that was left out is told of when it has more than this part of the places that were not.
+constexpr std::size_t worth_telling = 10;
 
 std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
 
@@ -112,6 +114,11 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
   if (layout.components.size() > 1) {
     text += fmt::format(" The scene has {} parts without a way between them; paths were planned in each.",
                         layout.components.size());
+  }
+  if (layout.left_out > layout.components[0].nodes.size() / worth_telling) {
+    text +=
+        fmt::format(" A part of {} places (beside {}) was left out: it seems to be outside, or on top of something.",
+                    layout.left_out, layout.components[0].nodes.size());
   }
   for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
   if (contradictions.size() > most_told)

@@ -135,7 +135,7 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
     if (component.inside && component.nodes.size() >= least) {
       layout.components.push_back(std::move(component));
     } else {
-      ++layout.left_out;
+      layout.left_out = std::max(layout.left_out, component.nodes.size());
     }
   }
   for (const Component& component : layout.components)

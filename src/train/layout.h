@@ -27,7 +27,8 @@ struct Layout {
   WidestTree tree;
   std::vector<Component> components;  ///< that are roamed
   std::vector<Rooms> rooms;           ///< of each
-  std::size_t left_out = 0;           ///< components that are not: outside, on top of something, or tiny
+  /// Places of the largest component that is not: outside, on top of something, or tiny; 0: there is none.
+  std::size_t left_out = 0;
   std::vector<PlannedPath> paths;
 };
 
