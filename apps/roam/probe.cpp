@@ -13,6 +13,7 @@
 #include "recorded_body.h"
 #include "roam/error.h"
 #include "surveyed.h"
+#include "validators.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -171,14 +172,6 @@ constexpr const char* help =
     "  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --path way.path --picture door.png\n"
     "  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json\n"
     "  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2\n";
-
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
-    },
-    "");
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include "roam/error.h"
 #include "surveyed.h"
 #include "train_report.h"
+#include "validators.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -111,14 +112,6 @@ constexpr const char* help =
     "  roam train gallery.ply --method paper --seed 7 --json --no-profile\n"
     "  roam train mine.dae --height 1.9 --picture decides.svg\n"
     "  roam train pipes.ply --mode fly --radius-max 0.8\n";
-
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
-    },
-    "");
 
 }  // namespace
 

@@ -6,17 +6,10 @@
 #include "exit_status.h"
 #include "picture/picture.h"
 #include "roam/error.h"
+#include "validators.h"
 
 namespace roam::app {
 namespace {
-
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
-    },
-    "");
 
 /// Refuses to write an output over what is read.
 void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {

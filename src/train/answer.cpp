@@ -11,8 +11,6 @@ constexpr std::size_t most_told = 2;
 /// A part that was left out is told of when it has more than this part of the places that were not.
 constexpr std::size_t worth_telling = 10;
 
-std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
-
 /// "all 5 paths", "the path".
 std::string all_paths(const Training& training) {
   return training.paths.size() == 1 ? "the path" : fmt::format("all {} paths", training.paths.size());
@@ -80,6 +78,8 @@ std::string infeasible_words(const Training& training) {
 }
 
 }  // namespace
+
+std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
 
 std::string body_words(double radius, double support_radius) {
   if (support_radius > radius)

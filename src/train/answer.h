@@ -10,6 +10,9 @@
 
 namespace roam::training {
 
+/// "(1.00, 2.00, 3.00)".
+[[nodiscard]] std::string at(const Vec3& place);
+
 /// "a radius of 0.3 m", and the foot, where there is one.
 [[nodiscard]] std::string body_words(double radius, double support_radius);
 

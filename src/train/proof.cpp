@@ -6,6 +6,7 @@
 #include <atomic>
 #include <glm/geometric.hpp>
 
+#include "train/answer.h"
 #include "train/interval.h"
 
 namespace roam::training {
@@ -34,8 +35,6 @@ struct Attempt {
   std::string why;      ///< "just inside the opening"
   bool chosen = false;  ///< the body that is answered
 };
-
-std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
 
 std::string size_text(const Attempt& attempt) {
   if (attempt.support_radius > attempt.radius)

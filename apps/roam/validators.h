@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// What the numbers of options may be.
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+namespace roam::app {
+
+/// A finite number greater than 0.
+inline const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
+    },
+    "");
+
+}  // namespace roam::app
