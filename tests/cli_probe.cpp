@@ -102,17 +102,30 @@ TEST(ProbeVerb, WritesAPathThatIsWalkedWithoutAViolation) {
   }
 }
 
-TEST(ProbeVerb, TellsOfAGapInTheFloorOfAWayThatIsWideEnough) {
+TEST(ProbeVerb, SaysNoWhereTheBodyFallsIntoAGapOfAWayThatIsWideEnough) {
   const TestFolder folder;
   const std::string scene = folder.write("gap.obj", gap_obj("5.9"));
-  const ProgramResult result = run_program(
-      ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "12,0,1", "--radius", "0.3", "--height", "1.8"});
-  EXPECT_EQ(result.status, 0) << result.err << result.out;
-  EXPECT_TRUE(contains(result.out, "Yes: ") && contains(result.out, "the floor has a gap")) << result.out;
-  const ProgramResult carried =
-      run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "12,0,1", "--radius", "0.3", "--height",
-                                 "1.8", "--support-radius", "0.47"});
-  EXPECT_FALSE(contains(carried.out, "gap")) << carried.out;
+  const auto ask = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"probe",  scene,      "--from", "2,0,1",    "--to",
+                                       "12,0,1", "--radius", "0.3",    "--height", "1.8"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(ROAM_PROGRAM, arguments);
+  };
+  const ProgramResult falls = ask({});
+  EXPECT_EQ(falls.status, 3) << falls.err;
+  EXPECT_TRUE(falls.out.starts_with("No: ") && contains(falls.out, "falls at (5.")) << falls.out;
+  EXPECT_TRUE(contains(falls.out, "--support-radius")) << falls.out;
+  const Json report = Json::parse(ask({"--json"}).out, nullptr, false);
+  EXPECT_EQ(report["passable"], false);
+  EXPECT_EQ(report["wide_enough"], true);
+  EXPECT_EQ(report["walked"]["outcome"], "fell");
+  const ProgramResult table =
+      run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "12,0,1", "--matrix", "0.3x1.8,0.7x1.8"});
+  EXPECT_EQ(table.status, 3);
+  EXPECT_TRUE(contains(table.out, "walker fell at")) << table.out;
+  const ProgramResult carried = ask({"--support-radius", "0.47"});
+  EXPECT_EQ(carried.status, 0) << carried.out;
+  EXPECT_TRUE(carried.out.starts_with("Yes: ")) << carried.out;
 }
 
 TEST(ProbeVerb, FliesWhereAsked) {
@@ -175,12 +188,168 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "0.3", "--height", "0.5"}, "height");
   refused({"--radius", "0.3", "--matrix", "0.3"}, "--matrix");
   refused({"--matrix", "0.3xx2"}, "'0.3xx2' is no size");
+  refused({"--matrix", "sizes.txt"}, "there is no file \"sizes.txt\"");
+  refused({"--matrix", probe.folder.file(".")}, "folder");
+  refused({"--matrix", ""}, "no sizes");
+  refused({"--matrix", "nan"}, "radius");
+  refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");
+  refused({"--matrix", "0.3", "--picture", "p.svg"}, "--picture");
+  refused({"--radius", "nan"}, "--radius");
+  refused({"--radius", "-1"}, "--radius");
+  refused({"--radius", "2000"}, "radius");
+  refused({"--radius", "0.3", "--height", "inf"}, "--height");
+  refused({"--radius", "0.3", "--step", "nan"}, "--step");
+  refused({"--radius", "0.3", "--step", "-1"}, "--step");
+  refused({"--radius", "0.3", "--slope", "nan"}, "--slope");
+  refused({"--radius", "0.3", "--slope", "90"}, "--slope");
+  refused({"--radius", "0.3", "--spacing", "1e-9"}, "--spacing");
+  refused({"--radius", "0.3", "--spacing", "5000"}, "--spacing");
+  refused({"--radius", "0.3", "--support-radius", "-1"}, "--support-radius");
+  refused({"--radius", "0.3", "--threads", "0"}, "--threads");
+  refused({"--radius", "0.3", "--mode", "ghost"}, "--mode");
+  refused({"--radius", "0.3", "--mode", "fly", "--step", "0.2"}, "--mode fly");
+  refused({"--radius", "0.3", "--picture", ""}, "--picture");
+  refused({"--radius", "0.3", "--path", ""}, "--path");
+  refused({"--radius", "0.3", "--seed", "-1"}, "--seed");
   refused({"--matrix", "0.3", "--path", "p.path"}, "--path");
   refused({"--radius", "0.3", "--height", "1.8", "--mode", "fly"}, "sphere");
   refused({"--radius", "0.3", "--picture", "door.txt"}, ".svg or a .png");
   refused({"--radius", "0.3", "--path", probe.scene}, "would overwrite");
   EXPECT_EQ(probe.ask({"--radius", "0.3", "--from", "2,0"}).result.status, 2);
+  for (const char* place : {"nan,0,1", "inf,0,1", "1e300,0,1", "a,0,1", "1,2"}) {
+    const ProgramResult result =
+        run_program(ROAM_PROGRAM, {"probe", probe.scene, "--from", place, "--to", "18,0,1", "--radius", "0.3"});
+    EXPECT_EQ(result.status, 2) << place;
+    EXPECT_TRUE(contains(result.err, "--from")) << result.err;
+  }
   EXPECT_EQ(probe.folder.read("room.obj"), door_obj(0.7));
+}
+
+TEST(ProbeVerb, TellsAnEndBesideAWallFromADoor) {
+  Probe probe(0.84);
+  const auto ask = [&](const char* from, const char* radius) {
+    probe.result = run_program(ROAM_PROGRAM, {"probe", probe.scene, "--from", from, "--to", "18,0,1", "--radius",
+                                              radius, "--height", "1.8", "--json"});
+    return probe.json();
+  };
+  const Json no = ask("2,1.75,1", "0.3");
+  EXPECT_EQ(probe.result.status, 3) << probe.result.err;
+  const Json& end = no["opening"];
+  EXPECT_EQ(end["kind"], "end");
+  EXPECT_EQ(end["end"], "start");
+  EXPECT_NEAR(end["distance_m"].get<double>(), 0.25, 1e-3);
+  EXPECT_NEAR(end["missing_m"].get<double>(), 0.05, 1e-3);
+  EXPECT_FALSE(end.contains("width_m"));
+  EXPECT_NEAR(end["direction"][1].get<double>(), 1.0, 1e-6);
+  EXPECT_LE(end["room"][1].get<double>(), 1.7);
+  EXPECT_GT(end["room"][1].get<double>(), 1.6);
+  EXPECT_TRUE(contains(no["answer"], "The start stands 0.250 m from a wall")) << no["answer"];
+  EXPECT_FALSE(contains(no["answer"], "door")) << no["answer"];
+  const Json yes = ask("2,1.75,1", "0.2");
+  EXPECT_EQ(probe.result.status, 0) << probe.result.err;
+  EXPECT_EQ(yes["opening"]["kind"], "end");
+  EXPECT_TRUE(contains(yes["answer"], "the start itself, which stands 0.250 m from a wall")) << yes["answer"];
+  // In the doorway, half way through: the door decides, not the end.
+  const Json door = ask("10,0,1", "0.5");
+  EXPECT_EQ(door["opening"]["kind"], "door") << door["answer"];
+  EXPECT_NEAR(door["opening"]["width_m"].get<double>(), 0.84, 1e-3);
+  // Closed in by the wall beside it, before any door: it is the start all the same.
+  const Json closed = ask("2,1.93,1", "0.3");
+  EXPECT_EQ(closed["opening"]["kind"], "end") << closed["answer"];
+}
+
+TEST(ProbeVerb, MeasuresTheHeightOfALintelThatStopsTheBody) {
+  Probe probe(0.9);  // 2.1 m high
+  probe.ask({"--radius", "0.3", "--height", "2.2", "--json"});
+  EXPECT_EQ(probe.result.status, 3) << probe.result.err;
+  const Json low = probe.json();
+  EXPECT_EQ(low["opening"]["kind"], "height") << low["answer"];
+  EXPECT_NEAR(low["opening"]["height_m"].get<double>(), 2.1, 1e-3);
+  EXPECT_NEAR(low["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
+  EXPECT_NEAR(low["opening"]["point"][0].get<double>(), 10.0, 0.31);  // below the lintel, by the body's radius
+  EXPECT_TRUE(contains(low["answer"], "passes up to a height of 2.100 m; 0.100 m are missing")) << low["answer"];
+  // No height helps who is too wide.
+  probe.ask({"--radius", "0.5", "--height", "2.2", "--json"});
+  EXPECT_EQ(probe.json()["opening"]["kind"], "apart") << probe.result.out;
+  probe.ask({"--radius", "0.5", "--height", "2.0", "--json"});
+  EXPECT_EQ(probe.json()["opening"]["kind"], "door") << probe.result.out;
+}
+
+/// A floor with a ledge across it at x = 10, as high as said, under no ceiling.
+std::string ledge_obj(const std::string& height) {
+  return "v 0 -2 0\nv 10 -2 0\nv 10 2 0\nv 0 2 0\nv 10 -2 " + height + "\nv 20 -2 " + height + "\nv 20 2 " + height +
+         "\nv 10 2 " + height + "\no ledge\nf 1 2 3 4\nf 5 6 7 8\nf 2 3 8 5\n";
+}
+
+TEST(ProbeVerb, MeasuresTheStepThatIsTooHigh) {
+  const TestFolder folder;
+  const std::string scene = folder.write("ledge.obj", ledge_obj("0.5"));
+  const auto ask = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"probe",    scene, "--from",   "2,0,1", "--to",  "18,0,1.5",
+                                       "--radius", "0.3", "--height", "1.8",   "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(ROAM_PROGRAM, arguments);
+    Json report = Json::parse(result.out, nullptr, false);
+    report["status"] = result.status;
+    return report;
+  };
+  const Json stopped = ask({});
+  EXPECT_EQ(stopped["status"], 3);
+  EXPECT_EQ(stopped["opening"]["kind"], "step") << stopped["answer"];
+  EXPECT_NEAR(stopped["opening"]["step_m"].get<double>(), 0.5, 1e-3);
+  EXPECT_NEAR(stopped["opening"]["missing_m"].get<double>(), 0.2, 1e-3);
+  EXPECT_NEAR(stopped["opening"]["point"][0].get<double>(), 10.0, 0.02);
+  EXPECT_EQ(ask({"--step", "0.55"})["opening"]["kind"].is_null(), true);
+}
+
+TEST(ProbeVerb, EndsClearlyWhereTheTargetIsOnAnotherFloor) {
+  const TestFolder folder;
+  std::string text = room_obj();
+  text += "v 0 -2 3.3\nv 20 -2 3.3\nv 20 2 3.3\nv 0 2 3.3\no upper\nf 9 10 11 12\n";
+  const std::string scene = folder.write("storeys.obj", text);
+  const ProgramResult result = run_program(
+      ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "18,0,4", "--radius", "0.3", "--height", "1.8"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_TRUE(contains(result.out, "There is no way at all") && contains(result.out, "The target lies 3.3 m higher"))
+      << result.out;
+}
+
+TEST(ProbeVerb, SaysWhyNobodyCanBeAtAnEndAndWhereOneCould) {
+  Probe probe(0.7);
+  const auto refused = [&](const std::string& from, const std::string& why) {
+    const ProgramResult result = run_program(
+        ROAM_PROGRAM, {"probe", probe.scene, "--from", from, "--to", "18,0,1", "--radius", "0.3", "--height", "1.8"});
+    EXPECT_EQ(result.status, 1) << from;
+    EXPECT_TRUE(contains(result.err, "--from (") && contains(result.err, why)) << result.err;
+    EXPECT_TRUE(contains(result.err, "The nearest place found for a radius of 0.3 m is (")) << result.err;
+  };
+  refused("500,0,1", "off the scene, which spans (0.00, -2.00, 0.00) to (20.00, 2.00, 3.00)");
+  refused("2,0,-4", "off the scene");
+  // Over a hole.
+  const std::string gap = probe.folder.write("gap.obj",
+                                             "v 0 -2 0\nv 8 -2 0\nv 8 2 0\nv 0 2 0\nv 12 -2 0\nv 20 -2 0\n"
+                                             "v 20 2 0\nv 12 2 0\no floors\nf 1 2 3 4\nf 5 6 7 8\n");
+  const ProgramResult hole = run_program(
+      ROAM_PROGRAM, {"probe", gap, "--from", "10,0,1", "--to", "18,0,1", "--radius", "0.3", "--height", "1.8"});
+  EXPECT_EQ(hole.status, 1);
+  EXPECT_TRUE(contains(hole.err, "off the scene") || contains(hole.err, "there is no floor below it")) << hole.err;
+  EXPECT_TRUE(contains(hole.err, "The nearest place")) << hole.err;
+  // High up it is taken down, and told.
+  const ProgramResult high = run_program(
+      ROAM_PROGRAM, {"probe", gap, "--from", "2,0,9", "--to", "6,0,1", "--radius", "0.3", "--height", "1.8"});
+  EXPECT_EQ(high.status, 0) << high.err;
+  EXPECT_TRUE(contains(high.out, "The start is 9.00 m above the floor: (2.00, 0.00, 0.00) was taken.")) << high.out;
+}
+
+TEST(ProbeVerb, SaysThatAnEndIsTooLow) {
+  Probe probe(0.7);
+  const ProgramResult result = run_program(ROAM_PROGRAM, {"probe", probe.scene, "--from", "2,0,1", "--to", "18,0,1",
+                                                          "--radius", "0.3", "--height", "3.2", "--json"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  const Json report = Json::parse(result.out, nullptr, false);
+  EXPECT_EQ(report["opening"]["kind"], "end");
+  EXPECT_NEAR(report["opening"]["height_m"].get<double>(), 3.0, 1e-3);
+  EXPECT_TRUE(contains(report["answer"], "The start is too low")) << report["answer"];
 }
 
 TEST(ProbeVerb, NamesAPlaceWhereNobodyFits) {
@@ -188,7 +357,7 @@ TEST(ProbeVerb, NamesAPlaceWhereNobodyFits) {
   const ProgramResult result =
       run_program(ROAM_PROGRAM, {"probe", probe.scene, "--from", "2,0,1", "--to", "500,0,1", "--radius", "0.3"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.err, "(500, 0, 1)")) << result.err;
+  EXPECT_TRUE(contains(result.err, "(500.00, 0.00, 1.00)")) << result.err;
 }
 
 }  // namespace

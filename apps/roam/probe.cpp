@@ -8,7 +8,9 @@
 #include <memory>
 
 #include "interrupt.h"
+#include "picture/draw.h"
 #include "probe_answer.h"
+#include "probe_picture.h"
 #include "progress.h"
 #include "recorded_body.h"
 #include "roam/error.h"
@@ -24,58 +26,97 @@ struct ProbeOptions {
   ProbeQuestion question;
   std::vector<double> from, to;
   std::string mode = "walk";
-  std::optional<double> radius, height;
-  std::string matrix;  ///< sizes, or a file of them
-  std::filesystem::path picture, path;
+  std::optional<double> radius, height, step, slope, support_radius, spacing;
+  std::optional<std::string> matrix;  ///< sizes, or a file of them
+  std::optional<std::filesystem::path> picture, path;
   bool json = false;
 };
 
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
   std::ifstream in(file);
+  if (!in) throw Error(file.string() + ": cannot be read; may you read it?");
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number));
     sizes.insert(sizes.end(), more.begin(), more.end());
   }
-  if (in.bad()) throw Error(file.string() + ": cannot be read; is it a file, and may you read it?");
+  if (in.bad()) throw Error(file.string() + ": cannot be read to its end; is its disk well?");
+  return sizes;
+}
+
+/// What --matrix says: a file where there is one of that name.
+std::vector<ProbedSize> matrix_sizes(const std::string& text) {
+  std::error_code none;
+  if (std::filesystem::is_directory(text, none))
+    throw UsageError(fmt::format("--matrix {}: that is a folder; name a file of sizes, or sizes", text));
+  std::vector<ProbedSize> sizes;
+  if (std::filesystem::exists(text, none)) {
+    sizes = read_sizes(text);
+  } else {
+    try {
+      sizes = parse_sizes(text, "--matrix");
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}; and there is no file \"{}\"", error.what(), text));
+    }
+  }
+  if (sizes.empty()) throw UsageError(fmt::format("--matrix {}: there are no sizes in it", text));
   return sizes;
 }
 
 std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   std::vector<ProbedSize> sizes;
-  if (o.matrix.empty()) {
+  if (!o.matrix) {
     if (!o.radius) throw UsageError("probe: how large is the body? Give it a --radius, or sizes by --matrix");
     sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
   } else {
     if (o.radius || o.height) throw UsageError("--matrix says all sizes: leave out --radius and --height");
-    if (!o.picture.empty() || !o.path.empty())
-      throw UsageError("--matrix has no one way: leave out --picture and --path");
-    std::error_code none;
-    const bool is_file = std::filesystem::is_regular_file(o.matrix, none);
-    sizes = is_file ? read_sizes(o.matrix) : parse_sizes(o.matrix, "--matrix");
-    if (sizes.empty()) throw UsageError(fmt::format("--matrix {}: there are no sizes in it", o.matrix));
+    if (o.picture || o.path) throw UsageError("--matrix has no one way: leave out --picture and --path");
+    sizes = matrix_sizes(*o.matrix);
   }
   for (const ProbedSize& size : sizes) {
     try {
       static_cast<void>(settings_of(o.question, size));
     } catch (const Error& error) {
-      throw UsageError(error.what());
+      throw UsageError(o.matrix ? fmt::format("--matrix, size {:g}x{:g}: {}", size.radius, size.height, error.what())
+                                : error.what());
     }
-    if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius) {
-      throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
-    }
+    if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius)
+      throw UsageError("--mode fly: what flies is a sphere; leave its height out");
   }
   return sizes;
 }
 
-void check_output(const ProbeOptions& o, const char* option, const std::filesystem::path& output) {
+/// The question as the options ask it.
+ProbeQuestion question_of(const ProbeOptions& o) {
+  ProbeQuestion q;
+  q.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
+  const auto place = [](const char* option, const std::vector<double>& value) {
+    for (const double v : value) {
+      if (!(std::abs(v) <= Space::coordinate_limit))
+        throw UsageError(fmt::format("{}: {} is no coordinate; it must be within 1e9 m of the origin", option, v));
+    }
+    return Vec3(value[0], value[1], value[2]);
+  };
+  q.from = place("--from", o.from);
+  q.to = place("--to", o.to);
+  if (q.mode == Mode::fly && (o.step || o.slope || o.support_radius))
+    throw UsageError("--mode fly: --step, --slope and --support-radius are for walking; leave them out");
+  q.step = o.step.value_or(q.step);
+  q.slope_degrees = o.slope.value_or(q.slope_degrees);
+  q.support_radius = o.support_radius.value_or(q.support_radius);
+  q.spacing = o.spacing.value_or(q.spacing);
+  return q;
+}
+
+void check_output(const ProbeOptions& o, const char* option, const std::optional<std::filesystem::path>& output) {
+  if (!output) return;
+  if (output->empty()) throw UsageError(fmt::format("{}: a file needs a name", option));
   std::error_code none;
   for (const auto& scene : o.scene.scenes) {
-    if (!output.empty() && std::filesystem::equivalent(scene, output, none)) {
-      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output.string()));
-    }
+    if (std::filesystem::equivalent(scene, *output, none))
+      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output->string()));
   }
 }
 
@@ -90,16 +131,16 @@ std::string file_names(const SceneOptions& scene) {
 }
 
 void write_path(const ProbeOptions& o, const ProbeAnswer& answer) {
-  std::ofstream out(o.path);
+  std::ofstream out(*o.path);
   out << "# " << explain(o.question, answer) << "\n";
   out << body_line(settings_of(o.question, answer.size), o.question.mode) << "\n";
   for (const Vec3& p : centres(o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
   out.close();
-  if (!out) throw Error(o.path.string() + ": cannot be written; is its folder yours, and the disk not full?");
+  if (!out) throw Error(o.path->string() + ": cannot be written; is its folder yours, and the disk not full?");
 }
 
 Json json_report(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
-  const bool one = o.matrix.empty();
+  const bool one = !o.matrix;
   Json json = {{"scene", o.scene.names()},          {"triangles", scene.survey.triangles()},
                {"mode", name(o.question.mode)},     {"from", to_json(o.question.from)},
                {"to", to_json(o.question.to)},      {"step", o.question.step},
@@ -117,42 +158,31 @@ Json json_report(const ProbeOptions& o, const Surveyed& scene, std::span<const P
 }
 
 ExitStatus probe(ProbeOptions o) {
-  o.question.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
-  o.question.from = {o.from[0], o.from[1], o.from[2]};
-  o.question.to = {o.to[0], o.to[1], o.to[2]};
+  o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
   check_output(o, "--path", o.path);
   check_output(o, "--picture", o.picture);
-  if (!o.picture.empty() && !picture::is_picture(o.picture)) {
-    throw UsageError("--picture " + o.picture.string() + ": a picture is an .svg or a .png, by its extension");
-  }
+  if (o.picture && !picture::is_picture(*o.picture))
+    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
   }
   std::optional<picture::PictureFile> drawing;
-  if (!o.picture.empty()) drawing.emplace(o.picture);
+  if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.question.slope_degrees);
   std::vector<ProbeAnswer> answers;
   {
     Progress progress("looking for a way", "places");
     answers = probe(scene.survey, o.question, sizes, [&](std::uint64_t places) { return progress.goes_on(places, 0); });
   }
-  ProbeAnswer& first = answers.front();
-  if (o.matrix.empty() && first.passable) {
-    first.walk = walk_way(scene.survey, o.question, first);
-    if (!o.path.empty()) write_path(o, first);
-  }
-  if (drawing) {
-    std::vector<picture::OpeningView> views;
-    if (const auto view = view_of(scene.survey, o.question, first)) views.push_back(*view);
-    const std::string title = file_names(o.scene) + (views.empty() ? ": " + explain(o.question, first) : "");
-    drawing->write(picture::opening_sheet(title, views, scene.survey.meshes()));
-  }
+  const ProbeAnswer& first = answers.front();
+  if (o.path && first.wide_enough) write_path(o, first);
+  if (drawing) drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first));
   if (o.json) {
     print(json_report(o, scene, answers));
   } else {
-    print(o.matrix.empty() ? explain(o.question, first) + "\n" : table(answers));
+    print(o.matrix ? table(answers) : explain(o.question, first) + "\n");
   }
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;
@@ -161,7 +191,10 @@ ExitStatus probe(ProbeOptions o) {
 constexpr const char* help =
     "Says whether a body of a given size gets from one place to another: yes with the way and its narrowest place, or\n"
     "no with the opening that stops it and what is missing. The widest way there is decides, not where some walker\n"
-    "stopped; the way is certified. Exit status 0 for yes, 3 for no; of --matrix 0 when all sizes get there.\n\n"
+    "stopped; the way is certified, and a walker has gone it before a yes is said. Exit status 0 for yes; 3 for no, "
+    "and\n"
+    "where the walker contradicts the way; of --matrix 0 when all sizes get there; 1 when it failed, as for a place\n"
+    "where nobody can be; 2 for wrong usage.\n\n"
     "Places are of the feet or the eyes of a person, taken down to the floor; flying, of the centre. What is lower "
     "than\n"
     "--step above the floor is walked over: a sphere climbs at most its radius. --path writes the way as the body's\n"
@@ -194,20 +227,20 @@ void add_probe(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(CLI::IsMember({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.question.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(CLI::Range(0.0, 1000.0))
+  verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
+      ->check(number_within(0.0, 1000.0))
       ->type_name("M");
-  verb->add_option("--slope", o.question.slope_degrees, "What walking climbs, in degrees (default: 45)")
-      ->check(CLI::Range(0.0, 89.0))
+  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
+      ->check(number_within(0.0, 89.0))
       ->type_name("DEG");
-  verb->add_option("--support-radius", o.question.support_radius,
+  verb->add_option("--support-radius", o.support_radius,
                    "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
       ->check(positive)
       ->type_name("RS");
-  verb->add_option("--spacing", o.question.spacing,
+  verb->add_option("--spacing", o.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(positive)
+      ->check(number_within(0.001, 100.0))
       ->type_name("M");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
   verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "picture/opening.h"
 #include "report.h"
 #include "roam/passage.h"
 #include "roam/route.h"
@@ -47,33 +46,62 @@ struct ProbeWalk {
   Vec3 at{0.0};  ///< of the centre; where it fell or stopped
 };
 
+/// What decides: the narrowest place of the way, or what stops the body.
+struct Limit {
+  enum class Kind : std::uint8_t {
+    door,    ///< walls on both sides; `size` from one to the other
+    lintel,  ///< something above and below, met aslant; `size` is the diameter of the largest body that passes
+    gap,     ///< flying: any two sides; `size` from one to the other
+    start,   ///< the start stands beside a wall; `size` from it to its axis. Or under a ceiling: see `too_low`
+    target,  ///< the same of the target
+    height,  ///< `size` is the height from the feet that a body of this radius may have
+    step,    ///< `size` is by how much the floor rises or falls at once
+    apart,   ///< nothing joins both ends: here they come nearest to each other
+  };
+  Kind kind = Kind::door;
+  Vec3 point{0.0};       ///< the middle of what is measured; of a height and a step on the floor
+  Vec3 direction{0.0};   ///< unit, along what is measured
+  Vec3 heading{0.0};     ///< unit, as the way leads there; 0: not known
+  Vec3 feet{0.0};        ///< where the body stands there; flying: its centre
+  double size = 0.0;     ///< m
+  double needed = 0.0;   ///< m, by the body; of a step what it climbs
+  double along = 0.0;    ///< m of the way up to there
+  bool too_low = false;  ///< of an end: a headroom is measured, not a distance
+};
+
+/// "door", "lintel", "gap", "end", "height", "step" or "apart".
+[[nodiscard]] const char* name(Limit::Kind kind);
+[[nodiscard]] inline bool is_end(Limit::Kind kind) { return kind == Limit::Kind::start || kind == Limit::Kind::target; }
+
 struct ProbeAnswer {
   ProbedSize size;
   Passage passage;
-  bool passable = false;
+  double narrowest = 0.0;         ///< m: of bodies that are not larger than this nothing is known
+  bool wide_enough = false;       ///< there is a way that is wide enough for the body
+  bool passable = false;          ///< and the walker has gone it
   bool proven = false;            ///< that no wider way exists, or none that is wide enough, is certified
-  double along = 0.0;             ///< metres of the way up to the opening
-  double missing = 0.0;           ///< metres of the opening's width; 0 where it is wide enough
-  std::optional<ProbeWalk> walk;  ///< where it was walked
+  Vec3 start{0.0}, target{0.0};   ///< where a body stands for `from` and `to`
+  std::optional<Limit> limit;     ///< none where nothing on the way is as narrow as is looked for
+  double missing = 0.0;           ///< m, what `limit` leaves too little for the body; 0 where it is enough
+  std::optional<Vec3> room;       ///< where an end is in the way: the nearest place where it would not be
+  std::optional<ProbeWalk> walk;  ///< where the way is wide enough
 };
 
-/// The answers for all sizes, in their order. Sizes of one height that climb alike share one search. `progress` is
-/// called with places looked at; false ends it: roam::Cancelled. Throws what widest_way throws.
+/// Called with places looked at; false ends the search: roam::Cancelled.
+using ProbeProgress = std::function<bool(std::uint64_t)>;
+
+/// The answers for all sizes, in their order. Sizes of one height that climb alike share one search. Throws what
+/// widest_way throws, and roam::Error for an end where nobody can stand, with the nearest place where one could.
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
-                                             std::span<const ProbedSize> sizes,
-                                             const std::function<bool(std::uint64_t)>& progress);
+                                             std::span<const ProbedSize> sizes, const ProbeProgress& progress);
 
 /// The way as places of the centre of the body.
 [[nodiscard]] std::vector<Vec3> centres(const ProbeQuestion& question, const ProbeAnswer& answer);
-/// Sends the walker along the way.
-[[nodiscard]] ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer);
 
-/// One to three sentences.
+/// What decides, in a few words, with its size: "door 0.520 m wide".
+[[nodiscard]] std::string text_of(const Limit& limit);
+/// One to four sentences.
 [[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
-/// The opening that decides, with the body in it; nothing where no opening does.
-[[nodiscard]] std::optional<picture::OpeningView> view_of(const Survey& survey, const ProbeQuestion& question,
-                                                          const ProbeAnswer& answer);
-
 /// The members of one size; `way` and what belongs to it only where they are asked for.
 [[nodiscard]] Json json_report(const ProbeAnswer& answer, bool with_way);
 /// One line a size.

@@ -1,0 +1,267 @@
+// What `roam probe` says: sentences, a table, JSON.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "probe_answer.h"
+
+namespace roam::app {
+namespace {
+
+using Kind = Limit::Kind;
+
+/// Metres: an end that stands farther than that from the place that was asked for is told.
+constexpr double moved_aside = 0.05;
+constexpr double tall = 2.0;  ///< eyes are at most that far above the feet
+
+std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
+
+/// Millimetres where metres would show little of it.
+std::string metres(double length) {
+  return length >= 0.01 ? fmt::format("{:.3f} m", length) : fmt::format("{:.1f} mm", 1e3 * length);
+}
+
+std::string body_text(const ProbedSize& size) {
+  if (size.height <= 2.0 * size.radius) return fmt::format("a sphere of radius {:.3g} m", size.radius);
+  return fmt::format("a body of radius {:.3g} m and height {:.3g} m", size.radius, size.height);
+}
+
+const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target"; }
+
+/// "the narrowest place is ..." of a way that is wide enough.
+std::string narrowest(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (!answer.limit) return fmt::format("nothing on it leaves less than {}", metres(2.0 * p.radius));
+  const Limit& limit = *answer.limit;
+  const std::string where = fmt::format("at {}, {:.1f} m on the way", at(limit.point), limit.along);
+  if (is_end(limit.kind)) {
+    return fmt::format("nothing on it is narrower than the {} itself, which stands {} from a wall",
+                       end_name(limit.kind), metres(limit.size));
+  }
+  if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
+    return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
+  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size),
+                     limit.kind == Kind::lintel ? "high" : "wide", name(limit.kind), where);
+}
+
+/// Of what cannot be passed by anybody.
+std::string no_way(const ProbeAnswer& answer) {
+  return fmt::format(
+      "There is no way at all, not even for a radius of {}: what is reached from the start and what is reached from "
+      "the "
+      "target do not meet",
+      metres(answer.narrowest));
+}
+
+/// What stops the body.
+std::string stopped_by(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (!answer.limit) {
+    if (p.found) return fmt::format("No way leaves more than {}.", metres(2.0 * p.radius));
+    std::string text = no_way(answer) + ", nor come near each other.";
+    const double rise = answer.target.z - answer.start.z;
+    if (std::abs(rise) > tall) {
+      text += fmt::format(" The target lies {:.1f} m {}; no stairs or ramp join the two.", std::abs(rise),
+                          rise > 0.0 ? "higher" : "lower");
+    }
+    return text;
+  }
+  const Limit& limit = *answer.limit;
+  const std::string missing =
+      answer.missing < 1e-3 ? "less than 1 mm is missing" : metres(answer.missing) + " are missing";
+  switch (limit.kind) {
+    case Kind::start:
+    case Kind::target: {
+      std::string text = limit.too_low
+                             ? fmt::format("The {} is too low: at {} there are {} from the floor to what is above; {}.",
+                                           end_name(limit.kind), at(limit.feet), metres(limit.size), missing)
+                             : fmt::format("The {} stands {} from a wall, at {}; {}.", end_name(limit.kind),
+                                           metres(limit.size), at(limit.feet), missing);
+      if (answer.room) text += fmt::format(" The nearest place with room for it is {}.", at(*answer.room));
+      return text;
+    }
+    case Kind::height: {
+      std::string text = fmt::format("It is too high: near {} a body of that radius passes up to a height of {}; {}.",
+                                     at(limit.feet), metres(limit.size), missing);
+      if (p.found) text += fmt::format(" At its whole height only a radius of {} passes.", metres(p.radius));
+      return text;
+    }
+    case Kind::step:
+      return fmt::format("A step stops it: at {} the floor changes by {} at once, and the body steps {}.",
+                         at(limit.point), metres(limit.size), metres(limit.needed));
+    case Kind::apart:
+      return no_way(answer) + fmt::format("; it breaks off at {}.", at(limit.point));
+    case Kind::lintel:
+      if (answer.size.height > 2.0 * answer.size.radius) {
+        return fmt::format("The lintel at {} lets a radius of {} through at that height; {}.", at(limit.point),
+                           metres(0.5 * limit.size), metres(0.5 * answer.missing) + " are missing");
+      }
+      break;
+    case Kind::door:
+    case Kind::gap:
+      break;
+  }
+  return fmt::format("The {} at {} is {} {}; {}.", name(limit.kind), at(limit.point), metres(limit.size),
+                     limit.kind == Kind::lintel ? "high" : "wide", missing);
+}
+
+/// How sure a no is.
+std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (!p.complete) return " The search was ended early: a wider way may exist.";
+  if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
+  if (answer.proven) return p.found ? " That none wider exists is certified." : " That is certified.";
+  return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
+                     p.found ? " wider" : "", question.spacing, 0.7 * question.spacing);
+}
+
+/// Where the walker was, as all places are told: of the feet, flying of the centre.
+std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  Vec3 place = answer.walk->at;
+  if (question.mode == Mode::walk) place.z -= 0.5 * answer.size.height;
+  return at(place);
+}
+
+/// Where an end had to be taken elsewhere.
+std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode mode) {
+  const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
+  if (mode == Mode::fly ? glm::distance(asked, stands) > moved_aside : aside > moved_aside) {
+    return fmt::format(" The {} has no room where it was asked for: {} was taken.", end, at(stands));
+  }
+  if (mode == Mode::walk && down > tall)
+    return fmt::format(" The {} is {:.2f} m above the floor: {} was taken.", end, down, at(stands));
+  return "";
+}
+
+}  // namespace
+
+const char* name(Limit::Kind kind) {
+  switch (kind) {
+    case Kind::door:
+      return "door";
+    case Kind::lintel:
+      return "lintel";
+    case Kind::gap:
+      return "gap";
+    case Kind::start:
+    case Kind::target:
+      return "end";
+    case Kind::height:
+      return "height";
+    case Kind::step:
+      return "step";
+    case Kind::apart:
+      return "apart";
+  }
+  return "unknown";
+}
+
+std::string text_of(const Limit& limit) {
+  switch (limit.kind) {
+    case Kind::door:
+    case Kind::gap:
+      return fmt::format("{} {} wide", name(limit.kind), metres(limit.size));
+    case Kind::lintel:
+      return fmt::format("lintel for a radius of {}", metres(0.5 * limit.size));
+    case Kind::start:
+    case Kind::target:
+      return fmt::format("{} {} {}", end_name(limit.kind), metres(limit.size),
+                         limit.too_low ? "below what is above it" : "from a wall");
+    case Kind::height:
+      return fmt::format("height {}", metres(limit.size));
+    case Kind::step:
+      return fmt::format("step of {}", metres(limit.size));
+    case Kind::apart:
+      return "nearest approach";
+  }
+  return "";
+}
+
+std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  const std::string ways = fmt::format("from {} to {}", at(question.from), at(question.to));
+  const std::string body = body_text(answer.size);
+  std::string text;
+  if (answer.passable) {
+    text = fmt::format("Yes: {} gets {} on a way of {:.1f} m; {}.", body, ways, p.length, narrowest(answer));
+  } else if (answer.walk && answer.walk->outcome == Outcome::fell) {
+    text = fmt::format(
+        "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (--support-radius), or a bridge. "
+        "Else it would get {} on a way of {:.1f} m; {}.",
+        body, walked_to(question, answer), ways, p.length, narrowest(answer));
+  } else if (answer.walk) {
+    const char* how = answer.walk->outcome == Outcome::left_scene ? "left the scene"
+                      : answer.walk->outcome == Outcome::held     ? "was held"
+                                                                  : "was blocked";
+    text = fmt::format(
+        "Not shown: the walker that was sent along the way {} at {}. By its measures {} gets {} on a way of {:.1f} m; "
+        "{}.",
+        how, walked_to(question, answer), body, ways, p.length, narrowest(answer));
+  } else {
+    text = fmt::format("No: {} does not get {}. {}", body, ways, stopped_by(answer)) + sureness(question, answer);
+  }
+  return text + moved("start", question.from, answer.start, question.mode) +
+         moved("target", question.to, answer.target, question.mode);
+}
+
+Json json_report(const ProbeAnswer& answer, bool with_way) {
+  const Passage& p = answer.passage;
+  Json json = {{"radius", answer.size.radius},      {"height", answer.size.height},    {"passable", answer.passable},
+               {"wide_enough", answer.wide_enough}, {"clearance_m", p.radius},         {"limited", p.limited},
+               {"start", to_json(answer.start)},    {"target", to_json(answer.target)}};
+  if (with_way) {
+    Json way = Json::array();
+    for (const Vec3& place : p.way) way.push_back(to_json(place));
+    json["way"] = std::move(way);
+    json["length_m"] = p.length;
+  }
+  json["opening"] = nullptr;
+  if (answer.limit) {
+    const Limit& limit = *answer.limit;
+    Json& opening = json["opening"];
+    opening = {{"kind", name(limit.kind)}, {"point", to_json(limit.point)}};
+    if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
+    const char* const size = limit.kind == Kind::height || limit.too_low ? "height_m"
+                             : is_end(limit.kind)                        ? "distance_m"
+                             : limit.kind == Kind::step                  ? "step_m"
+                                                                         : "width_m";
+    if (limit.kind != Kind::apart) opening[size] = limit.size;
+    opening["missing_m"] = answer.missing;
+    opening["direction"] = to_json(limit.direction);
+    opening["along_m"] = limit.along;
+    if (is_end(limit.kind)) opening["room"] = answer.room ? to_json(*answer.room) : Json(nullptr);
+  }
+  json["proven"] = answer.proven;
+  json["bound_m"] = std::isfinite(p.bound) && p.bound > 0.0 ? Json(p.bound) : Json(nullptr);
+  json["complete"] = p.complete;
+  json["places"] = p.places;
+  json["walked"] = nullptr;
+  if (answer.walk) json["walked"] = {{"outcome", name(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
+  return json;
+}
+
+std::string table(std::span<const ProbeAnswer> answers) {
+  std::string text = fmt::format("{:>8}  {:>8}  {:<4}  {:>11}  {:>9}  {}\n", "radius", "height", "", "widest way",
+                                 "missing", "what decides");
+  for (const ProbeAnswer& answer : answers) {
+    const Passage& p = answer.passage;
+    std::string width = p.found ? metres(2.0 * p.radius) : "none";
+    if (p.found && !p.limited) width = ">= " + width;
+    std::string what;
+    if (answer.walk && !answer.passable)
+      what = fmt::format("walker {} at {}", name(answer.walk->outcome), at(answer.walk->at));
+    else if (answer.limit)
+      what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
+    else if (!p.found)
+      what = "no way at all";
+    const char* const word = answer.passable                                        ? "yes"
+                             : answer.walk && answer.walk->outcome != Outcome::fell ? "?"
+                                                                                    : "no";
+    text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
+                        word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
+  }
+  return text;
+}
+
+}  // namespace roam::app
