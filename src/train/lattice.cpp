@@ -25,8 +25,10 @@ double clearance_at(const Survey& survey, const Measure& measure, const Vec3& pl
 }
 
 std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near) {
-  if (const auto foot = floor_below(survey, measure, near.x, near.y, near.z)) return foot;
-  return carried_over(survey, measure, near.x, near.y, near.z);
+  const double level = level_at(survey, measure, near);
+  auto foot = floor_below(survey, measure, near.x, near.y, level);
+  if (!foot) foot = carried_over(survey, measure, near.x, near.y, level);
+  return foot ? std::optional(foot->place) : std::nullopt;
 }
 
 bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to, double radius) {

@@ -26,6 +26,7 @@ struct Measure {
   double step = 0.3;
   double widest = 1.0;
   double narrowest = 0.05;
+  double support_max = 1.0;  ///< m: where a disc of this radius fits into a gap of the floor, nobody is carried
 };
 
 /// Walking or flying clearance at a place (m), at most measure.widest (or what `height` leaves, see passage.h); 0 where
@@ -77,6 +78,10 @@ class WidestTree {
   /// Grows from `root` until `until` is reached, or (no_node) until everything in reach is. False: ended by `goes_on`,
   /// which is asked now and then with the number of places.
   bool grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on = {});
+
+  /// Makes one tree, from `root`, of those of `among` (by id; all have been reached once) that hang together with it,
+  /// whichever trees they hang in by now: growths that were ended take places from each other. Makes no places.
+  void join(NodeId root, const std::vector<bool>& among);
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] const Node& node(NodeId id) const;

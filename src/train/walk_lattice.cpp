@@ -22,12 +22,23 @@ constexpr double same_height = 0.1;
 /// Spacings: a place that is asked for is taken to one of the lattice at most so far away.
 constexpr double seed_reach = 1.5;
 
+/// Metres: two levels differ by a step when they differ by no more than that and this.
+constexpr double level_tolerance = 2e-3;
+
+/// A foot, and how wide a body may be there.
+struct Standing {
+  Vec3 place{0.0};
+  double level = 0.0;  ///< see Foot
+  double free = 0.0;
+};
+
 /// What a place of the lattice knows of itself, beside its Node.
 struct Column {
   LatticePoint at;
   NodeId next = no_node;              ///< another place over the same point of the lattice, made earlier
   std::uint8_t settled = 0;           ///< bit set of the directions that were looked at
   std::array<NodeId, directions> to;  ///< the neighbour in each direction, or no_node
+  double level = 0.0;                 ///< of its foot
 };
 
 class WalkLattice final : public LatticeGraph {
@@ -42,11 +53,14 @@ class WalkLattice final : public LatticeGraph {
 
  private:
   [[nodiscard]] Vec3 point(const LatticePoint& p) const { return origin_ + Vec3(spacing_ * p.x, spacing_ * p.y, 0.0); }
-  NodeId make(const LatticePoint& at, const Vec3& foot);
-  [[nodiscard]] NodeId nearest_over(const LatticePoint& at, double height, double tolerance) const;
-  [[nodiscard]] std::optional<Vec3> foot_from(const Node& from, const Vec3& to) const;
+  [[nodiscard]] Standing standing(NodeId id) const {
+    return {nodes_[id].place, columns_[id].level, nodes_[id].clearance};
+  }
+  NodeId make(const LatticePoint& at, const Foot& foot);
+  [[nodiscard]] NodeId nearest_over(const LatticePoint& at, double level, double tolerance) const;
+  [[nodiscard]] std::optional<Foot> foot_from(const Standing& from, const Vec3& to) const;
   [[nodiscard]] NodeId look(NodeId from, int direction);
-  [[nodiscard]] bool linked(const Vec3& a, double free_at_a, const Vec3& b, double free_at_b) const;
+  [[nodiscard]] bool linked(const Standing& a, const Standing& b) const;
 
   const Survey& survey_;
   const Measure measure_;
@@ -58,79 +72,79 @@ class WalkLattice final : public LatticeGraph {
   std::vector<Column> columns_;
 };
 
-NodeId WalkLattice::make(const LatticePoint& at, const Vec3& foot) {
+NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot) {
   const auto id = static_cast<NodeId>(nodes_.size());
-  const auto stand = stand_at(survey_, measure_, foot, largest_, measure_.narrowest);
+  const auto stand = stand_at(survey_, measure_, foot.place, largest_, measure_.narrowest);
   float clearance = stand ? static_cast<float>(stand->radius) : 0.0F;
   if (stand && clearance > stand->radius) clearance = std::nextafter(clearance, 0.0F);
-  nodes_.push_back({foot, clearance});
-  Column column{at, table_.find(at), 0, {}};
+  nodes_.push_back({foot.place, clearance});
+  Column column{at, table_.find(at), 0, {}, foot.level};
   column.to.fill(no_node);
   columns_.push_back(column);
   table_.set(at, id);
   return id;
 }
 
-NodeId WalkLattice::nearest_over(const LatticePoint& at, double height, double tolerance) const {
+NodeId WalkLattice::nearest_over(const LatticePoint& at, double level, double tolerance) const {
   NodeId best = no_node;
   for (NodeId id = table_.find(at); id != no_node; id = columns_[id].next) {
-    const double apart = std::abs(nodes_[id].place.z - height);
+    const double apart = std::abs(columns_[id].level - level);
     if (apart > tolerance) continue;
-    if (best == no_node || apart < std::abs(nodes_[best].place.z - height)) best = id;
+    if (best == no_node || apart < std::abs(columns_[best].level - level)) best = id;
   }
   return best;
 }
 
 /// Where a foot comes to that goes from a place to (x, y): straight, else with one step between; over cracks only where
 /// the knee meets no wall.
-std::optional<Vec3> WalkLattice::foot_from(const Node& from, const Vec3& to) const {
-  if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.place.z)) return foot;
+std::optional<Foot> WalkLattice::foot_from(const Standing& from, const Vec3& to) const {
+  if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level)) return foot;
   const Vec3 half = 0.5 * (from.place + to);
-  if (const auto between = floor_below(survey_, measure_, half.x, half.y, from.place.z)) {
-    if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->z)) return foot;
+  if (const auto between = floor_below(survey_, measure_, half.x, half.y, from.level)) {
+    if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->level)) return foot;
   }
   const Vec3 level(to.x, to.y, from.place.z);
   if (!goes_straight(survey_, measure_, from.place, level, measure_.narrowest)) return std::nullopt;
-  return carried_over(survey_, measure_, to.x, to.y, from.place.z);
+  return carried_over(survey_, measure_, to.x, to.y, from.level);
 }
 
 /// Whether a body of `narrowest` gets from one free place to another. Two free bodies that overlap leave no room for a
 /// wall between them.
-bool WalkLattice::linked(const Vec3& a, double free_at_a, const Vec3& b, double free_at_b) const {
-  const double rise = std::abs(a.z - b.z), along = std::hypot(a.x - b.x, a.y - b.y);
+bool WalkLattice::linked(const Standing& a, const Standing& b) const {
+  const double rise = std::abs(a.place.z - b.place.z), along = std::hypot(a.place.x - b.place.x, a.place.y - b.place.y);
   const double least = measure_.narrowest;
+  const bool one_step = std::abs(a.level - b.level) <= measure_.step + level_tolerance;
   // Centres of spheres differ in height by their radii and lifts too.
   const double apart =
-      measure_.height == 0.0 ? std::hypot(along, rise + std::abs(free_at_a - free_at_b) + measure_.step) : along;
-  if (rise <= measure_.step && free_at_a + free_at_b - apart >= 2.0 * least) return true;
-  if (goes_straight(survey_, measure_, a, b, least)) return true;
-  const Vec3 half = 0.5 * (a + b);
-  const auto between = floor_below(survey_, measure_, half.x, half.y, a.z);
-  return between && goes_straight(survey_, measure_, a, *between, least) &&
-         goes_straight(survey_, measure_, *between, b, least);
+      measure_.height == 0.0 ? std::hypot(along, rise + std::abs(a.free - b.free) + measure_.step) : along;
+  if (one_step && a.free + b.free - apart >= 2.0 * least) return true;
+  if (one_step && goes_straight(survey_, measure_, a.place, b.place, least)) return true;
+  const Vec3 half = 0.5 * (a.place + b.place);
+  const auto between = floor_below(survey_, measure_, half.x, half.y, a.level);
+  return between && std::abs(between->level - b.level) <= measure_.step + level_tolerance &&
+         goes_straight(survey_, measure_, a.place, between->place, least) &&
+         goes_straight(survey_, measure_, between->place, b.place, least);
 }
 
 NodeId WalkLattice::look(NodeId from, int direction) {
-  const Node here = nodes_[from];
+  const Standing here = standing(from);
   LatticePoint at = columns_[from].at;
   at.x += to_neighbour[static_cast<std::size_t>(direction)].x;
   at.y += to_neighbour[static_cast<std::size_t>(direction)].y;
-  const Vec3 to = point(at);
   if (std::abs(at.x) >= LatticeTable::limit || std::abs(at.y) >= LatticeTable::limit) return no_node;
+  const Vec3 to = point(at);
   if (to.x < within_.lower.x || to.x > within_.upper.x || to.y < within_.lower.y || to.y > within_.upper.y)
     return no_node;
-  NodeId there = nearest_over(at, here.place.z, measure_.step);
+  NodeId there = nearest_over(at, here.level, measure_.step);
   if (there == no_node) {
     const auto foot = foot_from(here, to);
-    if (!foot || foot->z < within_.lower.z || foot->z > within_.upper.z) return no_node;
-    there = nearest_over(at, foot->z, same_height);
+    if (!foot || foot->place.z < within_.lower.z || foot->place.z > within_.upper.z) return no_node;
+    there = nearest_over(at, foot->level, same_height);
     if (there == no_node) there = make(at, *foot);
   }
-  const Node& other = nodes_[there];
   // Its own way back may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
-  const float free = other.clearance;
-  if (free == 0.0F || !linked(here.place, here.clearance, other.place, free)) return no_node;
+  if (nodes_[there].clearance == 0.0F || !linked(here, standing(there))) return no_node;
   return there;
 }
 
@@ -156,8 +170,13 @@ Neighbours WalkLattice::neighbours(NodeId id) const {
 }
 
 std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
+  constexpr int farthest = 2;  // points of the lattice that are looked at
+  static_assert(farthest >= seed_reach);
   if (nodes_.empty()) origin_ = Vec3(place.x, place.y, 0.0);
-  const double free = clearance_at(survey_, measure_, place);
+  const Standing here{place, level_at(survey_, measure_, place), clearance_at(survey_, measure_, place)};
+  if (!(std::abs(place.x - origin_.x) < spacing_ * (LatticeTable::limit - farthest) &&
+        std::abs(place.y - origin_.y) < spacing_ * (LatticeTable::limit - farthest)))
+    return std::nullopt;
   const LatticePoint middle{static_cast<std::int32_t>(std::lround((place.x - origin_.x) / spacing_)),
                             static_cast<std::int32_t>(std::lround((place.y - origin_.y) / spacing_)), 0};
   struct Candidate {
@@ -165,8 +184,8 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
     LatticePoint at;
   };
   std::vector<Candidate> candidates;
-  for (int dx = -2; dx <= 2; ++dx) {
-    for (int dy = -2; dy <= 2; ++dy) {
+  for (int dx = -farthest; dx <= farthest; ++dx) {
+    for (int dy = -farthest; dy <= farthest; ++dy) {
       const LatticePoint at{middle.x + dx, middle.y + dy, 0};
       const Vec3 to = point(at);
       const double distance = std::hypot(to.x - place.x, to.y - place.y);
@@ -176,12 +195,12 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   for (const Candidate& c : candidates) {
-    const auto foot = foot_from({place, static_cast<float>(free)}, point(c.at));
+    const auto foot = foot_from(here, point(c.at));
     if (!foot) continue;
-    NodeId id = nearest_over(c.at, foot->z, same_height);
+    NodeId id = nearest_over(c.at, foot->level, same_height);
     if (id == no_node) id = make(c.at, *foot);
-    const float there = nodes_[id].clearance;
-    if (there > 0.0F && (c.distance == 0.0 || (free > 0.0 && linked(place, free, nodes_[id].place, there)))) return id;
+    const Standing there = standing(id);
+    if (there.free > 0.0 && (c.distance == 0.0 || (here.free > 0.0 && linked(here, there)))) return id;
   }
   return std::nullopt;
 }

@@ -1,12 +1,14 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "motion/free_disc.h"
 #include "train/walk_lattice_place.h"
 
 namespace roam::training {
 namespace {
+
+using walking::carrying_band;
 
 /// Metres. The foot is this large a ball: small enough not to ride on what a body passes by, large enough to bridge
 /// the treads of stairs. A body of radius r rests higher on a slope by r (1 / cos - 1), which the knee makes good for.
@@ -15,29 +17,57 @@ constexpr double foot_radius = 0.3;
 constexpr double least_foot = 0.01;
 /// Metres: what touches while starting, or rises above the step, by less than this does not count.
 constexpr double touch = 1e-3;
-/// A contact as upright as this is no rim: the foot stands on it.
-constexpr double firm_cosine = 0.9;
-/// Triangles of the floor that are looked at round a crack, nearest first.
-constexpr std::size_t rims_looked_at = 64;
+/// Metres. Floor that touches the foot so near to the axis, seen from above, is under it: gaps that are hardly wider,
+/// as between the bars of a grate, carry everybody.
+constexpr double under_axis = 0.02;
 
 /// The largest ball whose lowest point is fixed and that has a point outside itself which lies `aside` and `above`.
 double ball_beside(double aside, double above) { return (aside * aside + above * above) / (2.0 * above); }
 
 double aside(const Vec3& p, double x, double y) { return std::hypot(p.x - x, p.y - y); }
 
-/// The point of the floor nearest to `place` whose height is within a step of it and that is nearer than `reach`.
-std::optional<Vec3> rim_near(const Survey& survey, const Measure& measure, const Vec3& place, double reach) {
-  std::array<Contact, rims_looked_at> rims;
-  const std::size_t count = survey.floor().contacts({0.0, 0.0}, place, Vec3(0.0), reach, rims);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::abs(rims[i].point.z - place.z) <= measure.step) return rims[i].point;
+/// The floor straight below, no higher than `from` and no lower than a step below `level`.
+std::optional<double> floor_under_axis(const Survey& survey, const Measure& measure, double x, double y, double from,
+                                       double level) {
+  const double start = from + touch + 2.0 * least_foot;
+  const double down = start - least_foot - (level - touch - measure.step);
+  const Impact below = survey.floor().sweep({least_foot, 0.0}, {x, y, start}, Vec3(0.0, 0.0, -down));
+  if (!below.hit) return std::nullopt;
+  return below.point.z;
+}
+
+/// The floor beside an axis nearest to it, seen from above, among what lies about as high.
+Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
+  Floor floor;
+  floor.slope_degrees = survey.slope_degrees();
+  floor.band = carrying_band;
+  floor.point = axis;
+  return survey.floor().floor_clearance({0.0, carrying_band}, axis, reach, floor);
+}
+
+/// Whether the gap that an axis is over at the level of a rim is an open drop: no foot is carried there. This is the
+/// walker's own rule for its foot, asked with the largest.
+bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y) {
+  constexpr double sight = 0.01;   // m, radius of what looks for walls
+  constexpr double inside = 0.99;  // or the rim itself would be found
+  const double radius = measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
+  // The disc that touches the nearest rim and lies beyond it is free in most drops.
+  const Vec3 axis(x, y, rim.z);
+  const double beside = aside(rim, x, y);
+  if (beside > 0.0 && beside < radius) {
+    const Vec3 away = Vec3(x - rim.x, y - rim.y, 0.0) * ((radius - beside) / beside);
+    const Vec3 up(0.0, 0.0, knee);
+    if (!floor_beside(survey, axis + away, inside * radius).found &&
+        !survey.world().sweep({sight, 0.0}, axis + up, away).hit)
+      return true;
   }
-  return std::nullopt;
+  return walking::free_disc(survey.world(), {axis}, {radius, survey.slope_degrees(), knee}, axis) ==
+         walking::DiscRoom::free;
 }
 
 }  // namespace
 
-std::optional<Vec3> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level) {
+std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level) {
   const double start = level + measure.step + 2.0 * touch;
   const double reach = 2.0 * measure.step + 4.0 * touch;
   double radius = foot_radius;
@@ -57,29 +87,24 @@ std::optional<Vec3> floor_below(const Survey& survey, const Measure& measure, do
       continue;
     }
     const double lowest = start - s.time * reach;
-    if (s.feature == Feature::face || s.normal.z >= firm_cosine) return Vec3(x, y, lowest);
-    // On a rim: of a kerb, with floor below it, or of a crack, into which the ball has sunk.
-    const double down = s.point.z + touch + least_foot - (lowest - touch - measure.step);
-    const Impact below =
-        survey.floor().sweep({least_foot, 0.0}, {x, y, s.point.z + touch + 2.0 * least_foot}, Vec3(0.0, 0.0, -down));
-    return Vec3(x, y, below.hit ? lowest : s.point.z);
+    if (beside <= under_axis) return Foot{Vec3(x, y, lowest), lowest, false};
+    // On a slope, or on a rim: of a kerb, with floor below it, or of a gap, into which the ball has sunk.
+    if (const auto below = floor_under_axis(survey, measure, x, y, s.point.z, lowest))
+      return Foot{Vec3(x, y, lowest), *below, false};
+    if (is_open_drop(survey, measure, s.point, x, y)) return std::nullopt;
+    return Foot{Vec3(x, y, s.point.z), s.point.z, true};
   }
   return std::nullopt;
 }
 
-std::optional<Vec3> carried_over(const Survey& survey, const Measure& measure, double x, double y, double level) {
-  // Carried is what no free disc of `widest` holds. The disc that is tried touches the nearest rim and lies beyond.
-  const double radius = measure.widest;
-  const Vec3 place(x, y, level);
-  const std::optional<Vec3> rim = rim_near(survey, measure, place, radius);
-  if (!rim) return std::nullopt;
-  const double beside = aside(*rim, x, y);
-  if (beside > 0.0) {
-    const Vec3 away = Vec3(x - rim->x, y - rim->y, 0.0) / beside;
-    constexpr double inside = 0.99;  // or the rim itself would be found
-    if (!rim_near(survey, measure, place + away * (radius - beside), inside * radius)) return std::nullopt;
-  }
-  return Vec3(x, y, rim->z);
+std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y, double level) {
+  const Clearance rim = floor_beside(survey, {x, y, level}, measure.support_max);
+  if (!rim.found || is_open_drop(survey, measure, rim.point, x, y)) return std::nullopt;
+  return Foot{Vec3(x, y, rim.point.z), rim.point.z, true};
+}
+
+double level_at(const Survey& survey, const Measure& measure, const Vec3& place) {
+  return floor_under_axis(survey, measure, place.x, place.y, place.z, place.z).value_or(place.z);
 }
 
 }  // namespace roam::training

@@ -25,10 +25,23 @@ struct Stand {
 [[nodiscard]] std::optional<Stand> stand_at(const Survey& survey, const Measure& measure, const Vec3& place,
                                             double largest, double least);
 
-/// The floor that a foot comes to from a place at height `level`; see foot_at. `carried`: over a crack too.
-[[nodiscard]] std::optional<Vec3> floor_below(const Survey& survey, const Measure& measure, double x, double y,
+/// Where a foot comes to rest.
+struct Foot {
+  Vec3 place{0.0};
+  /// Of the floor under the axis, or of the rim that it is carried from (m): what the next step is up or down from. On
+  /// the rim of a kerb the place is between the two floors, and to step up from there would climb more than a step.
+  double level = 0.0;
+  bool carried = false;  ///< over a gap of the floor
+};
+
+/// The floor that a foot comes to that stands at height `level` beside it; see foot_at. Where it hangs on a rim with no
+/// floor below, the gap must be one that the largest foot is carried over.
+[[nodiscard]] std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y,
                                               double level);
-[[nodiscard]] std::optional<Vec3> carried_over(const Survey& survey, const Measure& measure, double x, double y,
+/// The same where there is no floor at all.
+[[nodiscard]] std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y,
                                                double level);
+/// The level of a foot that is known to be at a place.
+[[nodiscard]] double level_at(const Survey& survey, const Measure& measure, const Vec3& place);
 
 }  // namespace roam::training
