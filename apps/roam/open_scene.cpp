@@ -23,13 +23,11 @@ constexpr double longest_wait = 60.0;
 constexpr double stretch = 100.0;
 constexpr std::uint64_t most_triangles = 50'000'000;
 
-Box grown(const Box& box, double by) { return {box.lower - by, box.upper + by}; }
-
 Box box_of(std::span<const Piece> pieces) {
   Box box;
   for (const Piece& piece : pieces) {
     const double reach = std::max(piece.body.radius, piece.clearance) + piece.body.half_height;
-    box.include(grown({glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}, reach));
+    box.include(Box{glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}.grown(reach));
   }
   return box;
 }
@@ -151,7 +149,7 @@ SourceTriangle OpenScene::source(TriangleId triangle) const {
 }
 
 Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {
-  return read_triangles(*store_, grown(box_of(pieces), reach), [](const std::string& what) {
+  return read_triangles(*store_, box_of(pieces).grown(reach), [](const std::string& what) {
     fmt::print(stderr, "roam: note: left out of the picture: {}\n", what);
   });
 }

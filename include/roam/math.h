@@ -25,6 +25,14 @@ struct Box {
   [[nodiscard]] Vec3 size() const { return upper - lower; }
   [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
 
+  /// Whether a point lies in it or on its border; false for a point that is not a number.
+  [[nodiscard]] bool holds(const Vec3& p) const {
+    return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z && p.z <= upper.z;
+  }
+  /// Larger on both sides by so many metres along each axis.
+  [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }
+  [[nodiscard]] Box grown(double by) const { return grown(Vec3(by)); }
+
   void include(const Vec3& p) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = p[k] < lower[k] ? p[k] : lower[k];

@@ -48,16 +48,9 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
 }
 
-Box grown(const Box& box, const Body& body) {
-  const Vec3 by(2.0 * body.radius, 2.0 * body.radius, body.height());
-  return {box.lower - by, box.upper + by};
-}
-
-bool inside(const Vec3& p, const Box& box) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(p[k] >= box.lower[k] && p[k] <= box.upper[k])) return false;
-  }
-  return true;
+/// Whether a body is at home in a box: in it, or not farther out than its own size.
+bool inside(const Vec3& p, const Box& box, const Body& body) {
+  return box.grown(Vec3(2.0 * body.radius, 2.0 * body.radius, body.height())).holds(p);
 }
 
 bool above_or_below(const Vec3& p, const Box& box) {
@@ -108,7 +101,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   result_.least_gap = start.least_gap;
   result_.waypoints = 1;
   result_.end = walker.position();
-  inside_ = inside(result_.end, grown(walker.space().bounds(), walker.body()));
+  inside_ = inside(result_.end, walker.space().bounds(), walker.body());
   note_events(start);
   start_window();
   coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
@@ -169,7 +162,7 @@ void Route::judge(const StepReport& report, double distance_before) {
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(walker_->stance().stood && !walker_->held() ? Outcome::fell : Outcome::held);
-  const bool inside_now = inside(report.to, grown(scene, walker_->body()));
+  const bool inside_now = inside(report.to, scene, walker_->body());
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;
   if (coming_down_) {

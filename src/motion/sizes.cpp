@@ -11,13 +11,6 @@ namespace {
 /// Metres outside a region at which it is left: a body that goes to and fro over the border is not to change with it.
 constexpr double leaving = 0.05;
 
-Box grown(const Box& box, double by) { return {box.lower - Vec3(by), box.upper + Vec3(by)}; }
-
-bool holds(const Box& box, const Vec3& p) {
-  return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y && p.z >= box.lower.z &&
-         p.z <= box.upper.z;
-}
-
 /// The smaller body lies in the larger one, and so does its way from the larger one's centre to its own.
 void narrow(Move& m, const Sizes& sizes, double radius) {
   const double by = m.settings.radius - radius, before = m.settings.height;
@@ -72,8 +65,8 @@ Size wanted(const Sizes& sizes, const Vec3& centre, const Vec3& feet) {
   bool in_any = false;
   for (std::size_t i = 0; i < sizes.regions.size(); ++i) {
     const SizeRegion& region = sizes.regions[i];
-    const Box box = sizes.inside[i] != 0 ? grown(region.bounds, leaving) : region.bounds;
-    sizes.inside[i] = holds(box, centre) || holds(box, feet) ? 1 : 0;
+    const Box box = sizes.inside[i] != 0 ? region.bounds.grown(leaving) : region.bounds;
+    sizes.inside[i] = box.holds(centre) || box.holds(feet) ? 1 : 0;
     if (sizes.inside[i] == 0) continue;
     size.radius = in_any ? std::min(size.radius, region.radius) : region.radius;
     size.support_radius = in_any ? std::max(size.support_radius, region.support_radius) : region.support_radius;
@@ -107,7 +100,7 @@ bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion) {
     way.include(move.place - Vec3(0.0, 0.0, below) + reach);
   }
   return std::any_of(sizes.regions.begin(), sizes.regions.end(), [&](const SizeRegion& region) {
-    const Box box = grown(region.bounds, leaving);
+    const Box box = region.bounds.grown(leaving);
     for (int k = 0; k < 3; ++k) {
       if (way.lower[k] > box.upper[k] || way.upper[k] < box.lower[k]) return false;
     }

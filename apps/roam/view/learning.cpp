@@ -12,13 +12,6 @@ namespace {
 /// Seconds after which nobody who went on wants what was offered any more.
 constexpr double offer_lasts = 3.0;
 
-bool holds(const Box& box, const Vec3& p) {
-  for (int k = 0; k < 3; ++k) {
-    if (p[k] < box.lower[k] || p[k] > box.upper[k]) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Learning::Learning(Profile known, std::filesystem::path file, bool takes)
@@ -58,7 +51,7 @@ std::optional<Learning::Taken> Learning::take(Walker& walker, bool asked) {
 std::string size_reason(const Walker& walker) {
   for (const SizeRegion& region : walker.regions()) {
     if (region.radius != walker.body().radius) continue;
-    if (holds(region.bounds, walker.position()) || holds(region.bounds, walker.feet())) return region.why;
+    if (region.bounds.holds(walker.position()) || region.bounds.holds(walker.feet())) return region.why;
   }
   return {};
 }
