@@ -60,6 +60,28 @@ TEST(FloorClearance, SeesWhatIsUnknownAndSaysSo) {
   EXPECT_NEAR(c.distance, 1.0, 2e-3);
 }
 
+TEST(FloorClearance, OfABandPassesOverWhatIsUnknownAboveAndBelow) {
+  roam::Patchwork space;
+  for (const double z : {-3.0, 0.6}) (void)space.expect({Vec3(-9.0, -9.0, z), Vec3(9.0, 9.0, z + 2.0)});
+  Mesh m;
+  scenes::add_floor(m, 0.8, -1.0, 3.0, 1.0, 0.0);
+  space.deliver(space.expect({Vec3(0.8, -1.0, -0.1), Vec3(3.0, 1.0, 0.1)}), scenes::build(m));
+  space.update();
+  Floor floor;
+  floor.band = 0.25;
+  const auto level = space.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, floor);
+  ASSERT_TRUE(level.found);
+  EXPECT_FALSE(level.unknown);
+  EXPECT_NEAR(level.distance, 0.8, 2e-3);
+  // The plane rises into the upper box 0.35 m from the axis, and sinks into the lower one 0.75 m from it.
+  floor.normal = Vec3(-1.0, 0.0, 1.0);
+  const auto inclined = space.floor_clearance({0.0, 0.25}, Vec3(0.0), 0.5, floor);
+  EXPECT_TRUE(inclined.found && inclined.unknown);
+  EXPECT_FALSE(space.floor_clearance({0.0, 0.25}, Vec3(0.0), 0.3, floor).found);
+  floor.band = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(space.floor_clearance({0.0, 0.25}, Vec3(0.0), 0.5, floor).unknown) << "no band";
+}
+
 TEST(FloorClearance, PassesOverWallsThatAreNearer) {
   Mesh m;
   scenes::add_wall(m, 0.1, -5.0, 0.1, 5.0, -1.0, 2.0);

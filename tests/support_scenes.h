@@ -41,8 +41,8 @@ inline void tilt(Mesh& mesh, double degrees) {
   for (Vec3& v : mesh.vertices) v = {std::cos(a) * v.x - std::sin(a) * v.z, v.y, std::sin(a) * v.x + std::cos(a) * v.z};
 }
 
-constexpr std::array speeds{0.4, 1.4, 7.0, 50.0};
-constexpr std::array steps{1.0 / 240.0, 1.0 / 60.0, 1.0 / 25.0};
+inline constexpr std::array speeds{0.4, 1.4, 7.0, 50.0};
+inline constexpr std::array steps{1.0 / 240.0, 1.0 / 60.0, 1.0 / 25.0};
 
 /// How a walk towards +x over a crack ended.
 struct Crossing {

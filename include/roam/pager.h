@@ -85,6 +85,7 @@ class Pager final : public LiveSpace {
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override;
   [[nodiscard]] std::uint64_t revision() const override;
+  [[nodiscard]] bool tells_changes() const override { return true; }
   /// The governor: (ready - radius) / (latency + dt), so that a body comes to rest before what is unknown instead of
   /// against it. Slow, never through.
   [[nodiscard]] double speed_limit() const override;

@@ -115,6 +115,7 @@ class Patchwork final : public LiveSpace {
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return error_limit; }
   [[nodiscard]] std::uint64_t revision() const override;
+  [[nodiscard]] bool tells_changes() const override { return true; }
   /// Of what is unknown: why, where fail() said it, else "not loaded yet". A number whose patch has gone gives "".
   ///
   /// The number of a triangle is that of its patch times 2^32, and its number in the patch's world: the same for as

@@ -104,8 +104,9 @@ class Space {
 
   /// The same where nothing but floor is there to be met: walls and steep things are passed over. With a band, parts of
   /// triangles are measured, and a vertical capsule that is as high as the band answers how far the floor is seen from
-  /// above. What is unknown counts as floor wherever it is, band or not, and the answer says `unknown`: a caller who
-  /// must know floor from a guess has to wait. Throws roam::Error also for a `floor` that is out of range.
+  /// above. What is unknown counts as floor where it may hold some: of a band, where the box that is not known reaches
+  /// into it near the body. The answer says `unknown` then: a caller who must know floor from a guess has to wait.
+  /// Throws roam::Error also for a `floor` that is out of range.
   [[nodiscard]] virtual Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
                                                   const Floor& floor) const = 0;
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
@@ -129,6 +130,8 @@ class Space {
   /// Grows whenever something came or went: a body that is held then looks for a way out again. Always 0 in a space
   /// that never changes, and in one that does not know.
   [[nodiscard]] virtual std::uint64_t revision() const { return 0; }
+  /// Whether revision() tells of every change, so that what was answered once is answered again while it stays.
+  [[nodiscard]] virtual bool tells_changes() const { return false; }
   /// Metres per second that a body should not exceed now, so that what it comes to is known by then; Walker slows down
   /// to it. Going faster is safe too: the body stops before what is unknown. No limit where everything is known.
   [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }

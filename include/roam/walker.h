@@ -63,8 +63,8 @@ struct WalkerSettings {
   /// over every crack of the floor in which no disc of this radius finds room, held at the height of the floor. The
   /// foot touches nothing: whatever the body passes, it passes too. Half the width of the widest crack and 2 mm more
   /// will do. Less than `radius` counts as `radius`: over a crack that a body so large cannot fall into it is carried,
-  /// and does not sink. 0: no foot, the body stands on its round end. docs/walking.md says what is a crack and what a
-  /// pit.
+  /// and does not sink. What is not known yet carries it as floor does, and the report says `met_unknown`. 0: no foot,
+  /// the body stands on its round end. docs/walking.md says what is a crack and what a pit.
   double support_radius = 0.0;
   /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4.
   double height = 1.8;
@@ -104,6 +104,10 @@ struct WalkerSettings {
 /// Throws roam::Error, naming the setting, its value and its range, when a setting is out of range or not a number.
 void check(const WalkerSettings& settings);
 
+/// Throws roam::Error, naming the region by its number from 1 and its `why`, for bounds that are empty or not finite, and
+/// for a size that a body with these settings may not have: see Walker::set_regions.
+void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
+
 /// The velocity of a person who pushes in `direction` (length at most 1 counts; longer is shortened to 1): m/s.
 [[nodiscard]] Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast);
 
@@ -134,7 +138,8 @@ enum class EventKind : std::uint8_t {
                  ///< back to the last safe place
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
   throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
-  met_unknown,   ///< touched, stands on or is in what is not known yet (see space.h): solid until it is known
+  met_unknown,   ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
+                 ///< known
   slowed,        ///< the wish was faster than Space::speed_limit() and was followed at that speed
   narrowed,      ///< became a smaller body, in a region or on command: see Walker::set_regions
   widened,       ///< became a larger one again
@@ -230,6 +235,25 @@ struct StepReport {
   }
 };
 
+/// What was found out about a foot: asked again only when something of it has changed.
+struct FootAnswer {
+  Vec3 place{0.0};  ///< of the body's centre, metres
+  double height = 0.0;
+  walking::Size size;
+  Vec3 floor_point{0.0};  ///< the plane over which it was asked
+  Vec3 floor_normal{0.0, 0.0, 1.0};
+  std::uint64_t revision = 0;  ///< of the space
+  bool known = false;          ///< it was asked, in a space that tells its changes
+  bool carries = false;
+  bool unknown = false;  ///< by what is not known yet
+
+  /// Whether the question is the same.
+  [[nodiscard]] bool same_question(const FootAnswer& other) const {
+    return place == other.place && height == other.height && size == other.size && floor_point == other.floor_point &&
+           floor_normal == other.floor_normal && revision == other.revision;
+  }
+};
+
 /// What walking remembers from one step to the next.
 struct Stance {
   Vec3 ground{0.0, 0.0, 1.0};  ///< normal of the ground stood on
@@ -245,6 +269,7 @@ struct Stance {
   Vec3 floor_point{0.0};
   Vec3 floor_normal{0.0, 0.0, 1.0};
   bool floor_seen = false;
+  FootAnswer foot;  ///< where it was asked last
 };
 
 class Walker {
@@ -285,8 +310,7 @@ class Walker {
   /// body needs there; until then it goes on as it is. A sphere stays a sphere; the eye keeps its height above the
   /// lowest point, or is at the top of a body that is not so high. A foot that carries stays as large as it is.
   ///
-  /// Takes effect with the next call. Throws roam::Error, naming the region by its number from 1 and its `why`, for
-  /// bounds that are empty or not finite, and for a size that settings may not have; then all is as before.
+  /// Takes effect with the next call. Throws roam::Error for what check() refuses; then all is as before.
   void set_regions(std::span<const SizeRegion> regions);
   [[nodiscard]] std::span<const SizeRegion> regions() const { return regions_; }
 

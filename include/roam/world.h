@@ -77,6 +77,7 @@ class World final : public Space {
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return stats().largest_error_m; }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  [[nodiscard]] bool tells_changes() const override { return true; }
 
   [[nodiscard]] const WorldStats& stats() const;
   /// The object that a triangle belongs to. `triangle` must come from this world.

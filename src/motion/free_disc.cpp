@@ -81,6 +81,9 @@ class Search {
     return Answer::none;
   }
 
+  /// Whether anything that was met is not known yet.
+  [[nodiscard]] bool met_unknown() const { return unknown_; }
+
  private:
   [[nodiscard]] bool meets_domain(const Square& s) const {
     const double x = std::max(0.0, std::abs(s.x) - s.half), y = std::max(0.0, std::abs(s.y) - s.half);
@@ -106,18 +109,21 @@ class Search {
     ++queries_;
     const Clearance near = space_.floor_clearance(column_, over(x, y), foot_.radius, floor_);
     if (!near.found) return false;
+    unknown_ |= near.unknown;
     const Point point{near.point.x - axis_.x, near.point.y - axis_.y};
     points_[found_++ % points_.size()] = point;
     return std::hypot(point.x - x, point.y - y) < foot_.radius;
   }
 
-  [[nodiscard]] bool in_sight(double x, double y) const {
+  bool in_sight(double x, double y) {
     const Vec3 knee(0.0, 0.0, foot_.knee);
     const Vec3 from = over(0.0, 0.0) + knee, to = over(x, y) + knee;
-    return !space_.sweep({std::min(sight_radius, 0.25 * foot_.radius)}, from, to - from).hit;
+    const Impact wall = space_.sweep({std::min(sight_radius, 0.25 * foot_.radius)}, from, to - from);
+    unknown_ |= wall.hit && wall.unknown;
+    return !wall.hit;
   }
 
-  [[nodiscard]] bool hidden(const Square& s) const {
+  bool hidden(const Square& s) {
     if (in_sight(s.x, s.y)) return false;
     for (const double dx : {-s.half, s.half}) {
       for (const double dy : {-s.half, s.half}) {
@@ -137,17 +143,18 @@ class Search {
   std::array<Point, points_kept> points_;
   std::size_t found_ = 0;
   int queries_ = 0;
+  bool unknown_ = false;
 };
 
 }  // namespace
 
-bool free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis) {
+DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis) {
   Search search(space, plane, foot, axis);
-  const Search::Answer first = search.run(true);
+  Search::Answer answer = search.run(true);
   // Walls only make fewer discs count: they are looked for only where there is one.
-  return first == Search::Answer::none   ? false
-         : first == Search::Answer::free ? true
-                                         : search.run(false) != Search::Answer::none;
+  if (answer == Search::Answer::hidden) answer = search.run(false);
+  if (answer != Search::Answer::none) return DiscRoom::free;
+  return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;
 }
 
 }  // namespace roam::walking

@@ -2,6 +2,8 @@
 /// \file
 /// Whether a level disc fits into a gap of the floor: what a foot that is as large would fall through.
 
+#include <cstdint>
+
 #include "roam/space.h"
 
 namespace roam::walking {
@@ -27,9 +29,16 @@ struct Foot {
   double knee = 0.0;
 };
 
+/// Whether there is room for a disc.
+enum class DiscRoom : std::uint8_t {
+  none,
+  unknown,  ///< none, if what is not known yet is solid
+  free,
+};
+
 /// Whether a disc of the foot's radius, seen from above, holds `axis` and is free of floor within carrying_band of the
 /// plane; its centre must be in sight from the axis at the height of the knee. Where it is not settled, because a disc
 /// fits to within a millimetre or after more work than is sensible, the answer is that it is free.
-[[nodiscard]] bool free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis);
+[[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis);
 
 }  // namespace roam::walking

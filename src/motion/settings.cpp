@@ -1,7 +1,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
+#include <string>
 
+#include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
 
@@ -15,6 +17,8 @@ constexpr double factor_limit = 1e3;
 constexpr double gravity_limit = 1e3;
 constexpr double jump_limit = 100.0;
 constexpr double slope_limit = 89.0;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 struct Range {
   double lower, upper;
@@ -47,6 +51,21 @@ void check(const WalkerSettings& s) {
   demand("jump height", s.jump_height, "m", {0.0, jump_limit, false}, "");
   demand("crouched height", s.crouch_height, "m", {0.0, length_limit, true}, "");
   demand("clearance reach", s.clearance_reach, "m", {0.0, Space::reach_limit, false}, "");
+}
+
+void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) {
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const SizeRegion& r = regions[i];
+    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
+    if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
+      throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
+    }
+    try {
+      check(walking::sized(settings, {r.radius, r.support_radius}));
+    } catch (const Error& error) {
+      throw Error(which + ": " + error.what());
+    }
+  }
 }
 
 Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {

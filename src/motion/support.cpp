@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "motion/free_disc.h"
 #include "motion/ground.h"
 
 namespace roam::walking {
@@ -21,11 +20,11 @@ FloorPlane plane_of(const Stance& stance) { return {stance.floor_point, stance.f
 
 /// A foot that is smaller than the body is as large as the body, or a crack could be too narrow for the one to fall in
 /// and too wide for the other to be carried by its rims.
-double foot_radius(const Move& m) { return std::max(m.settings.support_radius, m.settings.radius); }
+double foot_radius(const WalkerSettings& settings) { return std::max(settings.support_radius, settings.radius); }
 
-Foot foot_of(const Move& m) {
-  const double knee = std::max(m.settings.step, carrying_band) + 2.0 * m.skin;
-  return {foot_radius(m), m.settings.slope_degrees, std::min(knee, 0.5 * m.height)};
+Foot foot_of(const WalkerSettings& settings, double skin, double height) {
+  const double knee = std::max(settings.step, carrying_band) + 2.0 * skin;
+  return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height)};
 }
 
 /// How high the centre is of a body that touches the plane, but for its skin, at a place.
@@ -34,39 +33,69 @@ double centre_over(const Move& m, const FloorPlane& plane, const Vec3& place) {
   return plane.level(place) + (r + m.skin) / plane.normal.z + 0.5 * m.height - r;
 }
 
-/// The nearest floor beside the axis within `radius`, between two heights: a level plane through it.
-std::optional<FloorPlane> plane_beside(const Move& m, const Vec3& axis, double lower, double upper, double radius) {
+/// The nearest floor beside the axis: a level plane through it.
+struct Beside {
+  bool found = false;
+  bool unknown = false;  ///< what is nearest is not known yet: no plane
+  FloorPlane plane;
+};
+
+/// Looked for within the foot, between two heights.
+Beside plane_beside(const Move& m, const Vec3& axis, double lower, double upper) {
   const Vec3 middle(axis.x, axis.y, 0.5 * (lower + upper));
   Floor floor;
   floor.slope_degrees = m.settings.slope_degrees;
   floor.band = 0.5 * (upper - lower);
   floor.point = middle;
-  const Clearance near = m.space.floor_clearance({0.0, floor.band}, middle, radius, floor);
-  if (!near.found) return std::nullopt;
-  return FloorPlane{near.point, Vec3(0.0, 0.0, 1.0)};
+  const Clearance near = m.space.floor_clearance({0.0, floor.band}, middle, foot_radius(m.settings), floor);
+  return {near.found, near.unknown, {near.point, Vec3(0.0, 0.0, 1.0)}};
 }
 
 /// Whether there is floor under the axis after all.
-bool has_floor(const Move& m, const FloorPlane& plane, const Vec3& place) {
+bool has_floor(const Space& space, double slope_degrees, const FloorPlane& plane, const Vec3& place) {
   const Vec3 middle(place.x, place.y, plane.level(place));
-  const Floor floor{m.settings.slope_degrees, carrying_band, plane.point, plane.normal};
-  return m.space.floor_clearance({0.0, carrying_band}, middle, under_axis, floor).found;
+  const Floor floor{slope_degrees, carrying_band, plane.point, plane.normal};
+  return space.floor_clearance({0.0, carrying_band}, middle, under_axis, floor).found;
 }
 
-/// Whether the foot carries the body over the plane at `place`.
-bool carries(const Move& m, const FloorPlane& plane, const Vec3& place) {
-  return !has_floor(m, plane, place) && !free_disc(m.space, plane, foot_of(m), place);
+/// The same as carrying(), which is asked where it was not asked just now. The answer stays in the stance.
+bool carries(const Move& m, Stance& stance, const FloorPlane& plane, const Vec3& place) {
+  const Size size{m.settings.radius, m.settings.support_radius};
+  FootAnswer asked{place, m.height, size, plane.point, plane.normal, m.space.revision()};
+  if (stance.foot.known && stance.foot.same_question(asked)) return stance.foot.carries;
+  const Carrying answer = carrying(m.space, m.settings, m.skin, m.height, plane, place);
+  asked.known = m.space.tells_changes();
+  asked.carries = answer != Carrying::no;
+  asked.unknown = answer == Carrying::unknown;
+  stance.foot = asked;
+  return asked.carries;
 }
 
-void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane) {
+/// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
+void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane, bool is_floor) {
   if (!stance.carried) m.note(EventKind::carried);
-  stand_on(m, stance, {plane.normal, plane.level(m.place), true, false, false});
-  stance.carried = stance.floor_seen = true;
+  stand_on(m, stance, {plane.normal, plane.level(m.place), true, false, stance.foot.unknown});
+  stance.carried = true;
+  stance.floor_seen = is_floor;
   stance.floor_point = plane.point;
   stance.floor_normal = plane.normal;
 }
 
 }  // namespace
+
+Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
+                  const FloorPlane& plane, const Vec3& place) {
+  if (has_floor(space, settings.slope_degrees, plane, place)) return Carrying::no;
+  switch (free_disc(space, plane, foot_of(settings, skin, height), place)) {
+    case DiscRoom::none:
+      return Carrying::yes;
+    case DiscRoom::unknown:
+      return Carrying::unknown;
+    case DiscRoom::free:
+      break;
+  }
+  return Carrying::no;
+}
 
 bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }
 
@@ -77,6 +106,11 @@ bool see_floor(const Move& m, Stance& stance, double reach, double horizontal) {
   const Vec3 from(m.place.x, m.place.y, m.feet() + r);
   const Impact s = m.space.ray(from, Vec3(0.0, 0.0, -(r + reach + lifted)));
   if (!s.hit || s.normal.z < m.slope_cosine - cosine_rounding) return false;
+  if (s.unknown) {
+    // It carries as floor does, but what it hides need not be at its height.
+    forget_other_storeys(m, stance);
+    return true;
+  }
   stance.floor_point = s.point;
   if (s.feature == Feature::face || !stance.floor_seen) {
     // What is seen at once has the roughness of the floor in it: it counts the more the longer it lasts.
@@ -89,17 +123,24 @@ bool see_floor(const Move& m, Stance& stance, double reach, double horizontal) {
 
 bool carry(Move& m, Stance& stance, double drop, double reach) {
   FloorPlane plane = plane_of(stance);
+  bool is_floor = true;
   if (!stance.floor_seen) {
-    const auto beside = plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band, foot_radius(m));
-    if (!beside) return false;
-    plane = *beside;
+    const Beside beside = plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band);
+    if (!beside.found) return false;
+    plane = beside.plane;
+    is_floor = !beside.unknown;
+    if (beside.unknown) {
+      // What was put beside the unknown waits at its height until it is known, unless there is ground to stand on.
+      if (std::isfinite(drop)) return false;
+      plane.point = Vec3(m.place.x, m.place.y, m.feet() - m.skin);
+    }
   }
   const double lift = centre_over(m, plane, m.place) - m.place.z, rest = rest_part * 2.0 * m.skin;
   // What it stands on is no lower; or the plane is of another storey.
   if (-drop >= lift - rest || lift < -reach || lift > m.settings.step + m.settings.radius) return false;
-  if (!carries(m, plane, m.place)) return false;
+  if (!carries(m, stance, plane, m.place)) return false;
   if (std::abs(lift) > rest) m.advance(Vec3(0.0, 0.0, lift), 0.0);
-  stand_on_foot(m, stance, plane);
+  stand_on_foot(m, stance, plane, is_floor);
   return true;
 }
 
@@ -115,21 +156,20 @@ std::optional<double> carried_after(const Move& m, Stance& stance, const Vec3& m
   if (stance.floor_seen) {
     const FloorPlane plane = plane_of(stance);
     if (const std::optional<double> part = crossing(plane)) {
-      return carries(m, plane, m.place + motion * *part) ? part : std::nullopt;
+      return carries(m, stance, plane, m.place + motion * *part) ? part : std::nullopt;
     }
   }
-  const std::optional<FloorPlane> plane =
-      plane_beside(m, m.place + motion, m.feet() + motion.z - 2.0 * m.skin, m.feet(), foot_radius(m));
-  if (!plane) return std::nullopt;
-  const std::optional<double> part = crossing(*plane);
-  if (!part || !carries(m, *plane, m.place + motion * *part)) return std::nullopt;
-  stance.floor_point = plane->point;
-  stance.floor_normal = plane->normal;
+  const Beside beside = plane_beside(m, m.place + motion, m.feet() + motion.z - 2.0 * m.skin, m.feet());
+  if (!beside.found || beside.unknown) return std::nullopt;
+  const std::optional<double> part = crossing(beside.plane);
+  if (!part || !carries(m, stance, beside.plane, m.place + motion * *part)) return std::nullopt;
+  stance.floor_point = beside.plane.point;
+  stance.floor_normal = beside.plane.normal;
   stance.floor_seen = true;
   return part;
 }
 
-void land_on_foot(Move& m, Stance& stance) { stand_on_foot(m, stance, plane_of(stance)); }
+void land_on_foot(Move& m, Stance& stance) { stand_on_foot(m, stance, plane_of(stance), true); }
 
 void forget_other_storeys(const Move& m, Stance& stance) {
   if (std::abs(stance.level - plane_of(stance).level(m.place)) > carrying_band) stance.floor_seen = false;

@@ -288,18 +288,7 @@ walking::Ending Walker::fly(walking::Move& m, const Vec3& velocity, double dt) {
 }
 
 void Walker::set_regions(std::span<const SizeRegion> regions) {
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    const SizeRegion& r = regions[i];
-    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
-    if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
-      throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
-    }
-    try {
-      check(walking::sized(given_, {r.radius, r.support_radius}));
-    } catch (const Error& error) {
-      throw Error(which + ": " + error.what());
-    }
-  }
+  check(regions, given_);
   std::vector<SizeRegion> copies(regions.begin(), regions.end());
   std::vector<char> inside(regions.size(), char{0});
   regions_.swap(copies);

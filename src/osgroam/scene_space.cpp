@@ -150,6 +150,7 @@ struct SceneSpace::State {
       }
     }
     for (const auto& unknown : visit.visitor.unknown()) {
+      if (!collector.takes_unknown(unknown.box, body.radius, 0.0)) continue;
       roam::Contact contact = roam::unknown::nearest(unknown.box, 0.0, body, from, motion);
       contact.unknown = true;
       contact.triangle += number(unknown);

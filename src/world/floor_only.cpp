@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "math/largest.h"
 #include "roam/error.h"
@@ -49,7 +50,7 @@ Outline cut(const Outline& whole, double limit, const Height& height) {
 
 }  // namespace
 
-FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : band_(floor.band) {
+FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : start_(start), band_(floor.band) {
   if (!(floor.slope_degrees >= 0.0 && floor.slope_degrees <= slope_limit)) {
     refuse("the slope limit is " + std::to_string(floor.slope_degrees) + " degrees; it must be between 0 and 89");
   }
@@ -87,6 +88,19 @@ FloorPieces FloorOnly::pieces(const certified::LocalTriangle& triangle) const {
   const double error = triangle.corner_error + cut_roundings * certified::unit_roundoff * reach;
   for (int i = 2; i < rest.corners; ++i) pieces.push({{rest.corner[0], rest.corner[i - 1], rest.corner[i]}, error});
   return pieces;
+}
+
+bool FloorOnly::may_lie_in(const Box& box, double reach, double margin) const {
+  if (std::isinf(band_)) return true;
+  // The rise of the plane over the part of the box that is within reach: linear, so its ends are at the ends.
+  double least = 0.0, most = 0.0;
+  for (const auto& [k, rise] : {std::pair(0, rise_x_), std::pair(1, rise_y_)}) {
+    const double lower = std::max(box.lower[k] - start_[k], -reach), upper = std::min(box.upper[k] - start_[k], reach);
+    least += std::min(rise * lower, rise * upper);
+    most += std::max(rise * lower, rise * upper);
+  }
+  return box.lower.z - start_.z - margin <= level_ + most + band_ &&
+         box.upper.z - start_.z + margin >= level_ + least - band_;
 }
 
 }  // namespace roam::query

@@ -30,10 +30,15 @@ class FloorOnly {
   /// What counts of the triangle: nothing, all, or the part in the band.
   [[nodiscard]] FloorPieces pieces(const certified::LocalTriangle& triangle) const;
 
+  /// Whether a box of which nothing is known may hold floor of the band within `reach` (m) of the start's x and y. What
+  /// comes to light in it may stick out by `margin` (m).
+  [[nodiscard]] bool may_lie_in(const Box& box, double reach, double margin) const;
+
  private:
   /// Metres above the plane of the band.
   [[nodiscard]] double above(const Vec3& p) const { return p.z - (level_ + p.x * rise_x_ + p.y * rise_y_); }
 
+  Vec3 start_;
   double squared_cosine_;
   double band_;
   double level_ = 0.0;                  ///< of the band's plane over the start, metres

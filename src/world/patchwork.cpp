@@ -157,7 +157,7 @@ struct Patchwork::State {
       if (patch.world) {
         const WorldData& data = *patch.world->data_;
         query::collect(data, part(body, from, motion, whole.meets(data.reach)), first_id(index), collector);
-      } else {
+      } else if (collector.takes_unknown(patch.where, body.radius, margin)) {
         Contact c = unknown::nearest(patch.where, margin, body, from, motion);
         c.triangle += first_id(index) + kFirstSide;
         collector.offer(c, margin);

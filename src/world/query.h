@@ -58,6 +58,10 @@ class Collector {
 
   /// Takes a contact or not. Its distance is certified, and no more than `doubt` (m) less than the true one.
   void offer(const Contact& contact, double doubt = 0.0);
+  /// Whether a box of which nothing is known, from which `margin` (m) is kept, counts for a body of this radius.
+  [[nodiscard]] bool takes_unknown(const Box& box, double radius, double margin) const {
+    return floor_ == nullptr || floor_->may_lie_in(box, radius + reach_, margin);
+  }
   /// Something was not offered that comes no nearer than `gap`, which is certified and beyond enough().
   void left_out(double gap) { left_out_ = std::min(left_out_, gap); }
   /// Nearest first.

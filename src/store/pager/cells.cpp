@@ -95,6 +95,7 @@ void near_cells(const TileEntry& tile, const index::Piece& piece, TriangleId bas
   visit_cells(
       tile, kAll, far_side, [&](const Box& box) { return !way_around(piece, collector.reach()).meets(box).empty(); },
       [&](const Cells& cells) {
+        if (!collector.takes_unknown(cells.box, piece.body.radius, Pager::margin)) return;
         collector.offer(near_box(cells.box, piece, base + cells.first * unknown::sides), Pager::margin);
       });
 }

@@ -91,7 +91,8 @@ void PagedScene::near(const index::Piece& piece, query::Collector& collector) co
     if (page.in.tiles != nullptr) {
       asking.page = number;
       query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
-    } else if (!only_coming || !page.failed) {
+    } else if ((!only_coming || !page.failed) &&
+               collector.takes_unknown(page.box, piece.body.radius, Pager::margin)) {
       collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})), Pager::margin);
     }
     look = way_around(piece, collector.reach());
