@@ -286,4 +286,66 @@ TEST(ManipulatorSpace, ACrouchedBodyKeepsItsFeetInAnotherSpace) {
   EXPECT_LT(glm::length(other.walker()->feet() - feet), 0.01);
 }
 
+/// A smaller body in all of the room.
+roam::SizeRegion everywhere(double radius) {
+  return {{roam::Vec3(-5.0, -5.0, -1.0), roam::Vec3(5.0, 5.0, 4.0)}, radius, 0.0, "a narrow room"};
+}
+
+TEST(ManipulatorSpace, RegionsStayWithTheBodyWhateverSpaceAndSettingsItGets) {
+  Rig r;
+  const roam::SizeRegion small = everywhere(0.2);
+  r->setRegions({&small, 1});
+  EXPECT_EQ(r->regions().size(), 1u) << "without a space";
+  r->setPose({0.0, 0.0, 2.0}, 0.0, 0.0);
+  const auto expect_small = [&](const char* when) {
+    ASSERT_NE(r->walker(), nullptr);
+    ASSERT_EQ(r->walker()->regions().size(), 1u) << when;
+    EXPECT_EQ(r->walker()->body().radius, 0.2) << when;
+  };
+  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  expect_small("a space");
+  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  expect_small("another space");
+  roam::WalkerSettings settings;
+  settings.radius = 0.4;
+  r->setSettings(settings);
+  expect_small("other settings");
+  osg::ref_ptr<osg::Group> scene = box_scene();
+  r->buildSpace(*scene);
+  finish_building(r);
+  expect_small("a space that was built");
+  osg::ref_ptr<osgRoam::Manipulator> copy = new osgRoam::Manipulator(*r);
+  EXPECT_EQ(copy->walker()->body().radius, 0.2) << "a copy";
+  r->setRegions({});
+  r.frames(0.1);
+  EXPECT_EQ(r->walker()->body().radius, 0.4);
+}
+
+TEST(ManipulatorSpace, ABodyIsPutAsLargeAsItIsThere) {
+  Mesh narrow = room();
+  for (const double y : {-0.25, 0.25}) add_wall(narrow, -5.0, y, 5.0, y, 0.0, 3.0);
+  Rig r;
+  const roam::SizeRegion small = everywhere(0.2);
+  r->setRegions({&small, 1});
+  r->setPose({0.0, 0.0, 2.0}, 0.0, 0.0);
+  r->setSpace(std::make_shared<const roam::World>(build(narrow)));
+  EXPECT_FALSE(r->held());
+  expect_near(rig::eye_of(r->getMatrix()), {0, 0, 2}, 1e-9);
+}
+
+TEST(ManipulatorSpace, RegionsThatTheSettingsDoNotAllowAreRefused) {
+  Rig r(room(), {}, roam::Mode::fly);
+  const roam::SizeRegion small = everywhere(0.2), bad = everywhere(2.0);
+  r->setRegions({&small, 1});
+  EXPECT_THROW(r->setRegions({&bad, 1}), roam::Error);
+  EXPECT_EQ(r->regions()[0].radius, 0.2);
+  EXPECT_EQ(r->walker()->regions()[0].radius, 0.2);
+  roam::WalkerSettings low = r->settings();
+  low.radius = 0.1;
+  low.height = low.eye = low.crouch_height = 0.3;  // lower than the region's body is wide
+  EXPECT_THROW(r->setSettings(low), roam::Error);
+  EXPECT_EQ(r->settings().radius, 0.3);
+  EXPECT_EQ(r->walker()->settings().height, 1.8);
+}
+
 }  // namespace

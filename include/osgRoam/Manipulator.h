@@ -49,6 +49,7 @@
 #include <memory>
 #include <osg/Vec3d>
 #include <osgGA/CameraManipulator>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -78,7 +79,7 @@ class Manipulator : public osgGA::CameraManipulator {
   /// explains, and for an origin that is not finite.
   explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly,
                        const osg::Vec3d& origin = osg::Vec3d());
-  /// Settings, controls, the space and its update, pose and home; not the other callbacks, the pilot, keys that are
+  /// Settings, regions, controls, the space and its update, pose and home; not the other callbacks, the pilot, keys that are
   /// down, a world that is being built.
   Manipulator(const Manipulator& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
   META_Object(osgRoam, Manipulator);
@@ -122,6 +123,13 @@ class Manipulator : public osgGA::CameraManipulator {
   /// but not in [least_speed, greatest_speed], is brought into that, as by setSpeed.
   void setSettings(const roam::WalkerSettings& settings);
   [[nodiscard]] const roam::WalkerSettings& settings() const;  ///< with the speed as it is now
+
+  /// Where the body has another size: Walker::set_regions, for this walker and for each that follows it after setSpace,
+  /// setSettings and buildSpace. Copied. A body that stands in a region takes its size with the next step. Throws
+  /// roam::Error for regions that the settings do not allow, and changes nothing then; so does setSettings where the
+  /// regions do not allow the settings.
+  void setRegions(std::span<const roam::SizeRegion> regions);
+  [[nodiscard]] std::span<const roam::SizeRegion> regions() const;
 
   void setMode(roam::Mode mode);
   [[nodiscard]] roam::Mode mode() const;

@@ -39,6 +39,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   const State& from = *other._state;
   State& s = *_state;
   s.settings = from.settings;
+  s.regions = from.regions;
   s.mode = from.mode;
   s.before_ghost = from.before_ghost;
   s.space = from.space;
@@ -112,8 +113,9 @@ void Manipulator::setOrigin(const osg::Vec3d& origin) {
 const osg::Vec3d& Manipulator::origin() const { return _state->origin; }
 
 void Manipulator::setSettings(const roam::WalkerSettings& settings) {
-  roam::check(settings);
   State& s = *_state;
+  roam::check(settings);
+  roam::check(s.regions, settings);
   const roam::Vec3 feet = s.walker ? s.walker->feet() : roam::Vec3(0.0);
   s.settings = settings;
   s.change_speed(settings.speed);
@@ -121,6 +123,15 @@ void Manipulator::setSettings(const roam::WalkerSettings& settings) {
 }
 
 const roam::WalkerSettings& Manipulator::settings() const { return _state->settings; }
+
+void Manipulator::setRegions(std::span<const roam::SizeRegion> regions) {
+  State& s = *_state;
+  roam::check(regions, s.settings);
+  s.regions.assign(regions.begin(), regions.end());
+  if (s.walker) s.walker->set_regions(s.regions);
+}
+
+std::span<const roam::SizeRegion> Manipulator::regions() const { return _state->regions; }
 
 void Manipulator::setMode(roam::Mode mode) { _state->change_mode(mode); }
 

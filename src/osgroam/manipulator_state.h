@@ -9,6 +9,7 @@
 #include <osg/Node>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "osgRoam/Manipulator.h"
 #include "osgroam/background_build.h"
@@ -26,6 +27,7 @@ struct Manipulator::State {
 
   // The body.
   roam::WalkerSettings settings;
+  std::vector<roam::SizeRegion> regions;
   roam::Mode mode = roam::Mode::fly;
   roam::Mode before_ghost = roam::Mode::fly;
   std::shared_ptr<const roam::Space> space;

@@ -131,6 +131,10 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
     call(update, roam::Body::capsule(settings.radius, settings.height), centre, roam::Vec3(0.0));
     if (!space || walker) return;  // it has exchanged the space, and the body with it
     walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
+    if (!regions.empty()) {
+      walker->set_regions(regions);
+      walker->place(centre);  // as large as it is there
+    }
     if (walker->held()) place_safely(*walker, centre);
     tell_placed();
   });

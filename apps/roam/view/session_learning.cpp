@@ -28,21 +28,20 @@ void Session::begin_learning() {
     if (options_.no_profile || std::filesystem::exists(file)) file.clear();
   }
   learning_.emplace(std::move(known), std::move(file), options_.adapt);
-  take_sizes();
+  roamer_->setRegions(learning_->profile().regions);
 }
 
 /// To be called whenever there is another walker.
 void Session::take_sizes() {
-  if (!learning_ || roamer_->walker() == nullptr) return;
-  const Profile& known = learning_->profile();
-  roamer_->walker()->set_regions(known.regions);
-  if (learning_->taken() > 0) roamer_->walker()->resize(known.radius, known.support_radius);
+  if (!learning_ || learning_->taken() == 0 || roamer_->walker() == nullptr) return;
+  roamer_->walker()->resize(learning_->profile().radius, learning_->profile().support_radius);
 }
 
 void Session::take_lesson() {
   const bool asked = std::exchange(lesson_wanted_, false);
   if (!learning_ || roamer_->walker() == nullptr) return;
   if (const auto taken = learning_->take(*roamer_->walker(), asked)) {
+    roamer_->setRegions(learning_->profile().regions);
     if (taken->placed) roamer_->placed();
     if (taken->told.warning) {
       note(taken->told.text);
