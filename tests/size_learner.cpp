@@ -8,6 +8,7 @@
 
 #include "roam/route.h"
 #include "roam/world.h"
+#include "support_scenes.h"
 #include "train_scenes.h"
 
 namespace {
@@ -122,6 +123,84 @@ TEST(SizeLearner, TakesALargerFootWhereTheBodyFellAndGoesOnFromWhereItStood) {
     EXPECT_TRUE(walk.arrived());
     EXPECT_GE(walk.least_gap, -1e-6);
     EXPECT_DOUBLE_EQ(walk.learner.profile().support_radius, walk.lessons[0].support_radius);
+  }
+}
+
+/// A walk along +x over what lies at x = 0, by a body that takes every foot that it is offered.
+struct Crossing {
+  Crossing(const roam::Mesh& mesh, const WalkerSettings& settings, const Vec3& start, double speed, double goal)
+      : world(scenes::build(mesh)), learner(known(settings)), walker(world, settings, Mode::walk, start) {
+    const Vec3 wish(speed, 0.0, 0.0);
+    for (int i = 0; i < 60 * 20 && walker.position().x < goal; ++i) {
+      walker.step({.velocity = wish}, 1.0 / 60.0);
+      falls += walker.report().has(roam::EventKind::fell) || walker.report().held ? 1 : 0;
+      if (const auto lesson = learner.watch(walker, wish, 1.0 / 60.0)) {
+        lessons.push_back(*lesson);
+        learner.take(walker, *lesson);
+      }
+    }
+    arrived = walker.position().x >= goal;
+  }
+  World world;
+  SizeLearner learner;
+  Walker walker;
+  std::vector<Lesson> lessons;
+  int falls = 0;
+  bool arrived = false;
+};
+
+TEST(SizeLearner, AFootThatIsOfferedCarriesOnRampsToo) {
+  for (const double degrees : {-25.0, -10.0, 15.0, 25.0}) {
+    for (const double width : {0.7, 1.1}) {
+      for (const double speed : {0.7, 1.4, 7.0}) {
+        roam::Mesh mesh = scenes::split(width);
+        scenes::turn(mesh, 25.0);
+        scenes::tilt(mesh, degrees);
+        const double rise = std::tan(degrees * std::numbers::pi / 180.0);
+        const Crossing c(mesh, person(0.25), {-1.5, 0.0, 0.95 + 0.1 - 1.5 * rise}, speed, 2.5);
+        ASSERT_EQ(c.lessons.size(), 1U) << degrees << " " << width << " " << speed;
+        EXPECT_EQ(c.lessons[0].kind, Lesson::Kind::support);
+        EXPECT_LE(c.falls, 1) << degrees << " " << width << " " << speed;
+        EXPECT_TRUE(c.arrived) << degrees << " " << width << " " << speed;
+      }
+    }
+  }
+}
+
+TEST(SizeLearner, LooksOverALowKerbAsTheWalkerDoes) {
+  // Behind a kerb that is higher than a step the gap goes on; the walker sees it, for it looks over 0.25 m.
+  roam::Mesh mesh;
+  scenes::add_floor(mesh, -20.0, -10.0, 0.0, 10.0, 0.0);
+  scenes::add_wall(mesh, 0.6, -10.0, 0.6, 10.0, -50.0, 0.2);
+  scenes::add_floor(mesh, 1.2, -10.0, 20.0, 10.0, 0.0);
+  scenes::add_floor(mesh, -20.0, -10.0, 20.0, 10.0, -50.0);
+  WalkerSettings settings = person(0.2);
+  settings.step = 0.1;
+  const Crossing c(mesh, settings, {-1.5, 0.0, 0.95}, 1.0, 0.5);
+  ASSERT_EQ(c.lessons.size(), 1U);
+  EXPECT_NEAR(c.lessons[0].support_radius, 0.62, 0.01);
+  EXPECT_EQ(c.falls, 1);
+}
+
+TEST(SizeLearner, LearnsOfAFallOutOfTheScene) {
+  roam::Mesh mesh;
+  scenes::add_floor(mesh, -20.0, -10.0, 0.0, 10.0, 0.0);
+  scenes::add_floor(mesh, 0.8, -10.0, 20.0, 10.0, 0.0);
+  const Crossing c(mesh, person(0.25), {-1.5, 0.0, 0.95}, 1.4, 2.0);
+  ASSERT_EQ(c.lessons.size(), 1U);
+  EXPECT_NEAR(c.lessons[0].support_radius, 0.42, 0.01);
+  EXPECT_TRUE(c.arrived);
+}
+
+TEST(SizeLearner, OffersNoFootForTheEndOfTheFloorNorForAStepDown) {
+  roam::Mesh edge;
+  scenes::add_floor(edge, -20.0, -10.0, 0.0, 10.0, 0.0);
+  roam::Mesh ledge = edge;
+  scenes::add_floor(ledge, -20.0, -10.0, 20.0, 10.0, -1.5);
+  for (const roam::Mesh& mesh : {edge, ledge}) {
+    const Crossing c(mesh, person(0.25), {-1.5, 0.0, 0.95}, 1.4, 2.0);
+    EXPECT_TRUE(c.lessons.empty());
+    EXPECT_GT(c.falls, 0);
   }
 }
 

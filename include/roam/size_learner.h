@@ -14,8 +14,8 @@
 ///
 /// Two things are learned, the two of the paper's figure 6 where they are met and no earlier: *cannot enter*, so the
 /// body becomes smaller at that opening and nowhere else; *flies off*, so the foot becomes larger, everywhere. A lesson
-/// is only offered when it has been tried with the space's own queries: the smaller body has a certified way through
-/// the opening, the larger foot is carried where the body fell. Nothing that is learned lets a body violate what Walker
+/// is only offered when it has been tried: the smaller body has a certified way through the opening, and a Walker with
+/// the larger foot has gone to where the body lost the ground, and is carried there. Nothing that is learned lets a body violate what Walker
 /// promises.
 ///
 /// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson.
@@ -77,6 +77,8 @@ class SizeLearner {
   bool firm_ = false;       ///< has stood firmly: then where
   Vec3 firm_at_{0.0};       ///< centre, metres
   double firm_feet_ = 0.0;  ///< z of the lowest point there, metres
+  bool lost_ = false;       ///< has not stood firmly since: then where that began
+  Vec3 lost_at_{0.0};       ///< centre, metres
   bool changed_ = false;
 };
 

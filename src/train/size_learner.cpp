@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "motion/free_disc.h"
 #include "motion/opening.h"
+#include "motion/support.h"
 
 namespace roam {
 namespace {
@@ -24,6 +24,13 @@ constexpr double support_margin = 0.02;
 constexpr double disc_precision = 1e-3;
 /// Metres below the floor last stood on firmly, from where on a body that is stuck has sunk into something.
 constexpr double sunk = 0.02;
+
+/// Who tries a foot walks at this speed, m/s, in steps of so many seconds, and not for longer than a minute.
+constexpr double trial_speed = 1.4;
+constexpr double trial_step = 1.0 / 60.0;
+constexpr int trial_limit = 3600;
+/// Metres from where it was to go.
+constexpr double arrived = 1e-3;
 
 bool is_sphere(const WalkerSettings& settings) { return settings.height <= 2.0 * settings.radius; }
 
@@ -58,6 +65,27 @@ std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const
   return std::nullopt;
 }
 
+/// A walker with this foot that was put to `from` and has gone straight to where the axis is that of `to`. Nothing when
+/// it does not get there, or is not carried there: by its foot, and over floor that is known.
+std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& from, const Vec3& to) {
+  WalkerSettings settings = walker.settings();
+  settings.support_radius = foot;
+  Walker trial(walker.space(), settings, Mode::walk, from);
+  const Vec3 whole(to.x - from.x, to.y - from.y, 0.0);
+  const int most = 2 * static_cast<int>(glm::length(whole) / (trial_speed * trial_step)) + 2;
+  for (int i = 0; i < std::min(most, trial_limit); ++i) {
+    const Vec3 left(to.x - trial.position().x, to.y - trial.position().y, 0.0);
+    const double distance = glm::length(left);
+    if (distance < arrived) break;
+    trial.step({.velocity = left * (std::min(distance / trial_step, trial_speed) / distance)}, trial_step);
+    if (!trial.grounded() || trial.report().has(EventKind::fell)) return std::nullopt;
+  }
+  const Vec3& end = trial.position();
+  const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
+  if (!there || !trial.stance().carried || trial.stance().unknown) return std::nullopt;
+  return trial;
+}
+
 bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 
 }  // namespace
@@ -84,6 +112,11 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
     firm_ = true;
     firm_at_ = walker.position();
     firm_feet_ = walker.feet().z;
+    lost_ = false;
+  }
+  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held) {
+    lost_ = true;
+    lost_at_ = walker.position();
   }
   const bool fell = on_foot && (report.has(EventKind::fell) || (report.has(EventKind::held) && !walker.held()));
   pushed_ = report.blocked && wishes(wish) ? pushed_ + seconds : 0.0;
@@ -133,26 +166,25 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
 }
 
 std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
-  if (!firm_) return std::nullopt;
-  const WalkerSettings& settings = walker.settings();
-  // The floor it went off, as level as it was there.
-  walking::FloorPlane plane;
-  plane.point = Vec3(firm_at_.x, firm_at_.y, firm_feet_);
-  const Vec3 axis = walker.position();
-  const auto falls = [&](double foot) {
-    return walking::free_disc(walker.space(), plane, {foot, settings.slope_degrees, settings.step}, axis);
-  };
-  double low = std::max(walker.body().radius, settings.support_radius), high = limits_.support_max;
-  // Wider than any foot: a pit, a cliff.
-  if (high <= low || falls(high)) return std::nullopt;
+  if (!firm_ || !lost_) return std::nullopt;
+  double low = std::max(walker.body().radius, walker.settings().support_radius), high = limits_.support_max;
+  if (high <= low) return std::nullopt;
+  // Not even the largest: a pit, a cliff. Else it knows the plane of the floor, and is carried where it is.
+  const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
+  if (!largest) return std::nullopt;
+  const walking::FloorPlane plane{largest->stance().floor_point, largest->stance().floor_normal};
+  WalkerSettings settings = largest->settings();
   while (high - low > disc_precision) {
-    const double middle = 0.5 * (low + high);
-    (falls(middle) ? low : high) = middle;
+    settings.support_radius = 0.5 * (low + high);
+    const bool carried = walking::carrying(walker.space(), settings, largest->skin(), largest->body().height(), plane,
+                                           largest->position()) == walking::Carrying::yes;
+    (carried ? high : low) = settings.support_radius;
   }
   Lesson lesson;
   lesson.kind = Lesson::Kind::support;
-  lesson.at = axis;
+  lesson.at = walker.position();
   lesson.support_radius = std::min(high + support_margin, limits_.support_max);
+  if (!carried_at(walker, lesson.support_radius, firm_at_, lost_at_)) return std::nullopt;
   lesson.why = fmt::format("gap of the floor {:.2f} m wide: a foot of {:.2f} m", 2.0 * high, lesson.support_radius);
   return lesson;
 }
