@@ -1,4 +1,8 @@
 // What roam build and its kin say, and leave behind, where something cannot be.
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
 #include "store_verbs.h"
 
 namespace {
@@ -92,6 +96,118 @@ TEST_F(StoreFailures, WhatCannotBeReadIsNoMatterOfTheRightToWrite) {
   EXPECT_EQ(told.status, 3);
   EXPECT_TRUE(contains(told.out, "cannot read " + pack.string())) << told.out;
   EXPECT_FALSE(contains(told.out, "write")) << told.out;
+}
+
+TEST_F(StoreFailures, ABuildThatHasNotEndedIsNotWholeAndIsTold) {
+  const TestFolder folder;
+  const std::string begun = folder.file("begun.roam");
+  ASSERT_EQ(run({"build", scene(), "-o", begun, "--plan"}).status, 0);
+  const ProgramResult told = run({"verify", begun});
+  EXPECT_EQ(told.status, 3);
+  EXPECT_TRUE(contains(told.out, "not complete") && contains(told.out, "roam build")) << told.out;
+  EXPECT_FALSE(contains(told.out, "--repair")) << told.out;
+  const ProgramResult json = run({"verify", begun, "--json"});
+  EXPECT_EQ(json.status, 3);
+  const auto found = nlohmann::json::parse(json.out);
+  EXPECT_FALSE(found["whole"]);
+  EXPECT_FALSE(found["complete"]);
+  EXPECT_TRUE(found["damage"].empty());
+  const ProgramResult repaired = run({"verify", begun, "--repair", scene()});
+  EXPECT_EQ(repaired.status, 1) << "a repair cannot end a build";
+  EXPECT_TRUE(contains(repaired.err, "roam build")) << repaired.err;
+  ASSERT_EQ(run({"build", scene(), "-o", begun}).status, 0);
+  EXPECT_TRUE(nlohmann::json::parse(run({"verify", begun, "--json"}).out)["complete"]);
+}
+
+TEST_F(StoreFailures, ARepairTellsTheNotesOfItsReading) {
+  const TestFolder folder;
+  const std::string odd = folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n");
+  const std::string made = odd + ".roam";
+  const ProgramResult built = run({"build", odd});
+  ASSERT_EQ(built.status, 0) << built.err;
+  const std::size_t begin = built.err.find("roam: note: ");
+  ASSERT_NE(begin, std::string::npos) << built.err;
+  const std::string note = built.err.substr(begin, built.err.find('\n', begin) - begin);
+  flip(only_pack(made), 100);
+  const ProgramResult repaired = run({"verify", made, "--repair", odd});
+  EXPECT_EQ(repaired.status, 0) << repaired.err;
+  EXPECT_TRUE(contains(repaired.err, note)) << repaired.err;
+}
+
+/// The fields of each row after the header.
+std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream in(text);
+  std::string row;
+  std::getline(in, row);
+  while (std::getline(in, row)) {
+    rows.emplace_back();
+    std::istringstream fields(row);
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+/// Sweeps from the middle of the corridor into its walls, along its first 60 m.
+std::string queries_into_walls() {
+  std::string queries;
+  for (int i = 0; i < 60; ++i) {
+    queries += std::to_string(-13739.0 + i) + ',' + std::to_string(253.0 + 1.063 * i) + ",182," +
+               std::to_string(i % 2 == 0 ? 6.0 : -6.0) + ',' + std::to_string(i % 2 == 0 ? -6.0 : 6.0) + ",0,0.2\n";
+  }
+  return queries;
+}
+
+TEST_F(StoreFailures, SweepsEndAtWhatCannotBeReadAndGoOn) {
+  const TestFolder folder;
+  const std::string bad = copy(folder);
+  const fs::path pack = only_pack(bad);
+  // Each third block of the tiles; the pages lie at the end.
+  for (std::uintmax_t at = 64; at < fs::file_size(pack) * 3 / 4; at += 30'000) flip(pack, std::streamoff(at));
+  const std::string queries = queries_into_walls();
+  const auto whole = rows_of(run({"sweep", store()}, queries).out);
+  const ProgramResult told = run({"sweep", bad}, queries);
+  EXPECT_EQ(told.status, 3) << told.err;
+  const auto rows = rows_of(told.out);
+  ASSERT_EQ(rows.size(), whole.size()) << "each row is answered";
+  int unknown = 0, known = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 11U);
+    if (rows[i][9] != "unknown") {
+      ++known;
+      EXPECT_EQ(rows[i][0], whole[i][0]);
+      EXPECT_NEAR(std::stod(rows[i][1]), std::stod(whole[i][1]), 1e-6);
+      continue;
+    }
+    ++unknown;
+    EXPECT_EQ(rows[i][0], "1") << "solid";
+    EXPECT_EQ(rows[i][8], "-1");
+    EXPECT_LE(std::stod(rows[i][1]), std::stod(whole[i][1])) << "never through";
+  }
+  EXPECT_GT(unknown, 0) << told.err;
+  EXPECT_GT(known, 0) << told.err;
+  EXPECT_TRUE(contains(told.err, "note: line ") && contains(told.err, "tile ") && contains(told.err, "of page 0"))
+      << told.err;
+  EXPECT_TRUE(contains(told.err, std::to_string(unknown) + " of ") && contains(told.err, "roam verify")) << told.err;
+}
+
+TEST_F(StoreFailures, SweepsAreAnsweredWhereTheNamesOfTrianglesCannotBeRead) {
+  const TestFolder folder;
+  const std::string bad = copy(folder);
+  fs::remove_all(bad + "/parts");
+  const std::string queries = queries_into_walls();
+  const auto whole = rows_of(run({"sweep", store()}, queries).out);
+  const ProgramResult told = run({"sweep", bad}, queries);
+  EXPECT_EQ(told.status, 3) << told.err;
+  auto rows = rows_of(told.out);
+  ASSERT_EQ(rows.size(), whole.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i][0] == "1") {
+      EXPECT_EQ(std::exchange(rows[i][8], whole[i][8]), "-1");
+    }
+    EXPECT_EQ(rows[i], whole[i]);
+  }
+  EXPECT_TRUE(contains(told.err, "parts/")) << told.err;
 }
 
 }  // namespace

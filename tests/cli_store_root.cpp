@@ -81,7 +81,7 @@ TEST_F(StoreRoot, IsRepairedAsItWasBuilt) {
     fs::remove_all(bad);
     fs::copy(whole, bad, fs::copy_options::recursive);
     loss.happens(bad);
-    const ProgramResult repaired = run({"verify", bad, "--repair", scene(), "--unit", "ft"});
+    const ProgramResult repaired = run({"verify", bad, "--repair", scene()});
     ASSERT_EQ(repaired.status, 0) << loss.what << repaired.err << repaired.out;
     store_builds::expect_same(bad, whole);
   }

@@ -51,6 +51,22 @@ TEST(StoreBuildDisk, SaysWhatOfAPublishedBuildCouldNotBeRemoved) {
   EXPECT_FALSE(fs::exists(store + "/scratch"));
 }
 
+TEST(StoreBuildDisk, SaysWhatOfARepairCouldNotBeRemoved) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(20, 1.0, {0.0, 0.0, 0.0}));
+  const std::string store = folder.file("s");
+  roam::build_store(options({scene}, store));
+  const auto pack = fs::directory_iterator(store + "/packs")->path();
+  fs::resize_file(pack, fs::file_size(pack) - 1);
+  removes_nothing = true;
+  const roam::StoreBuildReport report = roam::repair_store(options({scene}, store));
+  removes_nothing = false;
+  EXPECT_EQ(report.shards_built, 1U);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes[0].find(store + "/scratch could not be removed"), std::string::npos) << report.notes[0];
+  expect_whole(store);
+}
+
 TEST(StoreBuildDisk, SyncsTheFolderAboveEachThatItMakes) {
   const TestFolder folder;
   syncs = 0;

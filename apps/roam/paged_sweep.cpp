@@ -48,18 +48,22 @@ class Arrivals {
 
 }  // namespace
 
-/// Nothing where memory does not hold what must be known, and `may_part`.
+/// Nothing where memory does not hold what must be known, and `may_part`. Unknown: what is met cannot be read.
 std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
   Arrivals arrivals(scene_);
   for (;;) {
     const Impact answer = scene_.space().sweep(part.body, part.from, part.motion);
     if (!answer.unknown) return answer;
     const double quiet = arrivals.wait(part.body, part.from, part.motion);
-    if (may_part && !arrivals.settled() && quiet > full_after) return std::nullopt;
-    if (quiet < (arrivals.settled() ? broken_after : late_after)) continue;
-    const std::string why = scene_.space().object_name(answer.triangle);
-    throw Error("what lies along this way cannot be had" + (why.empty() ? "" : ": " + why) +
-                "; verify the store (roam verify), or give --memory more");
+    if (arrivals.settled()) {
+      const std::string why = scene_.space().object_name(answer.triangle);
+      if (quiet < broken_after && !given_up_.contains(why)) continue;
+      if (!why.empty()) given_up_.insert(why);
+      return answer;
+    }
+    if (may_part && quiet > full_after) return std::nullopt;
+    if (quiet > late_after)
+      throw Error("what lies along this way does not come; give --memory more, or wait for the disk");
   }
 }
 
@@ -70,7 +74,8 @@ double PagedSweep::gap(const SweepQuery& part) {
   for (const double reach : gap_reaches) {
     Arrivals arrivals(scene_);
     Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
-    while (nearest.unknown && arrivals.wait(part.body, part.from, ahead * (length + reach)) < full_after) {
+    while (nearest.unknown && !arrivals.settled() &&
+           arrivals.wait(part.body, part.from, ahead * (length + reach)) < full_after) {
       nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     }
     // The sweep has certified at least 0, whatever the grid takes off here; what is unknown only makes it less.
@@ -80,7 +85,7 @@ double PagedSweep::gap(const SweepQuery& part) {
   return distance;
 }
 
-Impact PagedSweep::operator()(const SweepQuery& query) {
+SweepAnswer PagedSweep::operator()(const SweepQuery& query) {
   const double length = glm::length(query.motion);
   double least = std::numeric_limits<double>::infinity();
   Impact answer;
@@ -96,14 +101,20 @@ Impact PagedSweep::operator()(const SweepQuery& query) {
     answer = *found;
     if (answer.hit) {
       answer.time = begin + answer.time * (end - begin);
-      answer.triangle = scene_.source(answer.triangle).scene;
-      return answer;
+      if (answer.unknown) return {answer, scene_.space().object_name(answer.triangle)};
+      try {
+        answer.triangle = scene_.source(answer.triangle).scene;
+      } catch (const Error& error) {
+        answer.triangle = no_triangle;
+        return {answer, error.what()};
+      }
+      return {answer, {}};
     }
     least = std::min(least, gap(part));
     begin = end;
   }
   answer.distance = least;
-  return answer;
+  return {answer, {}};
 }
 
 }  // namespace roam::app

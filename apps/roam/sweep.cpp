@@ -11,7 +11,10 @@
 #include <cstring>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "interrupt.h"
 #include "open_scene.h"
@@ -42,6 +45,8 @@ struct Rows {
 /// The answers to Rows, up to the first row that has none.
 struct Answers {
   std::string text;
+  std::uint64_t rows = 0;
+  std::vector<std::pair<std::uint64_t, std::string>> missing;  ///< line, and what could not be read for it
   std::optional<std::string> error;
 };
 
@@ -104,7 +109,7 @@ Impact sweep_and_measure(const Space& space, const SweepQuery& query) {
 class WholeScene {
  public:
   explicit WholeScene(const LoadedScene& scene) : world_(scene.world) {}
-  [[nodiscard]] Impact operator()(const SweepQuery& query) const { return sweep_and_measure(world_, query); }
+  [[nodiscard]] SweepAnswer operator()(const SweepQuery& query) const { return {sweep_and_measure(world_, query), {}}; }
 
  private:
   const World& world_;
@@ -123,7 +128,10 @@ Answers answer(Scene&& scene, const Rows& rows) {
     try {
       if (line == 1 && is_query_header(row)) continue;
       const SweepQuery query = parse_query(row);
-      append_answer(answers.text, scene(query));
+      SweepAnswer found = scene(query);
+      append_answer(answers.text, found.impact);
+      ++answers.rows;
+      if (!found.missing.empty()) answers.missing.emplace_back(line, std::move(found.missing));
     } catch (const Error& error) {
       answers.error = fmt::format("line {}: {}", line, error.what());
       return answers;
@@ -145,6 +153,34 @@ void write(std::string_view text) {
   }
 }
 
+/// Tells what could not be read: each thing once, with the first line that needed it.
+class Missing {
+ public:
+  void add(const Answers& answers) {
+    rows_ += answers.rows;
+    incomplete_ += answers.missing.size();
+    for (const auto& [line, what] : answers.missing) {
+      if (told_.size() == most_told || !told_.insert(what).second) continue;
+      fmt::print(stderr, "roam: note: line {}: {}\n", line, what);
+    }
+  }
+  /// Whether any answer is not complete, which is then told.
+  [[nodiscard]] bool any(const SceneOptions& options) const {
+    if (incomplete_ == 0) return false;
+    fmt::print(stderr,
+               "roam: {} of {} answers are not complete, because what they need cannot be read: there a way ends "
+               "(feature unknown) or the triangle is not told (-1); `roam verify {}` names all that is damaged\n",
+               incomplete_, rows_, options.names());
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t most_told = 20;
+
+  std::uint64_t rows_ = 0, incomplete_ = 0;
+  std::set<std::string> told_;
+};
+
 ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
   OpenScene scene(options, store, Source::release);
   const int threads =
@@ -165,8 +201,10 @@ ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
     if (answers.error) failed_row = true;
     return answers;
   };
+  Missing missing;
   const auto put = [&](const Answers& answers) {
     write(answers.text);
+    missing.add(answers);
     if (answers.error) throw Error(*answers.error);
   };
   tbb::parallel_pipeline(static_cast<std::size_t>(4 * threads),
@@ -174,7 +212,7 @@ ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
                              tbb::make_filter<Rows, Answers>(
                                  scene.store() ? tbb::filter_mode::serial_in_order : tbb::filter_mode::parallel, work) &
                              tbb::make_filter<Answers, void>(tbb::filter_mode::serial_in_order, put));
-  return done;
+  return missing.any(options) ? answer_no : done;
 }
 
 constexpr const char* help =
@@ -184,9 +222,10 @@ constexpr const char* help =
     "The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of\n"
     "a vertical capsule's axis; 0, or left out, is a sphere. distance is a certified lower bound of the gap between\n"
     "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m, or less\n"
-    "where the --memory of a store does not hold what lies around the way. A row that cannot be read, or answered, "
-    "ends\n"
-    "the program with status 1 and a message that names its line.\n\n"
+    "where the --memory of a store does not hold what lies around the way. A row that cannot be understood ends the\n"
+    "program with status 1 and a message that names its line.\n"
+    "What of a store cannot be read is solid: the way ends there, its feature is `unknown`, its triangle -1, and a\n"
+    "note says what it is; all rows are answered, and the exit status is 3.\n\n"
     "Examples:\n"
     "  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae\n"
     "  roam sweep --lossless gallery.ply < queries.csv > answers.csv\n";

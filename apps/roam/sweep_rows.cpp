@@ -92,7 +92,8 @@ void append_answer(std::string& rows, const Impact& answer) {
   }
   fmt::format_to(out, FMT_COMPILE("1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g}\n"),
                  answer.time, answer.point.x, answer.point.y, answer.point.z, answer.normal.x, answer.normal.y,
-                 answer.normal.z, answer.triangle, name(answer.feature), answer.distance);
+                 answer.normal.z, static_cast<std::int64_t>(answer.unknown ? no_triangle : answer.triangle),
+                 answer.unknown ? "unknown" : name(answer.feature), answer.distance);
 }
 
 }  // namespace roam::app

@@ -7,7 +7,6 @@
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
-#include "scene_options.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -15,7 +14,8 @@ namespace {
 
 struct VerifyOptions {
   std::filesystem::path store;
-  SceneOptions repair;  ///< the scene to repair it from
+  std::vector<std::filesystem::path> scene;  ///< to repair it from; empty: it is not repaired
+  int threads = 0;
   bool json = false;
 };
 
@@ -28,11 +28,19 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, s
     damage.push_back({{"what", d.what}, {"why", d.why}, {"where", nullptr}});
     if (!d.where.empty()) damage.back()["where"] = to_json(d.where);
   }
-  return {{"store", options.store.string()}, {"bytes", found.bytes}, {"tiles", found.tiles},
-          {"whole", found.damage.empty()},   {"damage", damage},     {"shards_repaired", repaired}};
+  return {{"store", options.store.string()}, {"bytes", found.bytes},       {"tiles", found.tiles},
+          {"whole", found.whole()},          {"complete", found.complete}, {"damage", damage},
+          {"shards_repaired", repaired}};
 }
 
 std::string text_report(const VerifyOptions& options, const StoreVerification& found) {
+  const std::string store = options.store.string();
+  if (!found.complete) {
+    return fmt::format(
+        "{0}: not complete: its build has not ended; `roam build` with its scene, and `-o {0}`, goes on "
+        "where it stopped\n",
+        store);
+  }
   std::string text;
   for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
     text += fmt::format("{}: {}\n", found.damage[i].what, found.damage[i].why);
@@ -41,13 +49,12 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
     text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
   }
   if (found.damage.empty()) {
-    return fmt::format("{}: whole; {}B and {} tiles are what was written\n", options.store.string(),
+    return fmt::format("{}: whole; {}B and {} tiles are what was written\n", store,
                        short_count(static_cast<double>(found.bytes)), found.tiles);
   }
-  return text + fmt::format("{}: {} damaged; tiles that are, are solid; `roam verify {} --repair SCENE` mends it\n",
-                            options.store.string(),
-                            found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()),
-                            options.store.string());
+  return text +
+         fmt::format("{0}: {1} damaged; tiles that are, are solid; `roam verify {0} --repair SCENE` mends it\n", store,
+                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
 }
 
 StoreVerification look(const VerifyOptions& options) {
@@ -58,21 +65,25 @@ StoreVerification look(const VerifyOptions& options) {
 
 std::uint64_t repair(const VerifyOptions& options) {
   StoreBuildOptions build;
-  build.scene = options.repair.scenes;
-  build.import = options.repair.import_options();
+  build.scene = options.scene;
   build.output = options.store;
-  build.threads = options.repair.threads;
-  Progress progress("repairing " + options.store.string(), "triangles");
-  build.progress = [&](const StoreBuildProgress& p) {
-    return progress.goes_on(p.triangles_done, std::max(p.triangles_done, p.triangles_total));
-  };
-  return repair_store(build);
+  build.threads = options.threads;
+  StoreBuildReport report;
+  {
+    Progress progress("repairing " + options.store.string(), "triangles");
+    build.progress = [&](const StoreBuildProgress& p) {
+      return progress.goes_on(p.triangles_done, std::max(p.triangles_done, p.triangles_total));
+    };
+    report = repair_store(build);
+  }
+  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  return report.shards_built;
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
   StoreVerification found = look(options);
   std::uint64_t repaired = 0;
-  if (!found.damage.empty() && !options.repair.scenes.empty()) {
+  if (!found.whole() && !options.scene.empty()) {
     if (!options.json) print(text_report(options, found));
     repaired = repair(options);
     found = look(options);
@@ -82,7 +93,7 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
   } else {
     print(text_report(options, found));
   }
-  return found.damage.empty() ? done : answer_no;
+  return found.whole() ? done : answer_no;
 }
 
 constexpr const char* help =
@@ -91,7 +102,8 @@ constexpr const char* help =
     "compares counts, boxes and the hash of all triangles. What is damaged is named by tile and place: there the "
     "store\n"
     "is solid, everywhere else it can be walked. With --repair just the shards with damage are built again, from the\n"
-    "scene that the store was made of. Exit status 0 when the store is whole, 3 when not.\n\n"
+    "scene that the store was made of, read as it was then: the store knows --up, --unit, --ignore and --lossless.\n"
+    "Exit status 0 when the store is whole, 3 when not, or when its build has not ended.\n\n"
     "Examples:\n"
     "  roam verify dam.roam\n"
     "  roam verify dam.roam --repair Data/\n"
@@ -105,9 +117,11 @@ void add_verify(CLI::App& program, Run& run) {
   const auto options = std::make_shared<VerifyOptions>();
   VerifyOptions& o = *options;
   verb->add_option("STORE", o.store, "The store's folder")->required()->type_name("");
-  verb->add_option("--repair", o.repair.scenes, "The scene that the store was made of: build what is damaged again")
+  verb->add_option("--repair", o.scene, "The scene that the store was made of: build what is damaged again")
       ->type_name("SCENE...");
-  o.repair.add_reading_to(*verb);
+  verb->add_option("--threads", o.threads, "Threads to build with (default: all cores)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return verify_or_repair(*options); }; });
 }

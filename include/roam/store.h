@@ -120,15 +120,18 @@ struct StoreDamage {
 };
 
 struct StoreVerification {
+  bool complete = true;     ///< false: the first build of it has not ended, and nothing else was looked at
   std::uint64_t bytes = 0;  ///< that were read and hashed
   std::uint64_t tiles = 0;  ///< that were decoded and checked against their entries
   std::vector<StoreDamage> damage;
+
+  [[nodiscard]] bool whole() const { return complete && damage.empty(); }
 };
 
 /// Reads every byte of a store: SHA-256 of every file, XXH3 of every tile and page, decodes every tile, and compares
 /// counts, boxes and the geometry hash with what the manifest says. `progress` is called with bytes done and bytes in
 /// all; false cancels (roam::Cancelled). Where CURRENT or the manifest is not there or damaged, that is the only damage
-/// that is found. Throws roam::Error for what is no store, not complete, of a newer format, or may not be read.
+/// that is found. Throws roam::Error for what is no store, of a newer format, or may not be read.
 [[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,
                                              const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {});
 

@@ -85,9 +85,10 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds again just the shards in which verify_store finds damage, from the scene that the store was made of, and
-/// publishes; lossless where it was, whatever the options say. A damaged manifest is taken from its spare. Throws
-/// roam::Error when the scene is not the one that the store was made of, or is read in another way, and where no copy of
-/// the manifest is whole: then nothing tells what the store was. Returns how many were built.
-std::uint64_t repair_store(const StoreBuildOptions& options);
+/// publishes. The scene is read as it was for the store, which knows that: `lossless`, and up, unit and ignore of
+/// `import`, are not used. A damaged manifest is taken from its spare. Throws roam::Error when the scene is not the one
+/// that the store was made of, where the build of it has not ended, and where no copy of the manifest is whole: then
+/// nothing tells what the store was.
+StoreBuildReport repair_store(const StoreBuildOptions& options);
 
 }  // namespace roam

@@ -283,7 +283,7 @@ void refuse_to_open(const std::filesystem::path& folder) {
   if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
   const bool published = !fs::is_empty(folder / "manifests", none) && !none;
   if (!published && fs::is_directory(folder / "scratch", none)) {
-    throw Error(fmt::format(
+    throw NotComplete(fmt::format(
         "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
   }
   throw RootDamage(name, current_file, "it is not there");

@@ -71,6 +71,12 @@ class RootDamage : public Error {
   std::string why;
 };
 
+/// Of a folder whose first build has not ended: it is to become a store.
+class NotComplete : public Error {
+ public:
+  using Error::Error;
+};
+
 // JSON text; the same manifest is the same text.
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 [[nodiscard]] std::string to_text(const ShardInfo& shard);
@@ -80,8 +86,8 @@ class RootDamage : public Error {
 
 /// Whether a folder holds what a store consists of, though CURRENT may be gone.
 [[nodiscard]] bool holds_store(const std::filesystem::path& folder);
-/// What is to be said of a folder that Store::is_store is false of. Throws RootDamage where it was a store, roam::Error
-/// where it is to become one, or is none.
+/// What is to be said of a folder that Store::is_store is false of. Throws RootDamage where it was a store, NotComplete
+/// where it is to become one, roam::Error where it is none.
 [[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
 
 /// CURRENT, its manifest, checked against its name. Throws RootDamage, NewerFormat, and roam::Error where a file cannot

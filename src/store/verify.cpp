@@ -193,6 +193,10 @@ StoreVerification verify_store(const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   try {
     return store::Verifier(folder, progress).run();
+  } catch (const store::NotComplete&) {
+    StoreVerification nothing;
+    nothing.complete = false;
+    return nothing;
   } catch (const store::RootDamage& damage) {
     StoreVerification nothing;
     nothing.damage.push_back({damage.what_is_damaged, damage.why, Box{}});

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "roam/store_build.h"
+#include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
 #include "store/build/output_folder.h"
@@ -234,7 +235,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   return report;
 }
 
-std::uint64_t repair_store(const StoreBuildOptions& options) {
+StoreBuildReport repair_store(const StoreBuildOptions& options) {
   if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
   const auto lock = locked(options.output);
   const RootMending root = mend_root(options.output);
@@ -250,6 +251,7 @@ std::uint64_t repair_store(const StoreBuildOptions& options) {
   const Manifest manifest = *manifest_in_force(options.output);
   StoreBuildOptions as_built = options;
   as_built.lossless = manifest.lossless;
+  read_as(manifest.options, as_built.import);
   Work work(as_built);
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {
@@ -262,22 +264,21 @@ std::uint64_t repair_store(const StoreBuildOptions& options) {
   for (const PartInfo& part : manifest.parts) check(part.file, part_file(part.file));
   for (const ShardInfo& shard : manifest.shards) check(shard.pack, pack_file(shard.pack));
   keep_spare(work.store, manifest);
-  if (damaged.empty()) return 0;
   StoreBuildReport report;
+  if (damaged.empty()) return report;
   const auto plan = plan_locked(work, damaged, report);
-  bool same = plan && plan->options == manifest.options && plan->parts.size() == manifest.parts.size();
+  bool same = plan && plan->parts.size() == manifest.parts.size();
   for (std::size_t i = 0; same && i < plan->parts.size(); ++i) {
     same = plan->parts[i].info.name == manifest.parts[i].name &&
            plan->parts[i].info.fingerprint == manifest.parts[i].fingerprint;
   }
   if (!same) {
     remove_scratch(work.store);
-    throw Error(fmt::format("{} was not made of this scene, as it is now and as it was read: build it again instead",
-                            work.store.string()));
+    throw Error(fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));
   }
   build_shards(work, *plan, plan->to_build(), report);
   merge_locked(work, *plan, report);
-  return report.shards_built;
+  return report;
 }
 
 }  // namespace roam

@@ -59,6 +59,30 @@ std::string text_of(const ImportOptions& options) {
   return json.dump();
 }
 
+void read_as(const std::string& text, ImportOptions& options) {
+  ImportOptions read = options;
+  bool known = false;
+  try {
+    const Json json = Json::parse(text);
+    read.up.reset();
+    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
+      if (json.at("up") == std::string(1, "xyz"[static_cast<int>(up)])) read.up = up;
+    }
+    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
+      if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
+    }
+    read.ignore = json.at("ignore").get<std::vector<std::string>>();
+    known = text_of(read) == text;
+  } catch (const Json::exception&) {
+    known = false;
+  }
+  if (!known) {
+    throw Error("the store was read in a way that this program does not know (" + text +
+                "): repair it with the program that built it, or build it again");
+  }
+  options = std::move(read);
+}
+
 Sources::Sources(fs::path file) : file_(std::move(file)) {
   std::error_code error;
   if (!fs::exists(file_, error)) return;

@@ -14,6 +14,8 @@ namespace roam::store {
 
 /// How a scene is read, as text: the same text, the same triangles from the same files.
 [[nodiscard]] std::string text_of(const ImportOptions& options);
+/// The reverse: sets what the text says. Throws roam::Error for what no text_of gives.
+void read_as(const std::string& text, ImportOptions& options);
 
 /// Knows the content of the scene's files by a hash. A file whose size and time of change are those of the last time is
 /// not read again, unless it was changed so shortly before that the time cannot tell.
