@@ -149,20 +149,29 @@ HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float h
                  set(4.0F * kFractionRounding * frame.step));
 }
 
-/// Triangles whose own plane, or what rounding left of it, keeps the body off all the way from `begin` to `end`: the
-/// cheapest supporting plane, and enough for most.
-HWY_INLINE MF off_plane(const Triangles& t, const V3& way, VF begin, VF end, VF keep, float longest, float t_max,
-                        const Frame& frame, float half_height) {
+/// The times by which bodies that are slower than `speed` (times length) have used up their slack, where `active`.
+HWY_INLINE VF advanced(VF time, VF slack, VF speed, MF active) {
+  const VF step = hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - kTimeRoundings * kUnit));
+  return hn::IfThenElse(active, hn::Add(time, step), time);
+}
+
+/// Leaves out of `active` the triangles whose own plane, or what rounding left of it, keeps the body off all the way
+/// from `time` to `end`: the cheapest supporting plane, and enough for most. For the others `time` becomes that until
+/// which it does: where a face is hit, about the time of the hit.
+HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF keep, VF error, float longest,
+                                float half_height, VF& time, MF& active) {
   const V3& n = t.normal;
-  const VF a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), speed = dot(n, way);
-  const VF from = hn::Mul(speed, begin), to = hn::Mul(speed, end);
-  const VF above = hn::Sub(hn::Min(from, to), hn::Max(hn::Max(a, b), c));
-  const VF below = hn::Sub(hn::Min(hn::Min(a, b), c), hn::Max(from, to));
-  VF apart = hn::Max(above, below);
-  if (half_height != 0.0F) apart = hn::Sub(apart, hn::Mul(set(half_height), hn::Abs(n.z)));
-  const VF error = leaf_error(t, set(t_max * longest), frame, half_height);
+  const VF a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), along = dot(n, way), place = hn::Mul(along, time);
+  const VF above = hn::Sub(place, hn::Max(hn::Max(a, b), c)), below = hn::Sub(hn::Min(hn::Min(a, b), c), place);
   const VF length = hn::Sqrt(dot(n, n));
-  return hn::And(hn::Gt(length, set(kShortest)), hn::Gt(apart, hn::Mul(hn::Add(keep, error), length)));
+  VF slack = hn::Sub(hn::Max(above, below), hn::Mul(hn::Add(keep, error), length));
+  if (half_height != 0.0F) slack = hn::Sub(slack, hn::Mul(set(half_height), hn::Abs(n.z)));
+  const VF speed = hn::Add(hn::IfThenElse(hn::Gt(above, below), hn::Neg(along), along),
+                           hn::Mul(set(kSpeedRoundings * kUnit * longest), length));
+  const MF apart = hn::And(hn::Gt(slack, hn::Zero(kF)), hn::Gt(length, set(kShortest)));
+  const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
+  active = hn::AndNot(missed, active);
+  time = advanced(time, slack, speed, hn::And(active, apart));
 }
 
 /// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
@@ -177,7 +186,8 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
     Triangles t = load_triangles(leaf, frame, first);
     VF time = set(t_entry);
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
-    active = hn::AndNot(off_plane(t, way, time, end, keep, motion.longest, t_max, frame, motion.half_height), active);
+    keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
+                    motion.longest, motion.half_height, time, active);
     if (hn::AllFalse(kF, active)) continue;
     t.prepare();
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
@@ -200,9 +210,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       open = hn::Or(open, stuck);
       active = hn::AndNot(stuck, active);
       if (hn::AllFalse(kF, active)) break;
-      const VF step =
-          hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - kTimeRoundings * kUnit));
-      time = hn::IfThenElse(active, hn::Add(time, step), time);
+      time = advanced(time, slack, speed, active);
     }
     open = hn::Or(open, active);
     hn::Store(time, kF, out.time + first);
