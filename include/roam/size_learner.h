@@ -74,7 +74,7 @@ class SizeLearner {
   LearnLimits limits_;
   double pushed_ = 0.0;     ///< s without getting on
   bool offered_ = false;    ///< since it began to push, or to fall
-  bool firm_ = false;       ///< has stood firmly: then where
+  bool firm_ = false;       ///< has stood firmly, on floor under its axis: then where
   Vec3 firm_at_{0.0};       ///< centre, metres
   double firm_feet_ = 0.0;  ///< z of the lowest point there, metres
   bool lost_ = false;       ///< has not stood firmly since: then where that began

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "motion/opening.h"
@@ -25,6 +26,10 @@ constexpr double disc_precision = 1e-3;
 /// Metres below the floor last stood on firmly, from where on a body that is stuck has sunk into something.
 constexpr double sunk = 0.02;
 
+/// Of a unit normal's z, so that a ramp exactly at the slope limit is floor.
+constexpr double cosine_rounding = 1e-9;
+/// Of the radius: who has moved less stands where it stood.
+constexpr double moved_part = 0.1;
 /// Who tries a foot walks at this speed, m/s, in steps of so many seconds, and not for longer than a minute.
 constexpr double trial_speed = 1.4;
 constexpr double trial_step = 1.0 / 60.0;
@@ -63,6 +68,16 @@ std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const
     if (free) return place;
   }
   return std::nullopt;
+}
+
+/// Whether there is floor under the axis, and not only under a rim that still carries: from there one sees its plane.
+bool floor_below(const Walker& walker) {
+  const double radius = walker.body().radius;
+  const double slope = walker.settings().slope_degrees * std::numbers::pi / 180.0;
+  const double lifted = (radius + walker.skin()) * (1.0 / std::cos(slope) - 1.0);
+  const Vec3 down(0.0, 0.0, -(radius + lifted + 3.0 * walker.skin()));
+  const Impact floor = walker.space().ray(walker.feet() + Vec3(0.0, 0.0, radius), down);
+  return floor.hit && floor.normal.z >= std::cos(slope) - cosine_rounding;
 }
 
 /// A walker with this foot that was put to `from` and has gone straight to where the axis is that of `to`. Nothing when
@@ -108,11 +123,14 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
     pushed_ = 0.0;
     return std::nullopt;
   }
-  if (on_foot && stance.firm && !stance.carried && !report.blocked) {
-    firm_ = true;
-    firm_at_ = walker.position();
-    firm_feet_ = walker.feet().z;
+  if (on_foot && stance.firm && !stance.carried) {
     lost_ = false;
+    const bool moved = !firm_ || glm::length(walker.position() - firm_at_) > moved_part * walker.body().radius;
+    if (moved && !report.blocked && floor_below(walker)) {
+      firm_ = true;
+      firm_at_ = walker.position();
+      firm_feet_ = walker.feet().z;
+    }
   }
   if (on_foot && firm_ && !stance.firm && !lost_ && !report.held) {
     lost_ = true;
