@@ -1,8 +1,32 @@
 #include "engine.h"
 
 #include <chrono>
+#include <filesystem>
 
 namespace roam::bench {
+namespace {
+
+using Make = std::function<Engine(const Scene&)>;
+
+EngineOffer linked(const char* name, Make make) { return {.name = name, .missing = {}, .make = std::move(make)}; }
+
+[[maybe_unused]] EngineOffer left_out(const char* name, const char* package) {
+  return {.name = name, .missing = std::string("install ") + package + " and build again", .make = {}};
+}
+
+EngineOffer wasm(const std::string& name, const std::string& package, const EnginePlaces& places) {
+  EngineOffer offer{.name = name, .missing = {}, .make = {}};
+  if (places.wasm.empty()) {
+    offer.missing = "`npm install --prefix DIR " + package + "`, then --wasm-engines DIR";
+  } else if (!std::filesystem::exists(std::filesystem::path(places.wasm) / "node_modules" / package)) {
+    offer.missing = "`npm install --prefix " + places.wasm + " " + package + "`";
+  } else {
+    offer.make = [name, where = places.wasm](const Scene& scene) { return make_wasm(scene, name, where); };
+  }
+  return offer;
+}
+
+}  // namespace
 
 double seconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -10,37 +34,44 @@ double seconds(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-const std::vector<std::pair<std::string, std::function<Engine(const Scene&)>>>& engines() {
-  static const std::vector<std::pair<std::string, std::function<Engine(const Scene&)>>> all{
-      {"roam", make_roam},
+std::vector<EngineOffer> engine_offers(const EnginePlaces& places) {
+  return {
+      linked("roam", make_roam),
 #ifdef ROAM_BENCH_BULLET
-      {"bullet", make_bullet},
+      linked("bullet", make_bullet),
+#else
+      left_out("bullet", "libbullet-dev"),
 #endif
 #ifdef ROAM_BENCH_EMBREE
-      {"embree", make_embree},
+      linked("embree", make_embree),
+#else
+      left_out("embree", "libembree-dev"),
+#endif
+#ifdef ROAM_BENCH_FCL
+      linked("fcl", make_fcl),
+#else
+      left_out("fcl", "libfcl-dev"),
 #endif
 #ifdef ROAM_BENCH_OSG
-      {"polytope", [](const Scene& scene) { return make_polytope(scene, false); }},
-      {"polytope-kdtree", [](const Scene& scene) { return make_polytope(scene, true); }},
+      linked("polytope", [](const Scene& scene) { return make_polytope(scene, false); }),
+      linked("polytope-kdtree", [](const Scene& scene) { return make_polytope(scene, true); }),
+#else
+      left_out("polytope", "libopenscenegraph-dev"),
+      left_out("polytope-kdtree", "libopenscenegraph-dev"),
 #endif
-      {"paper", make_paper},
+      wasm("physx", "physx-js-webidl", places),
+      wasm("jolt", "jolt-physics", places),
+      linked("paper", make_paper),
   };
-  return all;
 }
 
-const std::vector<std::string>& absent_engines() {
-  static const std::vector<std::string> absent{
-#ifndef ROAM_BENCH_BULLET
-      "Bullet",
-#endif
-#ifndef ROAM_BENCH_EMBREE
-      "Embree",
-#endif
-#ifndef ROAM_BENCH_OSG
-      "OpenSceneGraph",
-#endif
-  };
-  return absent;
+const std::vector<std::string>& engine_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const EngineOffer& offer : engine_offers({})) all.push_back(offer.name);
+    return all;
+  }();
+  return names;
 }
 
 }  // namespace roam::bench

@@ -8,9 +8,7 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "query.h"
@@ -24,18 +22,10 @@ struct Engine {
   std::string used;           ///< how it is used, for the reader of a table
   bool spheres_only = false;  ///< it knows no capsule
   bool says_when = true;      ///< false: it answers hit or free, but not when
-  std::size_t bytes = 0;      ///< resident, everything that queries need
+  std::size_t bytes = 0;      ///< resident, everything that queries need; 0 when it cannot be told
   double build_one = 0;       ///< seconds on one thread
   double build_two = 0;       ///< seconds on two threads; 0 when it builds on one only
-  std::function<Answer(const Query&)> sweep{};
-  Ask ask{};  ///< the same, timed
-
-  /// Sets sweep and ask.
-  template <class Sweep>
-  void answer_with(Sweep function) {
-    sweep = function;
-    ask = timed(function);
-  }
+  Ask ask{};
 };
 
 /// Seconds that `work` takes.
@@ -50,9 +40,27 @@ struct Engine {
 /// The paper's own equations, without any index.
 [[nodiscard]] Engine make_paper(const Scene& scene);
 
-/// Engines that this build has, by the names that --engines takes, in the order of the tables.
-[[nodiscard]] const std::vector<std::pair<std::string, std::function<Engine(const Scene&)>>>& engines();
-/// Engines that were not installed when this was built.
-[[nodiscard]] const std::vector<std::string>& absent_engines();
+/// fcl::distance and steps as long as what it says is free.
+[[nodiscard]] Engine make_fcl(const Scene& scene);
+
+/// "physx" or "jolt" from the node_modules of the folder `modules`, in a node process: see wasm/channel.mjs. Throws
+/// roam::Error when it does not start or ends.
+[[nodiscard]] Engine make_wasm(const Scene& scene, const std::string& name, const std::string& modules);
+
+/// Where engines are that are not linked.
+struct EnginePlaces {
+  std::string wasm;  ///< the folder that holds node_modules with physx-js-webidl and jolt-physics; empty: nowhere
+};
+
+/// An engine that may be here or not.
+struct EngineOffer {
+  std::string name;     ///< as --engines takes it
+  std::string missing;  ///< empty, or what to install
+  std::function<Engine(const Scene&)> make{};
+};
+/// All engines, in the order of the tables.
+[[nodiscard]] std::vector<EngineOffer> engine_offers(const EnginePlaces& places);
+/// Their names.
+[[nodiscard]] const std::vector<std::string>& engine_names();
 
 }  // namespace roam::bench

@@ -60,7 +60,7 @@ Engine make_bullet(const Scene& scene) {
   std::shared_ptr<BulletWorld> world;
   engine.build_one = seconds([&] { world = std::make_shared<BulletWorld>(scene); });
   engine.bytes = allocated_bytes() - before;
-  engine.answer_with([world](const Query& query) {
+  engine.ask = timed([world](const Query& query) {
     const auto radius = static_cast<float>(query.body.radius);
     if (query.body.half_height == 0) return cast(*world, btSphereShape(radius), query);
     return cast(*world, btCapsuleShapeZ(radius, static_cast<float>(2 * query.body.half_height)), query);

@@ -132,7 +132,7 @@ Engine make_embree(const Scene& scene) {
   const auto version = rtcGetDeviceProperty(world->device, RTC_DEVICE_PROPERTY_VERSION);  // 31305 is 3.13.5
   engine.name.append(1, ' ').append(std::to_string(version / 10000));
   engine.name.append(1, '.').append(std::to_string(version / 100 % 100));
-  engine.answer_with([world](const Query& query) { return bench::sweep(*world, query); });
+  engine.ask = timed([world](const Query& query) { return bench::sweep(*world, query); });
   return engine;
 }
 

@@ -44,7 +44,7 @@ Engine make_paper(const Scene& scene) {
     }
   });
   engine.bytes = allocated_bytes() - before;
-  engine.answer_with([objects](const Query& query) {
+  engine.ask = timed([objects](const Query& query) {
     Answer first;
     for (const Object& object : *objects) {
       if (beyond(query, object.box)) continue;

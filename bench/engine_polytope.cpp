@@ -61,7 +61,7 @@ Engine make_polytope(const Scene& scene, bool with_kd_tree) {
     group->getBound();  // computed on first use, which should not be a query's
   });
   engine.bytes = allocated_bytes() - before;
-  engine.answer_with([group](const Query& query) {
+  engine.ask = timed([group](const Query& query) {
     osg::ref_ptr<osgUtil::PolytopeIntersector> intersector =
         new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, box_of(query));
     intersector->setPrimitiveMask(osgUtil::PolytopeIntersector::TRIANGLE_PRIMITIVES);

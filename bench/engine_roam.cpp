@@ -16,7 +16,7 @@ Engine make_roam(const Scene& scene) {
   // What malloc counts, if it can be asked, so that nothing is forgotten that the world does not know of.
   const std::size_t after = allocated_bytes();
   engine.bytes = after > before ? after - before : world->stats().bytes;
-  engine.answer_with([world](const Query& query) {
+  engine.ask = timed([world](const Query& query) {
     const Impact sweep = world->sweep(query.body, query.from, query.motion);
     return Answer{sweep.hit, sweep.time};
   });

@@ -1,221 +1,219 @@
 // roam beside other engines, on the same queries in one run. Wrong answers come before times.
+#include <fmt/format.h>
 
-#include <benchmark/benchmark.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <exception>
-#include <string_view>
 
-#include "engine.h"
-#include "judge.h"
-#include "query_sets.h"
+#include "bars.h"
+#include "bench_verbs.h"
+#include "comparison.h"
+#include "report.h"
+#include "roam/error.h"
 #include "run_options.h"
-#include "scene.h"
-#include "timing.h"
+#include "validators.h"
 
+namespace roam::bench {
 namespace {
 
-using namespace roam::bench;
+using app::Json;
 
 struct Options : RunOptions {
   std::vector<std::string> engines;
-  double patience = 1.0;  // s
+  EnginePlaces places;
+  ComparisonOptions comparison;
+  std::string picture;
+  bool json = false;
 };
 
-// One engine on one set.
-struct Run {
-  const Engine* engine = nullptr;
-  const QuerySet* set = nullptr;
-  std::size_t queries = 0;  // fewer than the set has when the engine is too slow for all
-  Verdict verdict;
-  std::vector<bool> hits;  // by the reference
-  Times times;
+/// What a run found.
+struct Findings {
+  std::string scene;
+  std::uint64_t triangles = 0;
+  std::vector<Engine> engines;
+  std::vector<EngineOffer> absent;
+  std::vector<EngineRun> runs;
 };
 
-std::vector<std::string> engine_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, make] : engines()) names.push_back(name);
-  return names;
-}
+void note(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
-std::vector<Engine> build_engines(const Options& options, const Scene& scene) {
-  std::vector<Engine> built;
-  for (const auto& [name, make] : engines()) {
-    const auto& wanted = options.engines;
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) built.push_back(make(scene));
-  }
-  return built;
-}
-
-// As many queries as the engine answers in the time that a round may take, at least a few.
-Run judged(const Engine& engine, const QuerySet& set, const std::vector<Answer>& truth, const Reference& reference,
-           double patience) {
-  constexpr std::size_t fewest = 20;
-  Run run{.engine = &engine, .set = &set, .verdict = {}, .hits = {}, .times = {}};
-  std::vector<Answer> answers;
-  const auto start = std::chrono::steady_clock::now();
-  const auto end = start + std::chrono::duration<double>(patience);
-  for (const Query& query : set.queries) {
-    if (answers.size() >= fewest && std::chrono::steady_clock::now() > end) break;
-    run.hits.push_back(truth[answers.size()].hit);
-    answers.push_back(engine.sweep(query));
-  }
-  run.queries = answers.size();
-  run.verdict = judge(answers, std::span(truth).first(run.queries), std::span(set.queries).first(run.queries),
-                      reference, engine.says_when);
-  return run;
-}
-
-void print_costs(std::FILE* out, const std::vector<Engine>& engines, const Scene& scene) {
-  std::fprintf(out, "%-30s %10s %10s %10s   %s\n", "engine", "B/triangle", "build 1, s", "build 2, s", "used");
-  for (const Engine& engine : engines) {
-    std::fprintf(out, "%-30s %10.1f %10.3f ", engine.name.c_str(),
-                 static_cast<double>(engine.bytes) / static_cast<double>(scene.triangles()), engine.build_one);
-    if (engine.build_two > 0) {
-      std::fprintf(out, "%10.3f", engine.build_two);
-    } else {
-      std::fprintf(out, "%10s", "-");
-    }
-    std::fprintf(out, "   %s\n", engine.used.c_str());
-  }
-  for (const std::string& name : absent_engines())
-    std::fprintf(out, "%-30s not installed when this was built\n", name.c_str());
-}
-
-void print_wrong(std::FILE* out, const std::vector<Run>& runs) {
-  std::fprintf(
-      out, "\nwrong answers: missed or late by more than %g mm of depth, early or false by more than %g mm of gap\n",
-      1e3 * depth_allowed, 1e3 * gap_allowed);
-  std::fprintf(out, "%-9s %-30s %8s %8s %8s %8s %8s %8s %12s\n", "set", "engine", "queries", "hits", "missed", "late",
-               "early", "false", "deepest, mm");
-  for (const Run& run : runs) {
-    const Verdict& v = run.verdict;
-    std::fprintf(out, "%-9s %-30s %8zu %8zu %8zu ", run.set->name.c_str(), run.engine->name.c_str(), v.queries, v.hits,
-                 v.missed);
-    if (run.engine->says_when) {
-      std::fprintf(out, "%8zu %8zu", v.late, v.early);
-    } else {
-      std::fprintf(out, "%8s %8s", "n/a", "n/a");
-    }
-    std::fprintf(out, " %8zu %12.3g\n", v.false_hits, 1e3 * v.deepest);
-  }
-  std::fprintf(out, "\n");
-  std::fflush(out);
-}
-
-void time_set(std::span<Run> runs, int rounds) {
-  std::vector<Ask> asked;
-  std::vector<std::size_t> queries;
-  for (const Run& run : runs) {
-    asked.push_back(run.engine->ask);
-    queries.push_back(run.queries);
-  }
-  std::vector<Times> times = time_in_turns(asked, queries, runs.front().set->queries, rounds);
-  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].times = std::move(times[i]);
-}
-
-// Google Benchmark sees each query's time as one iteration, and prints the figures beside their mean, in seconds.
-void report(const Run& run) {
-  const Summary summary = summarize(run.times, run.hits);
-  benchmark::RegisterBenchmark((run.set->name + "/" + run.engine->name).c_str(),
-                               [&run, summary](benchmark::State& state) {
-                                 std::size_t i = 0;
-                                 for ([[maybe_unused]] const auto iteration : state) {
-                                   state.SetIterationTime(1e-9 * run.times[i++ % run.times.size()]);
-                                 }
-                                 constexpr double nano = 1e-9;
-                                 state.counters["p50"] = nano * summary.p50;
-                                 state.counters["p99"] = nano * summary.p99;
-                                 state.counters["hit_p50"] = nano * summary.hit_p50;
-                                 state.counters["max"] = nano * summary.most;
-                                 state.counters["wrong"] = static_cast<double>(run.verdict.wrong());
-                                 state.counters["missed"] = static_cast<double>(run.verdict.missed);
-                                 state.counters["late"] = static_cast<double>(run.verdict.late);
-                               })
-      ->UseManualTime()
-      ->Iterations(static_cast<benchmark::IterationCount>(run.times.size()))
-      ->Unit(benchmark::kNanosecond);
-}
-
-void run(const Options& options, std::FILE* out) {
+Findings find(const Options& options) {
+  Findings findings;
   const Scene scene = make_scene(options.scene);
-  std::fprintf(out, "%s; %d interleaved rounds, medians\n\n", scene.name.c_str(), options.rounds);
-  benchmark::AddCustomContext("scene", scene.name);
+  findings.scene = scene.name;
+  findings.triangles = scene.triangles();
+  note(scene.name);
   const Reference reference(scene.meshes);
-  const std::vector<Engine> built = build_engines(options, scene);
-  print_costs(out, built, scene);
-  for (const Engine& engine : built) {
-    benchmark::AddCustomContext(
-        engine.name + ", bytes a triangle",
-        std::to_string(static_cast<double>(engine.bytes) / static_cast<double>(scene.triangles())));
-    benchmark::AddCustomContext(engine.name + ", build on one thread, s", std::to_string(engine.build_one));
-    if (engine.build_two > 0)
-      benchmark::AddCustomContext(engine.name + ", build on two threads, s", std::to_string(engine.build_two));
-  }
-
-  std::vector<QuerySet> sets;
-  for (const std::string& name : options.sets) sets.push_back(make_queries(name, options.queries, reference));
-  std::vector<Run> runs;
-  for (const QuerySet& set : sets) {
-    std::vector<Answer> truth;
-    for (const Query& query : set.queries) truth.push_back(reference.sweep(query));
-    const bool capsules =
-        std::any_of(set.queries.begin(), set.queries.end(), [](const Query& q) { return q.body.half_height > 0; });
-    for (const Engine& engine : built) {
-      if (!(capsules && engine.spheres_only)) runs.push_back(judged(engine, set, truth, reference, options.patience));
+  for (const EngineOffer& offer : engine_offers(options.places)) {
+    const auto& wanted = options.engines;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), offer.name) == wanted.end()) continue;
+    if (!offer.make) {
+      findings.absent.push_back(offer);
+      continue;
+    }
+    note("building " + offer.name);
+    try {
+      findings.engines.push_back(offer.make(scene));
+    } catch (const Error& error) {
+      EngineOffer broken = offer;
+      broken.missing = error.what();
+      findings.absent.push_back(broken);
     }
   }
-  print_wrong(out, runs);
-
-  for (auto first = runs.begin(); first != runs.end();) {
-    const auto last = std::find_if(first, runs.end(), [&](const Run& r) { return r.set != first->set; });
-    time_set({first, last}, options.rounds);
-    first = last;
+  if (findings.engines.empty()) throw Error("none of the engines that were asked for is here");
+  for (const std::string& name : options.sets) {
+    note("asking " + name);
+    const QuerySet set = make_queries(name, options.queries, reference);
+    for (EngineRun& run : compare(findings.engines, set, reference, options.comparison)) {
+      findings.runs.push_back(std::move(run));
+    }
   }
-  for (const Run& r : runs) report(r);
-  benchmark::RunSpecifiedBenchmarks();
+  return findings;
 }
+
+double bytes_a_triangle(const Engine& engine, const Findings& findings) {
+  return static_cast<double>(engine.bytes) / static_cast<double>(findings.triangles);
+}
+
+std::string or_dash(bool there, const std::string& text) { return there ? text : "-"; }
+
+std::string table(const Findings& findings, int rounds) {
+  std::string out = fmt::format("{}; {} interleaved rounds, medians; us\n\n", findings.scene, rounds);
+  out +=
+      fmt::format("wrong: missed or late by more than {:g} mm of depth, early or false by more than {:g} mm of gap\n",
+                  1e3 * depth_allowed, 1e3 * gap_allowed);
+  out += fmt::format("{:<9} {:<27} {:>8} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set", "engine",
+                     "queries", "missed", "late", "early", "false", "deepest", "p50", "p99", "max", "hit p50");
+  std::string last;
+  for (const EngineRun& run : findings.runs) {
+    if (!last.empty() && last != run.set) out += "\n";
+    last = run.set;
+    const Verdict& v = run.verdict;
+    const bool when = run.engine->says_when;
+    out += fmt::format("{:<9} {:<27} {:>8} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g}\n",
+                       run.set, run.engine->name, run.asked, v.missed, or_dash(when, std::to_string(v.late)),
+                       or_dash(when, std::to_string(v.early)), v.false_hits,
+                       or_dash(v.deepest > 0, fmt::format("{:.3g} mm", 1e3 * v.deepest)), 1e-3 * run.times.p50,
+                       1e-3 * run.times.p99, 1e-3 * run.times.most, 1e-3 * run.times.hit_p50);
+  }
+  out +=
+      fmt::format("\n{:<27} {:>10} {:>10} {:>10}   {}\n", "engine", "B/triangle", "build 1, s", "build 2, s", "used");
+  for (const Engine& engine : findings.engines) {
+    out += fmt::format("{:<27} {:>10} {:>10.3f} {:>10}   {}\n", engine.name,
+                       or_dash(engine.bytes > 0, fmt::format("{:.1f}", bytes_a_triangle(engine, findings))),
+                       engine.build_one, or_dash(engine.build_two > 0, fmt::format("{:.3f}", engine.build_two)),
+                       engine.used);
+  }
+  for (const EngineOffer& offer : findings.absent) {
+    out += fmt::format("{:<27} not here: {}\n", offer.name, offer.missing);
+  }
+  return out;
+}
+
+Json to_json(const EngineRun& run) {
+  const Verdict& v = run.verdict;
+  return {{"set", run.set},
+          {"engine", run.engine->name},
+          {"queries", run.asked},
+          {"hits", v.hits},
+          {"missed", v.missed},
+          {"late", v.late},
+          {"early", v.early},
+          {"false", v.false_hits},
+          {"says_when", run.engine->says_when},
+          {"deepest_m", v.deepest},
+          {"mean_us", 1e-3 * run.times.mean},
+          {"p50_us", 1e-3 * run.times.p50},
+          {"p99_us", 1e-3 * run.times.p99},
+          {"max_us", 1e-3 * run.times.most},
+          {"hit_p50_us", 1e-3 * run.times.hit_p50}};
+}
+
+Json to_json(const Findings& findings, int rounds) {
+  Json engines = Json::array(), absent = Json::array(), runs = Json::array();
+  for (const Engine& engine : findings.engines) {
+    Json one{{"engine", engine.name},
+             {"used", engine.used},
+             {"bytes", engine.bytes},
+             {"bytes_a_triangle", bytes_a_triangle(engine, findings)},
+             {"build_one_thread_s", engine.build_one}};
+    if (engine.build_two > 0) one["build_two_threads_s"] = engine.build_two;
+    engines.push_back(one);
+  }
+  for (const EngineOffer& offer : findings.absent)
+    absent.push_back({{"engine", offer.name}, {"missing", offer.missing}});
+  for (const EngineRun& run : findings.runs) runs.push_back(to_json(run));
+  return {{"scene", findings.scene},
+          {"triangles", findings.triangles},
+          {"rounds", rounds},
+          {"depth_allowed_m", depth_allowed},
+          {"gap_allowed_m", gap_allowed},
+          {"engines", engines},
+          {"absent", absent},
+          {"runs", runs}};
+}
+
+void draw(const std::string& file, const Findings& findings) {
+  std::vector<BarGroup> groups;
+  for (const EngineRun& run : findings.runs) {
+    if (groups.empty() || groups.back().title != run.set) groups.push_back({run.set, {}});
+    const std::size_t wrong = run.verdict.missed + run.verdict.late;
+    groups.back().bars.push_back(
+        {.name = run.engine->name,
+         .p50 = 1e-3 * run.times.p50,
+         .p99 = 1e-3 * run.times.p99,
+         .note =
+             wrong == 0 ? "" : fmt::format("({:.2g} % missed or late)", 100.0 * static_cast<double>(wrong) / run.asked),
+         .stressed = run.engine->name == "roam"});
+  }
+  write_bars(file, "Sweeps, " + findings.scene, groups);
+}
+
+app::ExitStatus run(const Options& options) {
+  const Findings findings = find(options);
+  if (options.json) {
+    app::print(to_json(findings, options.comparison.rounds));
+  } else {
+    app::print(table(findings, options.comparison.rounds));
+  }
+  if (!options.picture.empty()) draw(options.picture, findings);
+  const bool wrong = std::any_of(findings.runs.begin(), findings.runs.end(), [](const EngineRun& run) {
+    return run.engine->name == "roam" && run.verdict.missed + run.verdict.late > 0;
+  });
+  return wrong ? app::answer_no : app::done;
+}
+
+constexpr const char* help =
+    "Engines that are not here are named, with what to install. PhysX and Jolt come from npm as WebAssembly and run\n"
+    "under node, slower than native builds of them:\n"
+    "  npm install --prefix DIR physx-js-webidl jolt-physics\n\n"
+    "Exit status 3: roam itself missed something or stopped late.\n\n"
+    "Examples:\n"
+    "  roam bench engines\n"
+    "  roam bench engines --scene your/own/file.ive --picture engines.svg\n"
+    "  roam bench engines --scene terrain --triangles 1000000 --engines roam,embree,fcl --json\n";
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  // Google Benchmark's arguments and ours; each would refuse, or answer for, the other's.
-  std::string tabular = "--benchmark_counters_tabular=true";
-  std::vector<char*> for_benchmark{argv[0], tabular.data()};
-  std::vector<char*> ours{argv[0]};
-  std::FILE* out = stdout;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view argument = argv[i];
-    (argument.starts_with("--benchmark_") ? for_benchmark : ours).push_back(argv[i]);
-    // A format for programs has standard output to itself.
-    if (argument.starts_with("--benchmark_format=") && !argument.ends_with("=console")) out = stderr;
-  }
-  int count = static_cast<int>(for_benchmark.size());
-  benchmark::Initialize(&count, for_benchmark.data());
-  if (benchmark::ReportUnrecognizedArguments(count, for_benchmark.data())) return 2;
-
-  Options options;
-  CLI::App app{"Sweeps through one scene: roam beside other engines"};
-  app.footer(
-      "Google Benchmark's options --benchmark_format=json, --benchmark_out=FILE, --benchmark_filter=REGEX, ... work "
-      "too.");
-  options.add_to(app);
-  app.add_option("--engines", options.engines, "which engines, separated by commas; all when left out")
+void add_engines(CLI::App& program, app::Run& run) {
+  CLI::App* verb = program.add_subcommand("engines", "Sweeps through one scene: roam beside other engines");
+  verb->footer(help);
+  const auto options = std::make_shared<Options>();
+  options->add_to(*verb);
+  verb->add_option("--engines", options->engines, "Which engines, separated by commas (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(engine_names()));
-  app.add_option("--patience", options.patience,
-                 "seconds: an engine that needs longer for a set gets the first part of it")
+  verb->add_option("--wasm-engines", options->places.wasm, "The folder whose node_modules hold PhysX and Jolt")
+      ->type_name("DIR");
+  verb->add_option("--patience", options->comparison.patience,
+                   "Seconds: an engine that needs longer for a set gets the first part of it")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, static_cast<int>(ours.size()), ours.data());
-  try {
-    run(options, out);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
-  return 0;
+      ->check(app::positive);
+  verb->add_option("--picture", options->picture, "Draw the times as bars, to an SVG file")->type_name("FILE");
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->callback([options, &run] {
+    options->comparison.rounds = options->rounds;
+    run = [options] { return bench::run(*options); };
+  });
 }
+
+}  // namespace roam::bench

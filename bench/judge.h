@@ -13,7 +13,7 @@ namespace roam::bench {
 /// Deeper than this is a wrong answer: the body is in a wall. Ten times the depth that roam promises never to reach.
 constexpr double depth_allowed = 1e-5;  // m
 /// An answer that stops the body farther off than this keeps it out of places that it fits into.
-constexpr double gap_allowed = 2e-3;  // m
+constexpr double gap_allowed = 1e-3;  // m
 
 /// Wrong answers among some queries. "Depth" is radius minus the smallest distance of the body's axis from any triangle
 /// on the whole way that the engine calls free, as the reference measures it: a body that is let through a sheet and

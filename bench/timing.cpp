@@ -43,20 +43,19 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
+void to_nanoseconds(std::span<double> ticks) {
+  const double empty = empty_ticks();
+  for (double& t : ticks) t = std::max(0.0, t - empty) / ticks_per_nanosecond();
+}
+
 std::vector<Times> time_in_turns(std::span<const Ask> asked, std::span<const std::size_t> queries,
                                  std::span<const Query> all, int rounds) {
   std::vector<std::vector<std::vector<double>>> runs(asked.size());
-  std::vector<std::uint64_t> ticks(all.size());
   std::vector<Answer> answers(all.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t e = 0; e < asked.size(); ++e) {
       const std::size_t count = std::min(queries[e], all.size());
-      const double empty = empty_ticks();
-      asked[e](all.first(count), ticks, answers);
-      std::vector<double>& run = runs[e].emplace_back(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        run[i] = std::max(0.0, static_cast<double>(ticks[i]) - empty) / ticks_per_nanosecond();
-      }
+      asked[e](all.first(count), runs[e].emplace_back(count), answers);
     }
   }
   std::vector<Times> times(asked.size());

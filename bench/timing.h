@@ -15,12 +15,13 @@ namespace roam::bench {
 /// Nanoseconds that each query took: one value a query, the median over rounds.
 ///
 /// Each call is timed by itself, between two fenced readings of the processor's clock, and the cost of an empty pair of
-/// readings (their median, measured anew for each round) is taken off. Because of the fences no query overlaps the
-/// next: what is measured is latency, not throughput.
+/// readings (their median, measured anew for each call of an Ask) is taken off. Because of the fences no query overlaps
+/// the next: what is measured is latency, not throughput.
 using Times = std::vector<double>;
 
-/// What is to be timed. The answers are kept so that no compiler can leave the work out.
-using Ask = std::function<void(std::span<const Query>, std::span<std::uint64_t> ticks, std::span<Answer>)>;
+/// Answers queries in order and says how many nanoseconds each took. The answers are kept so that no compiler can leave
+/// the work out.
+using Ask = std::function<void(std::span<const Query>, std::span<double> nanoseconds, std::span<Answer>)>;
 
 /// The times of each of `asked` on the first queries[i] of `queries`. The engines take turns, `rounds` times; all
 /// queries of a round are asked in order, so that each engine's caches hold what its own queries left there.
@@ -60,16 +61,20 @@ inline std::uint64_t clock_before() {
 inline std::uint64_t clock_after() { return clock_before(); }
 #endif
 
+/// Differences of two readings of that clock become nanoseconds, in place, less the cost of an empty pair of readings.
+void to_nanoseconds(std::span<double> ticks);
+
 /// An Ask from anything that maps a Query to an Answer, without a call through a pointer between the clock readings.
 template <class Sweep>
 [[nodiscard]] Ask timed(Sweep sweep) {
-  return [sweep](std::span<const Query> queries, std::span<std::uint64_t> ticks, std::span<Answer> answers) {
+  return [sweep](std::span<const Query> queries, std::span<double> nanoseconds, std::span<Answer> answers) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const Query query = queries[i];
       const std::uint64_t before = clock_before();
       answers[i] = sweep(query);
-      ticks[i] = clock_after() - before;
+      nanoseconds[i] = static_cast<double>(clock_after() - before);
     }
+    to_nanoseconds(nanoseconds.first(queries.size()));
   };
 }
 

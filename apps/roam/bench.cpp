@@ -1,0 +1,78 @@
+// roam bench: hands its arguments to the program roam-bench, which links the engines that roam is measured beside.
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "roam/error.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* program_name = "roam-bench";
+
+constexpr const char* help =
+    "  engines   sweeps through one scene: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt, the paper's method\n"
+    "  paper     Tables 1 and 2 of Xie and Niu (2020), measured here\n"
+    "  scale     the time of a step from 100 thousand to 100 million triangles\n\n"
+    "They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON.\n"
+    "`roam bench engines --help` lists what it takes.\n\n"
+    "Examples:\n"
+    "  roam bench engines\n"
+    "  roam bench paper --json\n"
+    "  roam bench scale --triangles 10M --picture scale.svg\n";
+
+bool can_run(const fs::path& program) {
+  std::error_code none;
+  return fs::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0;
+}
+
+/// The one that belongs to the running program. Throws roam::Error when there is none.
+fs::path find_program() {
+  if (const char* named = std::getenv("ROAM_BENCH"); named != nullptr && *named != '\0') {
+    if (can_run(named)) return named;
+    throw Error(std::string("the environment variable ROAM_BENCH names ") + named +
+                ", which is not a program that can be run. Name the program " + program_name +
+                " of this installation.");
+  }
+  std::error_code none;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path beside = folder / program_name;
+  const fs::path installed = folder.parent_path() / "libexec" / "roam" / program_name;
+  for (const fs::path& place : {beside, installed}) {
+    if (can_run(place)) return place;
+  }
+  throw Error(std::string("the program ") + program_name + ", which compares roam with other engines, is not here " +
+              "(looked at " + beside.string() + " and " + installed.string() +
+              "). It is built from roam's sources: cmake --preset bench && cmake --build --preset bench; " +
+              "or name it by the environment variable ROAM_BENCH.");
+}
+
+ExitStatus become(std::vector<std::string> arguments) {
+  std::string program = find_program().string();
+  std::vector<char*> argv{program.data()};
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  ::execv(program.c_str(), argv.data());
+  throw Error("cannot start " + program + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("bench", "Measures roam beside other engines: engines, paper, scale");
+  verb->footer(help);
+  verb->prefix_command();
+  verb->callback([verb, &run] {
+    const std::vector<std::string> arguments = verb->remaining();
+    if (arguments.empty()) throw CLI::RequiredError("engines, paper or scale");
+    run = [arguments] { return become(arguments); };
+  });
+}
+
+}  // namespace roam::app

@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// What roam-bench does, one file each.
+
+#include "verbs.h"
+
+namespace roam::bench {
+
+/// Each adds its verb to the program and sets `run` when the verb is chosen.
+void add_engines(CLI::App& program, app::Run& run);
+void add_paper(CLI::App& program, app::Run& run);
+void add_scale(CLI::App& program, app::Run& run);
+
+}  // namespace roam::bench

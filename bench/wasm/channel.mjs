@@ -1,0 +1,66 @@
+// What the drivers of engines in WebAssembly share. roam-bench runs this text with one driver behind it:
+//   node --input-type=module --eval TEXT DIR        DIR holds node_modules
+// Little endian. In, by descriptor 3: u32 vertices, u32 triangles, f32 x y z of each vertex, u32 a b c of each triangle;
+// then, until the end, u32 n and n queries of 8 f64: radius, half height, from, motion. Out, by descriptor 4: u32 length
+// and a JSON text of that length; then for each query 2 f64: the time of impact (2 when free) and nanoseconds.
+import { readFileSync, readSync, writeSync } from 'node:fs';
+import { performance as clock } from 'node:perf_hooks';
+import { pathToFileURL } from 'node:url';
+
+const modules = process.argv[1] + '/node_modules/';
+
+function read(bytes) {
+  const buffer = new ArrayBuffer(bytes);
+  const view = new Uint8Array(buffer);
+  for (let done = 0; done < bytes;) {
+    const got = readSync(3, view, done, Math.min(bytes - done, 1 << 30));
+    if (got === 0) process.exit(0);
+    done += got;
+  }
+  return buffer;
+}
+
+function write(view) {
+  for (let done = 0; done < view.byteLength;) done += writeSync(4, view, done);
+}
+
+function median(values) {
+  return values.sort((a, b) => a - b)[values.length >> 1];
+}
+
+// The cost of an empty pair of readings, milliseconds.
+function emptyPair() {
+  const empty = [];
+  for (let i = 0; i < 1001; ++i) {
+    const before = clock.now();
+    empty.push(clock.now() - before);
+  }
+  return median(empty);
+}
+
+// make(vertices, indices) gives {name, used, bytes, sweep(numbers, at)}; sweep returns the time of impact or 2.
+async function serve(start, make) {
+  const [vertexCount, triangleCount] = new Uint32Array(read(8));
+  const vertices = new Float32Array(read(12 * vertexCount));
+  const indices = new Uint32Array(read(12 * triangleCount));
+  await start();
+  const begin = clock.now();
+  const { name, used, bytes, sweep } = make(vertices, indices);
+  const about = new TextEncoder().encode(JSON.stringify({ name, used, bytes, build_s: 1e-3 * (clock.now() - begin) }));
+  write(new Uint8Array(Uint32Array.of(about.length).buffer));
+  write(about);
+  for (;;) {
+    const [count] = new Uint32Array(read(4));
+    const queries = new Float64Array(read(64 * count));
+    const answers = new Float64Array(2 * count);
+    const empty = emptyPair();
+    for (let i = 0; i < count; ++i) {
+      const before = clock.now();
+      const time = sweep(queries, 8 * i);
+      const after = clock.now();
+      answers[2 * i] = time;
+      answers[2 * i + 1] = Math.max(0, 1e6 * (after - before - empty));
+    }
+    write(new Uint8Array(answers.buffer));
+  }
+}

@@ -1,0 +1,107 @@
+// A comparison counts what engines get wrong, and keeps apart who was asked what.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "../bench/comparison.h"
+
+namespace roam::bench {
+namespace {
+
+/// 100 spheres that fly at a wall at x = 5, and 100 that fly away from it.
+QuerySet queries() {
+  QuerySet set{.name = "made", .queries = {}};
+  for (int i = 0; i < 200; ++i) {
+    const double side = i % 2 == 0 ? 10.0 : -10.0;
+    set.queries.push_back({.body = {.radius = 0.5}, .from = {0.0, 0.01 * i, 0.0}, .motion = {side, 0.0, 0.0}});
+  }
+  return set;
+}
+
+Reference wall_at_5() {
+  const Mesh wall{.name = "wall", .vertices = {{5, -9, -9}, {5, 9, -9}, {5, 0, 18}}, .triangles = {{0, 1, 2}}};
+  return Reference({&wall, 1});
+}
+
+Engine engine(const std::string& name, const std::function<Answer(const Query&)>& answer, double nanoseconds) {
+  Engine made{.name = name, .used = "made up"};
+  made.ask = [=](std::span<const Query> asked, std::span<double> times, std::span<Answer> answers) {
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      answers[i] = answer(asked[i]);
+      times[i] = nanoseconds;
+    }
+  };
+  return made;
+}
+
+std::vector<EngineRun> compared(const std::vector<Engine>& engines, const QuerySet& set, double patience = 10.0) {
+  return compare(engines, set, wall_at_5(), {.rounds = 3, .patience = patience});
+}
+
+TEST(BenchComparison, CountsTheAnswersOfABrokenEngineAndOfARightOneApart) {
+  const Reference reference = wall_at_5();
+  const std::vector<Engine> engines{engine(
+                                        "right", [&](const Query& q) { return reference.sweep(q); }, 2000.0),
+                                    engine(
+                                        "blind", [](const Query&) { return Answer{}; }, 10.0),
+                                    engine(
+                                        "timid",
+                                        [](const Query&) {
+                                          return Answer{true, 0.0};
+                                        },
+                                        20.0),
+                                    engine(
+                                        "slow to stop",
+                                        [&](const Query& q) {
+                                          const Answer answer = reference.sweep(q);
+                                          return answer.hit ? Answer{true, answer.time + 0.01} : answer;
+                                        },
+                                        30.0)};
+  const std::vector<EngineRun> runs = compared(engines, queries());
+  ASSERT_EQ(runs.size(), 4U);
+  EXPECT_EQ(runs[0].verdict.wrong(), 0U);
+  EXPECT_EQ(runs[0].verdict.hits, 100U);
+  EXPECT_EQ(runs[1].verdict.missed, 100U);
+  EXPECT_NEAR(runs[1].verdict.deepest, 0.5, 1e-9);
+  EXPECT_EQ(runs[2].verdict.early, 100U);
+  EXPECT_EQ(runs[2].verdict.false_hits, 100U);
+  EXPECT_EQ(runs[3].verdict.late, 100U);
+  EXPECT_NEAR(runs[3].verdict.deepest, 0.1, 1e-9);
+  EXPECT_EQ(runs[0].times.p50, 2000.0);
+  EXPECT_EQ(runs[3].times.p99, 30.0);
+}
+
+TEST(BenchComparison, GivesAnEngineThatIsTooSlowTheFirstPart) {
+  Engine sleepy = engine(
+      "sleepy", [](const Query&) { return Answer{}; }, 1.0);
+  const Ask quick = sleepy.ask;
+  sleepy.ask = [quick](std::span<const Query> asked, std::span<double> times, std::span<Answer> answers) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    quick(asked, times, answers);
+  };
+  const std::vector<EngineRun> runs = compared({sleepy}, queries(), 0.01);
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_GT(runs[0].asked, 0U);
+  EXPECT_LT(runs[0].asked, 200U);
+  EXPECT_EQ(runs[0].verdict.queries, runs[0].asked);
+}
+
+TEST(BenchComparison, AsksNoCapsuleOfAnEngineOfSpheres) {
+  Engine spheres = engine(
+      "spheres", [](const Query&) { return Answer{}; }, 1.0);
+  spheres.spheres_only = true;
+  const Engine both = engine(
+      "both", [](const Query&) { return Answer{}; }, 1.0);
+  QuerySet set = queries();
+  EXPECT_EQ(compared({spheres, both}, set).size(), 2U);
+  set.queries[7].body.half_height = 0.4;
+  const std::vector<Engine> engines{spheres, both};
+  const std::vector<EngineRun> runs = compared(engines, set);
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].engine->name, "both");
+}
+
+}  // namespace
+}  // namespace roam::bench
