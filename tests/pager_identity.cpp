@@ -1,0 +1,255 @@
+// A pager of which everything is in memory answers as a World of the very tiles of its store: contacts and floor bit
+// for bit, sweeps and rays but for the last bit of a time, clearances within what they may be less than the gap.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "clutter.h"
+#include "index/binary_tree.h"
+#include "index/collapse.h"
+#include "index/grid.h"
+#include "pager_made.h"
+#include "roam/generate.h"
+#include "store/tile_reader.h"
+#include "world/data.h"
+#include "world/query.h"
+
+namespace {
+
+using roam::Box;
+using roam::Clearance;
+using roam::Contact;
+using roam::Impact;
+using roam::Mesh;
+using roam::Pager;
+using roam::TriangleId;
+using roam::Vec3;
+using roam::WorldData;
+namespace query = roam::query;
+
+/// What World::build holds, but for the tiles, which come from a store: so its triangles are the store's own, in the
+/// store's order.
+class StoredWorld {
+ public:
+  explicit StoredWorld(const roam::Store& store) {
+    read(store);
+    const roam::index::WideTree top = tree();
+    data_.tiles.allocate(tiles_.size());
+    std::size_t blocks = top.nodes.size(), fine = 0;
+    for (const Read& r : tiles_) blocks += r.blocks, fine += r.tile.fine.size();
+    data_.blocks.allocate(blocks);
+    data_.fine.allocate(fine);
+    for (std::size_t i = 0; i < top.nodes.size(); ++i) data_.blocks.items[i].node = top.nodes[i];
+    std::size_t block = top.nodes.size();
+    fine = 0;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      const Read& r = tiles_[order_[i]];
+      roam::index::Tile tile = r.tile.tile;
+      tile.nodes = static_cast<std::uint32_t>(block);
+      tile.leaves = static_cast<std::uint32_t>(block + r.tile.tile.leaves);
+      tile.fine_leaves = fine * sizeof(roam::index::FineLeaf);
+      data_.tiles.items[i] = tile;
+      number_.push_back(r.id);
+      std::memcpy(&data_.blocks.items[block], r.tile.memory.get(), r.blocks * sizeof(roam::index::Block));
+      if (tile.fine) std::memcpy(&data_.fine.items[fine], r.tile.fine.data(), r.tile.fine.size_bytes());
+      block += r.blocks;
+      fine += r.tile.fine.size();
+    }
+  }
+
+  [[nodiscard]] Impact sweep(const roam::Body& body, const Vec3& from, const Vec3& motion) const {
+    Impact impact = query::first_impact(data_, {body, from, motion});
+    if (impact.hit) impact.triangle = number(impact.triangle);
+    return impact;
+  }
+  std::size_t contacts(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach,
+                       std::span<Contact> out) const {
+    const std::size_t n = query::contacts_of(body, from, motion, reach, out, [&](const Vec3& way, auto& collector) {
+      query::collect(data_, {body, from, way}, 0, collector);
+    });
+    for (Contact& c : out.first(n)) c.triangle = number(c.triangle);
+    return n;
+  }
+  [[nodiscard]] Clearance clearance(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+    return numbered(query::clearance_of(body, from, motion, reach, query::clearance_tolerance_of(data_.lossless),
+                                        [&](const Vec3& way, auto& collector) {
+                                          query::collect(data_, {body, from, way}, 0, collector);
+                                        }));
+  }
+  [[nodiscard]] Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
+                                          const roam::Floor& floor) const {
+    return numbered(query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, auto& collector) {
+      query::collect(data_, {body, place, way}, 0, collector);
+    }));
+  }
+
+ private:
+  struct Read {
+    roam::store::LoadedTile tile;
+    Box box;
+    TriangleId id = 0;  ///< of its first triangle, in the store
+    std::size_t blocks = 0;
+  };
+
+  void read(const roam::Store& store) {
+    roam::store::TileReader reader(store.state());
+    for (std::uint64_t p = 0; p < store.state().pages.size(); ++p) {
+      const auto page = reader.page(p);
+      for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
+        const auto& entry = page.view.tiles[t];
+        tiles_.push_back({reader.tile(p, entry, t), roam::store::box_of(entry), roam::store::stored_id(p, t, 0),
+                          std::size_t{entry.nodes} + entry.leaves});
+        data_.reach.include(tiles_.back().box);
+      }
+    }
+    data_.lossless = store.info().lossless;
+    data_.first = {0, store.info().triangles};
+    data_.grid = roam::index::Grid::over(data_.reach);
+  }
+
+  /// As World::build makes it over its tiles.
+  roam::index::WideTree tree() {
+    std::vector<roam::index::StepBox> boxes;
+    for (const Read& r : tiles_) boxes.push_back(data_.grid.steps(r.box));
+    roam::index::BinaryTreeOptions options;
+    options.items_per_test = 1;
+    options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
+    const roam::index::BinaryTree binary = roam::index::build_binary_tree(boxes, options);
+    roam::index::WideTree top = roam::index::collapse(binary, options.margin);
+    for (const std::uint32_t leaf : top.leaves) order_.push_back(binary.order[binary.nodes[leaf].begin]);
+    return top;
+  }
+
+  [[nodiscard]] TriangleId number(TriangleId own) const {
+    constexpr TriangleId in_tile = (TriangleId{1} << roam::store::triangle_bits) - 1;
+    return number_[own >> roam::store::triangle_bits] | (own & in_tile);
+  }
+  [[nodiscard]] Clearance numbered(Clearance c) const {
+    if (c.found) c.triangle = number(c.triangle);
+    return c;
+  }
+
+  WorldData data_;
+  std::vector<Read> tiles_;
+  std::vector<std::size_t> order_;  ///< of the tiles below the tree
+  std::vector<TriangleId> number_;
+};
+
+/// Metres along a way. What is found first bounds what is looked for next, and so comes into the last bit of a time:
+/// tiles are visited in another order where the tree over them is divided into pages.
+constexpr double last_bit = 1e-12;
+
+/// Bits, not values: -0 is not 0.
+bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same(const Vec3& a, const Vec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+template <class Answer>
+bool same_touch(const Answer& a, const Answer& b) {
+  return same(a.point, b.point) && same(a.normal, b.normal) && a.feature == b.feature && same(a.distance, b.distance) &&
+         a.unknown == b.unknown;
+}
+
+struct Tally {
+  long sweeps = 0, hits = 0, contacts = 0, clearances = 0, floors = 0, other_time = 0, other_triangle = 0,
+       other_clearance = 0;
+};
+
+void compare(const Pager& pager, const StoredWorld& world, std::span<const Mesh> meshes, int queries, Tally& tally) {
+  clutter::Random random(11);
+  for (int i = 0; i < queries; ++i) {
+    const Mesh& mesh = meshes[random.engine() % meshes.size()];
+    const roam::Triangle t = mesh.triangle(random.engine() % mesh.triangles.size());
+    roam::Body body{random.engine() % 6 == 0 ? 0.0 : random.between(0.05, 0.6),
+                    random.engine() % 3 == 0 ? random.between(0.0, 0.9) : 0.0};
+    if (body.radius == 0.0 && i % 2 == 0) body.half_height = 0.0;  // a ray
+    const Vec3 from = t[random.engine() % 3] + random.between(0.0, 3.0) * random.direction();
+    const Vec3 motion = std::pow(10.0, random.between(-2.0, 2.3)) * random.direction();
+    SCOPED_TRACE(i);
+    const auto sweep = [&](const Vec3& way) {
+      const Impact a = pager.sweep(body, from, way), b = world.sweep(body, from, way);
+      ++tally.sweeps;
+      tally.hits += b.hit ? 1 : 0;
+      ASSERT_EQ(a.hit, b.hit);
+      const double apart = std::abs(a.time - b.time) * glm::length(way);
+      ASSERT_LE(apart, last_bit);
+      if (!same(a.time, b.time)) {
+        ++tally.other_time;
+      } else if (a.hit && a.triangle != b.triangle) {
+        ++tally.other_triangle;
+      } else if (a.hit) {
+        ASSERT_TRUE(same_touch(a, b));
+      }
+    };
+    ASSERT_NO_FATAL_FAILURE(sweep(motion));
+    if (i % 4 != 0) continue;
+    ASSERT_NO_FATAL_FAILURE(sweep(Vec3(0.0)));
+    const double reach = random.between(0.0, 2.0);
+    for (const Vec3& way : {Vec3(0.0), motion}) {
+      std::array<Contact, 40> left{}, right{};
+      const std::size_t n = pager.contacts(body, from, way, 0.3, left), m = world.contacts(body, from, way, 0.3, right);
+      ASSERT_EQ(n, m);
+      for (std::size_t k = 0; k < n; ++k) {
+        ++tally.contacts;
+        ASSERT_TRUE(same(left[k].distance, right[k].distance));
+        if (n < left.size()) {  // else of those that are equally far others may be left out
+          const auto b =
+              std::find_if(right.begin(), right.end(), [&](auto& c) { return c.triangle == left[k].triangle; });
+          ASSERT_NE(b, right.end());
+          ASSERT_TRUE(same_touch(left[k], *b));
+        }
+      }
+      const Clearance a = pager.clearance(body, from, way, reach), b = world.clearance(body, from, way, reach);
+      ++tally.clearances;
+      tally.other_clearance += same(a.distance, b.distance) ? 0 : 1;
+      ASSERT_NEAR(a.distance, b.distance, query::clearance_tolerance_of(pager.store().info().lossless));
+    }
+    roam::Floor floor;
+    if (i % 8 == 0) floor = {30.0, 0.4, from, Vec3(0.0, 0.0, 1.0)};
+    const Clearance a = pager.floor_clearance(body, from, reach, floor);
+    const Clearance b = world.floor_clearance(body, from, reach, floor);
+    ++tally.floors;
+    ASSERT_EQ(a.found, b.found);
+    ASSERT_TRUE(same(a.distance, b.distance));
+    if (a.found && a.triangle == b.triangle) {
+      ASSERT_TRUE(same_touch(a, b));
+    }
+  }
+}
+
+void compare(const char* name, const std::vector<Mesh>& meshes, const made::StoreOptions& options) {
+  const made::Folder folder(std::string("pager_identity_") + name);
+  const auto store = made::store(folder.path(), meshes, options);
+  const StoredWorld world(*store);
+  Pager pager(store, {.memory = 64 << 20, .loaders = 2});
+  ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
+  constexpr int queries = 20'000;
+  Tally tally;
+  ASSERT_NO_FATAL_FAILURE(compare(pager, world, meshes, queries, tally));
+  EXPECT_GT(tally.sweeps, queries);
+  EXPECT_GT(tally.floors, queries / 10);
+  EXPECT_GT(tally.hits, queries / 10);
+  EXPECT_GT(tally.contacts, queries / 10);
+  // These depend on the order in which tiles are visited: last bits of times; which of two triangles with one edge is
+  // named; which triangles a clearance leaves out because they are not 2 mm nearer than what it has found.
+  EXPECT_LE(tally.other_time, tally.sweeps / 100);
+  EXPECT_LE(tally.other_triangle, tally.hits / 100);
+  EXPECT_LE(tally.other_clearance, tally.clearances / 100);
+}
+
+TEST(PagerIdentity, OfAGallery) {
+  compare("gallery", roam::generate::collect(roam::generate::gallery({.triangles = 200'000, .seed = 1})),
+          {.page_tiles = 7, .tile_triangles = 4000});
+}
+TEST(PagerIdentity, OfAGalleryOfOnePage) {
+  compare("page", roam::generate::collect(roam::generate::gallery({.triangles = 200'000, .seed = 1})),
+          {.page_tiles = 1024, .tile_triangles = 4000});
+}
+TEST(PagerIdentity, OfALosslessHeap) {
+  clutter::Random random(3);
+  const std::vector<Mesh> meshes{clutter::make(random, {60'000, 60.0, 0.05, 8.0, Vec3(5e4, -3e4, 100.0)})};
+  compare("lossless", meshes, {.lossless = true, .page_tiles = 3, .tile_triangles = 3000});
+}
+
+}  // namespace
