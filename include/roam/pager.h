@@ -20,6 +20,9 @@
 /// follows from the body it was told of: first what the body could reach first, in a ball around it and in a cone
 /// ahead. All memory is taken when the pager is made.
 ///
+/// Where memory holds all of a store, answers are those of a World of its tiles, to the bit where the order in which
+/// tiles are visited does not come in: docs/stores.md says where it does, and by how much.
+///
 /// update(), wait() and the destructor belong to the thread that moves the body. Queries may run at the same time as
 /// each other, from any threads, but not during update() and wait(). stats() may be called from any thread.
 
