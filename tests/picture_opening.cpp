@@ -176,6 +176,114 @@ TEST(OpeningPicture, PutsSeveralOneBelowTheOther) {
   EXPECT_GT(sheet.height, 1.7 * one.height);
 }
 
+/// Whether some area of the sheet covers a place.
+bool covered(const std::vector<Lines>& all, const Point& p) {
+  for (const Lines& areas : all) {
+    for (const Polyline& area : areas.lines) {
+      bool inside = false;
+      for (std::size_t i = 0, k = area.size() - 1; i < area.size(); k = i++) {
+        const Point a = area[i], b = area[k];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+      }
+      if (inside) return true;
+    }
+  }
+  return false;
+}
+
+TEST(OpeningPicture, ShowsTheFaceOfAWallWithoutAnyThicknessBesideItsDoor) {
+  const Vec3 at(5.0, -2.0, 30.0), across(0.0, 1.0, 0.0);
+  OpeningView view = view_of_door(at, across, 0.84);
+  view.depth = 0.005;
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view}, door(at, across, 0.84));
+  const auto faces = all<Lines>(sheet, "faces");
+  ASSERT_EQ(faces.size(), 1u);
+  const Lines measure = all<Lines>(sheet, "measure")[1];
+  const Point from = measure.lines[0][0], to = measure.lines[0][1];
+  EXPECT_FALSE(covered(faces, 0.5 * (from + to)));
+  EXPECT_TRUE(covered(faces, from - 0.1 * (to - from)));
+  EXPECT_TRUE(covered(faces, to + 0.1 * (to - from)));
+  expect_readable(sheet);
+}
+
+TEST(OpeningPicture, DrawsTheBodyOfAnEndBesideItsWall) {
+  Mesh mesh;
+  scenes::add_floor(mesh, -5.0, -5.0, 5.0, 0.25, 0.0);
+  scenes::add_wall(mesh, -5.0, 0.25, 5.0, 0.25, 0.0, 3.0);
+  OpeningView view = view_of_door({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.25);
+  view.kind = OpeningView::Kind::beside;
+  view.point = {0.0, 0.125, 1.0};
+  view.body = Vec3(0.0);
+  view.fits = false;
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view}, std::vector{mesh});
+  const double scale = pixels_per_metre(sheet);
+  const auto measures = all<Lines>(sheet, "measure");
+  ASSERT_EQ(measures.size(), 2u);
+  const auto bodies = all<Disc>(sheet, "plan body");
+  ASSERT_EQ(bodies.size(), 1u);
+  EXPECT_LT(glm::distance(measures[0].lines[0][0], bodies[0].centre), 1.0);  // from the axis
+  EXPECT_NEAR(glm::distance(measures[0].lines[0][1], bodies[0].centre), 0.25 * scale, 0.5);
+  expect_readable(sheet);
+}
+
+TEST(OpeningPicture, MeasuresAHeightBesideTheBodyAndDashesWhatHangsThere) {
+  const Vec3 at(0.0, 0.0, 0.0), across(0.0, 1.0, 0.0);
+  std::vector<Mesh> meshes = door(at, across, 0.9);
+  for (const double x : {-0.1, 0.1}) scenes::add_wall(meshes[0], x, -0.45, x, 0.45, 1.75, 3.0);
+  OpeningView view = view_of_door(at, across, 1.75);
+  view.point = {0.0, 0.0, 0.875};
+  view.direction = {0.0, 0.0, 1.0};
+  view.heading_to = {1.0, 0.0, 0.0};
+  view.fits = false;
+  const Sheet sheet = opening_sheet("scene.obj", std::vector{view}, meshes);
+  const double scale = pixels_per_metre(sheet);
+  const auto measures = all<Lines>(sheet, "measure");
+  ASSERT_EQ(measures.size(), 1u);
+  const Point low = measures[0].lines[0][0], high = measures[0].lines[0][1];
+  EXPECT_NEAR(low.y - high.y, 1.75 * scale, 0.5);
+  Rect body;
+  const auto bodies = all<Lines>(sheet, "section body");
+  ASSERT_EQ(bodies.size(), 1u);
+  for (const Point& p : bodies[0].lines[0]) body.include(p);
+  EXPECT_GT(low.x, body.upper.x);
+  ASSERT_EQ(all<Lines>(sheet, "plan above").size(), 1u);
+  EXPECT_FALSE(all<Lines>(sheet, "plan above")[0].dash.empty());
+  expect_readable(sheet);
+}
+
+TEST(OpeningPicture, ShowsBothEndsAndWhatIsReachedFromThem) {
+  const Vec3 at(-13739.0, 253.0, 181.0), across(0.0, 1.0, 0.0);
+  Overview overview;
+  overview.radius = 0.3;
+  overview.height = 1.9;
+  overview.start = at - Vec3(4.0, 0.0, 0.0);
+  overview.target = at + Vec3(4.0, 0.5, 0.0);
+  for (double x = -5.0; x < -0.5; x += 0.2) overview.from_start.push_back(at + Vec3(x, 0.0, 0.0));
+  for (double x = 0.6; x < 5.0; x += 0.2) overview.from_target.push_back(at + Vec3(x, 0.2, 0.0));
+  overview.marks.push_back({at, "nearest approach", false});
+  const Sheet sheet = opening_sheet("scene.obj", {}, door(at, across, 0.001), "No: there is no way.", overview);
+  const auto start = all<Disc>(sheet, "start"), target = all<Disc>(sheet, "target");
+  const auto mark = all<Disc>(sheet, "overview mark");
+  ASSERT_EQ(start.size(), 1u);
+  ASSERT_EQ(target.size(), 1u);
+  ASSERT_EQ(mark.size(), 1u);
+  const double scale = start[0].radius / 0.3;
+  EXPECT_NEAR(target[0].centre.x - start[0].centre.x, 8.0 * scale, 1.0);
+  EXPECT_NEAR(start[0].centre.y - target[0].centre.y, 0.5 * scale, 1.0);  // the sheet's y points down
+  EXPECT_TRUE(covered(all<Lines>(sheet, "reached from the start"), start[0].centre));
+  EXPECT_FALSE(covered(all<Lines>(sheet, "reached from the start"), mark[0].centre));
+  EXPECT_FALSE(covered(all<Lines>(sheet, "reached from the target"), mark[0].centre));
+  EXPECT_EQ(all<Lines>(sheet, "overview walls").size(), 1u);
+  expect_readable(sheet);
+  // With a way there is nothing to be told of what is reached.
+  overview.way = {overview.start, overview.target};
+  overview.from_start.clear();
+  overview.from_target.clear();
+  const Sheet yes = opening_sheet("scene.obj", {}, door(at, across, 0.9), "Yes.", overview);
+  EXPECT_EQ(all<Lines>(yes, "way").size(), 1u);
+  EXPECT_TRUE(all<Lines>(yes, "reached from the start").empty());
+}
+
 TEST(OpeningPicture, HasATitleWhereNothingDecides) {
   const Sheet sheet = opening_sheet("scene.obj: nothing is as narrow", {}, {});
   EXPECT_GT(sheet.height, 50.0);

@@ -102,11 +102,24 @@ WalkerSettings settings_of(const ProbeQuestion& question, const ProbedSize& size
   return settings;
 }
 
+PassageOptions options_for(const ProbeQuestion& question, const ProbedSize& largest, double smallest) {
+  PassageOptions options;
+  options.mode = question.mode;
+  options.spacing = question.spacing;
+  options.widest = std::max(wide, wide_times * largest.radius);
+  options.narrowest = std::min(narrow, narrow_part * smallest);
+  if (question.mode == Mode::fly) return options;
+  options.height = is_sphere(largest) ? 0.0 : largest.height;
+  options.step = climbed(question, largest);
+  return options;
+}
+
 std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes,
                                const ProbeProgress& progress) {
   // Bodies that are measured alike, each with its largest and smallest radius.
   struct Group {
-    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    ProbedSize largest{0.0, 0.0};
     std::optional<ProbeSearch> search;
     Vec3 start{0.0}, target{0.0};
     std::optional<Limit> low;  ///< an end where none of them can stand upright
@@ -121,16 +134,10 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
   for (const ProbedSize& size : sizes) {
     Group& group = groups[kind_of(size)];
     group.least = std::min(group.least, size.radius);
-    group.most = std::max(group.most, size.radius);
+    if (size.radius > group.largest.radius) group.largest = size;
   }
   for (auto& [kind, group] : groups) {
-    PassageOptions options;
-    options.mode = question.mode;
-    options.height = kind.first;
-    options.step = kind.second;
-    options.spacing = question.spacing;
-    options.widest = std::max(wide, wide_times * group.most);
-    options.narrowest = std::min(narrow, narrow_part * group.least);
+    const PassageOptions options = options_for(question, group.largest, group.least);
     group.search.emplace(ProbeSearch{survey, question, progress, options});
     const auto stand = [&](const Vec3& asked, Limit::Kind end, const char* option) {
       const auto place = stand_for(*group.search, asked);

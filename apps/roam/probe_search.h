@@ -21,6 +21,12 @@ struct ProbeSearch {
   [[nodiscard]] Passage widest() const;
 };
 
+/// How a body of that size is searched for; of several that are measured alike, the largest and the smallest.
+[[nodiscard]] PassageOptions options_for(const ProbeQuestion& question, const ProbedSize& largest, double smallest);
+[[nodiscard]] inline PassageOptions options_for(const ProbeQuestion& question, const ProbedSize& size) {
+  return options_for(question, size, size.radius);
+}
+
 /// Where a body stands for a place that was asked for; none where none of options.narrowest can.
 [[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked);
 

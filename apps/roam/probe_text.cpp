@@ -27,6 +27,9 @@ std::string body_text(const ProbedSize& size) {
   return fmt::format("a body of radius {:.3g} m and height {:.3g} m", size.radius, size.height);
 }
 
+/// Which way it is measured.
+const char* extent(const Limit& limit) { return std::abs(limit.direction.z) > 0.7 ? "high" : "wide"; }
+
 const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target"; }
 
 /// "the narrowest place is ..." of a way that is wide enough.
@@ -41,8 +44,8 @@ std::string narrowest(const ProbeAnswer& answer) {
   }
   if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
     return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
-  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size),
-                     limit.kind == Kind::lintel ? "high" : "wide", name(limit.kind), where);
+  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), name(limit.kind),
+                     where);
 }
 
 /// Of what cannot be passed by anybody.
@@ -102,8 +105,8 @@ std::string stopped_by(const ProbeAnswer& answer) {
     case Kind::gap:
       break;
   }
-  return fmt::format("The {} at {} is {} {}; {}.", name(limit.kind), at(limit.point), metres(limit.size),
-                     limit.kind == Kind::lintel ? "high" : "wide", missing);
+  return fmt::format("The {} at {} is {} {}; {}.", name(limit.kind), at(limit.point), metres(limit.size), extent(limit),
+                     missing);
 }
 
 /// How sure a no is.
@@ -161,7 +164,7 @@ std::string text_of(const Limit& limit) {
   switch (limit.kind) {
     case Kind::door:
     case Kind::gap:
-      return fmt::format("{} {} wide", name(limit.kind), metres(limit.size));
+      return fmt::format("{} {} {}", name(limit.kind), metres(limit.size), extent(limit));
     case Kind::lintel:
       return fmt::format("lintel for a radius of {}", metres(0.5 * limit.size));
     case Kind::start:
@@ -169,7 +172,7 @@ std::string text_of(const Limit& limit) {
       return fmt::format("{} {} {}", end_name(limit.kind), metres(limit.size),
                          limit.too_low ? "below what is above it" : "from a wall");
     case Kind::height:
-      return fmt::format("height {}", metres(limit.size));
+      return fmt::format("headroom {}", metres(limit.size));
     case Kind::step:
       return fmt::format("step of {}", metres(limit.size));
     case Kind::apart:

@@ -27,11 +27,13 @@ constexpr double panel_width = 0.5 * (content_width - panel_gap);
 constexpr double caption_height = 92.0;  ///< that the compass needs
 constexpr double crack_measure = 34.0;   ///< below the rim
 constexpr double tick = 12.0;
+constexpr double letter_beside = 16.0;
 constexpr double scale_bar_length = 220.0;
 constexpr double label_size = 22.0;
 
 constexpr Colour pale_ink{0.36, 0.39, 0.45};
 constexpr Colour floor_fill{0.93, 0.92, 0.86};
+constexpr Colour face_fill{0.85, 0.87, 0.90};
 constexpr Colour measure_ink{0.55, 0.10, 0.50};
 constexpr Colour misfit_ink{0.78, 0.06, 0.10};
 constexpr Colour misfit_fill{0.78, 0.06, 0.10, 0.16};
@@ -46,9 +48,12 @@ class OpeningPainter {
     sheet_.width = sheet_width;
   }
 
-  Sheet paint(const std::string& title, std::span<const OpeningView> openings) {
+  Sheet paint(const std::string& title, const std::string& about, const std::optional<Overview>& overview,
+              std::span<const OpeningView> openings) {
     y_ = 0.5 * sheet_margin;
     text("title", title, title_size, true, ink);
+    if (!about.empty()) text("text", about, text_size, false, pale_ink);
+    if (overview) y_ = draw_overview(*overview, meshes_, y_, sheet_, labels_);
     char letter = 'A';
     for (const OpeningView& o : openings) opening(o, letter == 'Z' ? letter : letter++);
     if (!openings.empty()) legend(openings);
@@ -68,7 +73,7 @@ class OpeningPainter {
     y_ += 26.0;
     text("heading", o.heading, heading_size, true, o.fits ? ink : misfit_ink);
     y_ += 4.0;
-    text("text", o.text, text_size, false, pale_ink);
+    if (!o.text.empty()) text("text", o.text, text_size, false, pale_ink);
     const OpeningLayout l = lay_out(o, panel_width);
     const Cuts cuts = cut_around(o, l);
     y_ += caption_height;
@@ -85,13 +90,15 @@ class OpeningPainter {
   }
 
   [[nodiscard]] Cuts cut_around(const OpeningView& o, const OpeningLayout& l) const {
-    const PlanView view{LevelMap(l.plan.view, 0), {l.cut}, {l.cut - l.below}, std::cos(glm::radians(45.0))};
+    const double ground = std::cos(glm::radians(45.0));
+    std::vector<PlanView> views{{LevelMap(l.plan.view, 0), {l.cut}, {l.cut - l.below}, ground}};
+    if (l.above > 0.0) views.push_back({LevelMap(l.plan.view, 0), {l.above}, {}, 1.0});
     const Rect& shown = l.section.view;
     const Stretch across{{shown.lower.x, 0.0}, {shown.upper.x, 0.0}, shown.lower.x, shown.lower.y, shown.upper.y};
     std::uint64_t all = 0;
     for (const Mesh& mesh : meshes_) all += mesh.triangles.size();
     Progress progress("drawing " + o.heading, "triangles");
-    return cut(meshes_, l.turn, {&view, 1}, {&across, 1}, [&](std::uint64_t done) { progress.at(done, all); });
+    return cut(meshes_, l.turn, views, {&across, 1}, [&](std::uint64_t done) { progress.at(done, all); });
   }
 
   void caption(const std::string& name, const std::string& explanation, double x) {
@@ -123,14 +130,14 @@ class OpeningPainter {
   }
 
   void segments(const std::string& what, const Map& map, std::span<const Segment> all, double width,
-                const Colour& colour) {
+                const Colour& colour, std::vector<double> dash = {}) {
     std::vector<Segment> seen;
     for (Segment s : all) {
       if (clip(s, map.frame.view)) seen.push_back(s);
     }
     auto joint = joined(seen, map, most_segments);
     labels_.avoid(joint, 0.5);
-    if (!joint.empty()) lines(what, std::move(joint), width, colour, map.panel());
+    if (!joint.empty()) lines(what, std::move(joint), width, colour, map.panel(), std::move(dash));
   }
 
   void frame(const Map& map) {
@@ -138,23 +145,26 @@ class OpeningPainter {
         Lines{.what = "frame", .lines = {outline(map.panel())}, .width = 1.5, .stroke = frame_ink, .closed = true});
   }
 
+  void area(const std::string& what, std::vector<Polyline> areas, const Colour& fill, const Map& map) {
+    if (areas.empty()) return;
+    sheet_.items.emplace_back(Lines{.what = what,
+                                    .lines = std::move(areas),
+                                    .width = 0.8,
+                                    .stroke = fill,
+                                    .fill = fill,
+                                    .closed = true,
+                                    .clip = map.panel()});
+  }
+
   void plan(const OpeningView& o, const OpeningLayout& l, const Cuts& cuts, const Map& map, const std::string& name) {
-    auto areas = floor_around(meshes_, o, l, map);
-    if (!areas.empty()) {
-      sheet_.items.emplace_back(Lines{.what = "floor",
-                                      .lines = std::move(areas),
-                                      .width = 0.8,
-                                      .stroke = floor_fill,
-                                      .fill = floor_fill,
-                                      .closed = true,
-                                      .clip = map.panel()});
-    }
+    area("floor", floor_around(meshes_, o, l, map), floor_fill, map);
     segments("plan below", map, cuts.plans[0].below, 1.4, below_ink);
+    if (cuts.plans.size() > 1) segments("plan above", map, cuts.plans[1].walls, 1.6, pale_ink, {10.0, 7.0});
     segments("plan walls", map, cuts.plans[0].walls, 2.4, wall_ink);
     frame(map);
-    compass(map, l.turn);
+    draw_compass(l.turn, Point(map.panel().upper.x - 44.0, map.panel().lower.y - 46.0), sheet_, labels_);
     section_line(o, map, name);
-    const Point centre = map({0.0, 0.0});
+    const Point centre = map(l.body);
     const Colour& stroke = o.fits ? body_ink : misfit_ink;
     const double radius = o.radius * map.frame.scale_x;
     sheet_.items.emplace_back(Disc{.what = "plan body",
@@ -181,14 +191,15 @@ class OpeningPainter {
       measure(map, {-half, 0.0}, {half, 0.0}, whole ? o.width : 0.0);
     }
     labels_.block(Rect::around(centre, 1.6 * radius, 1.6 * radius));
-    label(map, {0.0, -o.radius}, body_text(o), stroke);
+    label(map, l.body - Point(0.0, o.radius), body_text(o), stroke);
   }
 
   void section(const OpeningView& o, const OpeningLayout& l, const Cuts& cuts, const Map& map) {
+    area("faces", faces_beside(meshes_, o, l, map), face_fill, map);
     segments("section walls", map, cuts.section, 2.4, wall_ink);
     frame(map);
     Polyline body = upright_capsule(o.radius, o.floor - sunk(o), o.height);
-    for (Point& p : body) p = map(p);
+    for (Point& p : body) p = map(p + Point(l.body.x, 0.0));
     labels_.avoid({body}, 1.0);
     const Colour& stroke = o.fits ? body_ink : misfit_ink;
     sheet_.items.emplace_back(Lines{.what = "section body",
@@ -210,12 +221,17 @@ class OpeningPainter {
     const bool crack = o.kind == OpeningView::Kind::crack;
     if (crack && !o.fits) fall(map, {0.0, o.floor});
     const Point middle(0.0, o.point.z - (crack ? crack_measure / map.frame.scale_y : 0.0));
-    measure(map, middle - half, middle + half, o.width);
+    // A height stands beside the body, as far as what hangs there is drawn out.
+    const bool is_height = !l.is_level && o.kind == OpeningView::Kind::passage;
+    const Point aside(is_height ? l.body.x + o.radius + 0.2 * o.radius : 0.0, 0.0);
+    if (is_height)
+      lines("drawn out", {{map(middle + half), map(middle + half + 1.15 * aside)}}, 1.4, measure_ink, map.panel());
+    measure(map, middle + aside - half, middle + aside + half, o.width);
     Rect taken;
-    taken.include(map({-o.radius, o.floor}));
-    taken.include(map({o.radius, o.floor + o.height}));
+    taken.include(map({l.body.x - o.radius, o.floor}));
+    taken.include(map({l.body.x + o.radius, o.floor + o.height}));
     labels_.block(taken);
-    label(map, {o.radius, o.floor + 0.5 * o.height}, body_text(o), stroke);
+    label(map, {l.body.x + o.radius, o.floor + 0.5 * o.height}, body_text(o), stroke);
   }
 
   /// Whether the plan was turned so that the direction points to the right, or to the left.
@@ -266,32 +282,15 @@ class OpeningPainter {
     labels_.block(Rect::around(0.5 * (top + tip), 30.0, 56.0));
   }
 
-  /// Where the scene's y points, which in maps is north, and its x; above the right end of the plan.
-  void compass(const Map& map, const Turn& turn) {
-    const Point centre(map.panel().upper.x - 44.0, map.panel().lower.y - 46.0);
-    const auto arrow = [&](const char* name, const Point& way, double reach, double width) {
-      const Point tip = centre + reach * way, side(-way.y, way.x);
-      lines("compass", {{centre, tip}, {tip - 9.0 * way + 5.0 * side, tip, tip - 9.0 * way - 5.0 * side}}, width, ink);
-      labels_.write("compass", name, tip + 12.0 * way + Point(0.0, 7.0), small_size, false, ink, Labels::Align::centre);
-    };
-    // y first, turned as the plan is; the sheet's own y points down.
-    arrow("N", {turn.sine, -turn.cosine}, 26.0, 2.6);
-    arrow("x", {turn.cosine, turn.sine}, 20.0, 1.4);
-  }
-
   /// Where the section lies, outside of what is measured.
   void section_line(const OpeningView& o, const Map& map, const std::string& name) {
     const double beyond = std::max({0.5 * o.width, o.radius, o.support_radius}) + 0.2 * o.radius;
     const Rect panel = map.panel();
     const Point left = map({-beyond, 0.0}), right = map({beyond, 0.0});
     std::vector<Polyline> drawn;
-    if (left.x > panel.lower.x + 36.0) {
-      drawn = {{{panel.lower.x + 36.0, left.y}, left}, {right, {panel.upper.x - 36.0, right.y}}};
-      labels_.write("section name", name, {panel.lower.x + 18.0, left.y + 8.0}, text_size, true, pale_ink,
-                    Labels::Align::centre);
-      labels_.write("section name", name, {panel.upper.x - 18.0, right.y + 8.0}, text_size, true, pale_ink,
-                    Labels::Align::centre);
-    }
+    if (left.x > panel.lower.x) drawn = {{{panel.lower.x, left.y}, left}, {right, {panel.upper.x, right.y}}};
+    for (const double x : {panel.lower.x - letter_beside, panel.upper.x + letter_beside})
+      labels_.write("section name", name, {x, left.y + 8.0}, text_size, true, pale_ink, Labels::Align::centre);
     labels_.avoid(drawn, 1.0);
     lines("section line", std::move(drawn), 1.4, pale_ink, panel, {14.0, 5.0, 3.0, 5.0});
   }
@@ -315,6 +314,8 @@ class OpeningPainter {
       at.x = labels_.write("legend", name, at + Point(sample + 12.0, 0.0), small_size, false, ink).upper.x + 34.0;
     };
     entry("cut by the plane", {.what = {}, .lines = {}, .width = 2.4, .stroke = wall_ink});
+    if (any([](const OpeningView& o) { return o.depth > 0.0; }))
+      entry("wall beside", {.what = {}, .lines = {}, .fill = face_fill, .closed = true});
     entry("lower", {.what = {}, .lines = {}, .width = 1.4, .stroke = below_ink});
     if (any([](const OpeningView& o) { return o.mode != Mode::fly; })) {
       entry("floor", {.what = {}, .lines = {}, .fill = floor_fill, .closed = true});
@@ -329,7 +330,7 @@ class OpeningPainter {
     if (any([](const OpeningView& o) { return o.support_radius > 0.0; })) {
       entry("foot", {.what = {}, .lines = {}, .width = 3.0, .stroke = foot_ink});
     }
-    entry("width", {.what = {}, .lines = {}, .width = 3.0, .stroke = measure_ink});
+    entry("measured", {.what = {}, .lines = {}, .width = 3.0, .stroke = measure_ink});
   }
 
   std::span<const Mesh> meshes_;
@@ -340,8 +341,9 @@ class OpeningPainter {
 
 }  // namespace
 
-Sheet opening_sheet(const std::string& title, std::span<const OpeningView> openings, std::span<const Mesh> meshes) {
-  return OpeningPainter(meshes, measure_text).paint(title, openings);
+Sheet opening_sheet(const std::string& title, std::span<const OpeningView> openings, std::span<const Mesh> meshes,
+                    const std::string& text, const std::optional<Overview>& overview) {
+  return OpeningPainter(meshes, measure_text).paint(title, text, overview, openings);
 }
 
 }  // namespace roam::app::picture
