@@ -1,10 +1,11 @@
-// How long a step takes in stores of the same scene, ever finer: one flight along a path through each, a table and a
-// picture.
+// How long a step takes in stores of the same scene, ever finer, and in a world in memory: one flight along a path
+// through each, a table and a picture.
 
 #include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "counted_space.h"
+#include "roam/generate.h"
 #include "roam/pager.h"
 #include "roam/route.h"
+#include "roam/world.h"
 #include "steps_picture.h"
 
 namespace {
@@ -29,9 +33,10 @@ const std::vector<Vec3> first_path = {{-13739.0, 253.0, 182.0}, {-12504.0, 1566.
 
 struct Options {
   std::vector<std::string> stores;
+  std::vector<std::uint64_t> galleries;
   std::uint64_t memory_mib = 64;
   double speed = 50.0;
-  bool walk = false;
+  bool walk = false, queries = false;
   int rounds = 3;
   std::string picture;
 };
@@ -53,25 +58,46 @@ double cost_of_reading() {
   return least;
 }
 
-/// Along the path as `roam walk` goes: after a step it waits for what is near, as long as the step lasts at most.
-std::vector<double> step_times(const Options& options, const std::shared_ptr<const roam::Store>& store) {
-  roam::Pager pager(store, {.memory = options.memory_mib << 20});
+/// One way along the path: of each step the nanoseconds, and what it asked.
+struct Flight {
+  std::vector<double> times;
+  std::array<CountedSpace::Tally, CountedSpace::kinds> asked;
+};
+
+roam::WalkerSettings body_of(const Options& options) {
   roam::WalkerSettings settings{.radius = 0.3, .height = 0.6, .eye = 0.6, .speed = options.speed};
   if (options.walk) settings.height = 1.8;
-  const roam::Body body = roam::Body::capsule(settings.radius, settings.height);
-  (void)pager.wait(body, first_path[0], Vec3(0.0), longest_wait);
-  roam::Walker walker(pager, settings, options.walk ? roam::Mode::walk : roam::Mode::fly, first_path[0]);
+  return settings;
+}
+
+/// Along the path; after each step `after(walker, report)` is called, which is not timed.
+template <class After>
+Flight fly(const Options& options, const roam::Space& space, const After& after) {
+  const CountedSpace counted(space);
+  const roam::Space& asked = options.queries ? counted : space;
+  roam::Walker walker(asked, body_of(options), options.walk ? roam::Mode::walk : roam::Mode::fly, first_path[0]);
   roam::Route route(walker, first_path, {.speed = options.speed});
   const double reading = cost_of_reading();
-  std::vector<double> times;
+  Flight flight;
   while (!route.done()) {
     const double begin = thread_time();
     const roam::StepReport& report = route.advance();
-    times.push_back(std::max(0.0, thread_time() - begin - reading));
-    (void)pager.wait(walker.body(), walker.position(), walker.velocity(), report.elapsed);
+    flight.times.push_back(std::max(0.0, thread_time() - begin - reading));
+    after(walker, report);
   }
   if (route.result().outcome != roam::Outcome::reached) throw roam::Error("the flight did not reach its end");
-  return times;
+  flight.asked = counted.tallies();
+  return flight;
+}
+
+/// As `roam walk` goes: after a step it waits for what is near, as long as the step lasts at most.
+Flight fly(const Options& options, const std::shared_ptr<const roam::Store>& store) {
+  roam::Pager pager(store, {.memory = options.memory_mib << 20});
+  const roam::WalkerSettings settings = body_of(options);
+  (void)pager.wait(roam::Body::capsule(settings.radius, settings.height), first_path[0], Vec3(0.0), longest_wait);
+  return fly(options, pager, [&](const roam::Walker& walker, const roam::StepReport& report) {
+    (void)pager.wait(walker.body(), walker.position(), walker.velocity(), report.elapsed);
+  });
 }
 
 double at(const std::vector<double>& sorted, double part) {
@@ -83,17 +109,38 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// How often a step asks what, and how long that takes: of one flight, in which each question was timed.
+void print_queries(const Flight& flight, std::uint64_t triangles) {
+  const auto steps = static_cast<double>(flight.times.size());
+  for (std::size_t kind = 0; kind < CountedSpace::kinds; ++kind) {
+    const CountedSpace::Tally& t = flight.asked[kind];
+    if (t.asked == 0) continue;
+    const auto asked = static_cast<double>(t.asked);
+    std::printf("%12llu %10s: %.2f a step, %.0f ns each\n", static_cast<unsigned long long>(triangles),
+                CountedSpace::names[kind], asked / steps, t.nanoseconds / asked);
+  }
+}
+
 int run(const Options& options) {
   struct Rounds {
     std::shared_ptr<const roam::Store> store;
+    std::shared_ptr<const roam::World> world;
     std::vector<double> p50, p99, most;
     std::size_t steps = 0;
+
+    [[nodiscard]] std::uint64_t triangles() const { return store ? store->info().triangles : world->stats().triangles; }
   };
   std::vector<Rounds> all;
-  for (const std::string& name : options.stores) all.push_back({roam::Store::open(name), {}, {}, {}, 0});
+  for (const std::uint64_t triangles : options.galleries) {
+    const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = triangles}));
+    all.push_back({nullptr, std::make_shared<const roam::World>(roam::World::build(meshes)), {}, {}, {}, 0});
+  }
+  for (const std::string& name : options.stores) all.push_back({roam::Store::open(name), nullptr, {}, {}, {}, 0});
   for (int i = 0; i < options.rounds; ++i) {
     for (Rounds& one : all) {
-      std::vector<double> times = step_times(options, one.store);
+      const Flight flight = one.store ? fly(options, one.store) : fly(options, *one.world, [](auto&&...) {});
+      if (options.queries && i == 0) print_queries(flight, one.triangles());
+      std::vector<double> times = flight.times;
       std::sort(times.begin(), times.end());
       one.steps = times.size();
       one.p50.push_back(at(times, 0.5));
@@ -104,7 +151,7 @@ int run(const Options& options) {
   std::vector<StepTimes> table;
   std::printf("%12s %8s %10s %10s %10s\n", "triangles", "steps", "median us", "p99 us", "max us");
   for (const Rounds& one : all) {
-    table.push_back({one.store->info().triangles, median(one.p50), median(one.p99)});
+    table.push_back({one.triangles(), median(one.p50), median(one.p99)});
     std::printf("%12llu %8zu %10.2f %10.2f %10.2f\n", static_cast<unsigned long long>(table.back().triangles),
                 one.steps, table.back().median_us, table.back().p99_us, median(one.most));
   }
@@ -119,10 +166,12 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Times the steps of a flight along the first path of the gallery through stores of it (microseconds of the\n"
       "thread's own time, the median of the rounds), and draws a picture of them"};
-  app.add_option("stores", options.stores, "that `roam build` made of galleries of different sizes")->required();
+  app.add_option("stores", options.stores, "that `roam build` made of galleries of different sizes");
+  app.add_option("--gallery", options.galleries, "made and held in memory: how many triangles; several are possible");
   app.add_option("--memory", options.memory_mib, "MiB of each pager")->capture_default_str();
   app.add_option("--speed", options.speed, "metres per second")->capture_default_str();
   app.add_flag("--walk", options.walk, "a person of 1.8 m on foot, instead of a sphere of 0.3 m that flies");
+  app.add_flag("--queries", options.queries, "counts what a step asks, which takes time of its own");
   app.add_option("--rounds", options.rounds, "flights through each, in turns")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

@@ -92,7 +92,15 @@ void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
     const double reach = q % 7 == 0 ? random.between(0.0, 0.2) : 1.0;
     const roam::Clearance c = world.clearance(body, from, motion, reach);
     const double gap = true_gap(wall.mesh, body, from, motion);
+    const double bound = world.gap(body, from, motion, reach);
+    if (gap > -body.radius) {
+      ASSERT_LE(bound, gap + kAbove) << q;
+    }
+    if (gap > below - body.radius) {
+      ASSERT_GE(bound, std::min(reach, gap - std::abs(gap) / 8.0 - below)) << q;
+    }
     if (!c.found) {
+      ASSERT_EQ(bound, reach) << q;
       ASSERT_EQ(c.distance, reach) << q;
       ASSERT_GE(gap, reach - kAbove) << q;
       continue;

@@ -82,6 +82,7 @@ class Pager final : public LiveSpace {
   using Space::clearance;
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
+  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override;
   using Space::floor_clearance;
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
                                           const Floor& floor) const override;

@@ -116,6 +116,13 @@ class Space {
     return floor_clearance(body, place, reach, floor);
   }
 
+  /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
+  /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Else at most an
+  /// eighth of the gap, and 2 mm, less than the gap. More than 0 only when the whole way is free.
+  [[nodiscard]] virtual double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+    return clearance(body, from, motion, reach).distance;
+  }
+
   /// First triangle that the ray from + t * motion, t in [0, 1], meets: the sweep of a point, which slips through no
   /// crack between triangles that share an edge.
   [[nodiscard]] Impact ray(const Vec3& from, const Vec3& motion) const { return sweep({0.0, 0.0}, from, motion); }

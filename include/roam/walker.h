@@ -46,6 +46,15 @@ struct Size {
   friend bool operator==(const Size&, const Size&) = default;
 };
 enum class Ending : std::uint8_t;
+
+/// What is known to be free around a place: a body of this size has a gap of at least `gap`, less what it is away from
+/// the centre, as long as the space stays as it is.
+struct FreeBall {
+  Vec3 centre{0.0};     ///< of the body, metres
+  double gap = 0.0;     ///< metres; 0: nothing is known
+  double radius = 0.0;  ///< of the body, metres
+  double height = 0.0;
+};
 }  // namespace walking
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
@@ -215,8 +224,8 @@ struct StepReport {
   Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
   double height = 0.0;  ///< the body's whole height now, metres
   double radius = 0.0;  ///< the body's radius now, metres
-  /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach. 0: none (ghost, held
-  /// while embedded).
+  /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the piece
+  /// which ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded).
   double clearance = 0.0;
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
@@ -282,8 +291,8 @@ class Walker {
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
   /// input that is not finite.
   ///
-  /// Cost on free flat ground: one sweep along, one down to the ground, and two looks for the nearest triangle, over
-  /// the way and at its end. Flying: one sweep and the two looks.
+  /// Cost on free flat ground: one look for the nearest triangle, over the way, and one sweep down to the ground.
+  /// Flying: the one look; none at all while the body is still well inside what an earlier one has found free.
   const StepReport& step(const WalkerInput& input, double dt);
 
   /// Puts the standing body's centre at `centre`, at rest; in walk mode, where only the crouched body fits, that, with
@@ -369,6 +378,8 @@ class Walker {
   void release();
   [[nodiscard]] bool embedded() const;
   [[nodiscard]] bool in_unknown() const;
+  void forget();
+  void come_to(const walking::Move& move);
   void look_again();
   void remember_safe();
   void finish();
@@ -386,14 +397,20 @@ class Walker {
   walking::Size safe_size_;   ///< there
   double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
-  double clearance_ = 0.0;  ///< certified at position_, metres
+  double clearance_ = 0.0;  ///< certified at position_ when it came there, metres
   double nearest_ = 0.0;    ///< upper bound of the gap at position_, metres: see walking::Move
+  walking::FreeBall ball_;
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
   bool held_ = false;
   bool waits_ = false;           ///< held by what is not known yet
+  bool fresh_ = false;           ///< clearance_ is of position_ in the space as it is
+  bool touching_ = false;        ///< the last step met something
+  bool unproven_ = false;        ///< the space has changed, and whether the body still fits is not known yet
+  bool came_upon_ = false;       ///< it does not
   bool resized_ = false;         ///< another size may be wanted than when the body was held
+  std::uint64_t known_at_ = 0;   ///< the revision of the space of which nearest_, ball_ and fresh_ are
   std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
 };
 

@@ -23,6 +23,10 @@ constexpr double rim_inset = 0.012;
 /// Contacts that are looked at under one body. More are only met in dense noise, where the nearest decide.
 constexpr std::size_t contacts_looked_at = 24;
 
+/// A body on level ground finds it within so many skins, and a part of its stride more where the ground bends.
+constexpr double near_skins = 4.0;
+constexpr double near_part = 0.125;
+
 double slope_tangent(const Move& m) {
   return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
 }
@@ -58,6 +62,20 @@ Proximity as_proximity(const Impact& s) { return {s.point, s.normal, s.feature, 
 bool carried_by(const Move& m, const PlaneSet& planes) {
   const Vec3 down = along_planes(Vec3(0.0, 0.0, -1.0), planes);
   return -down.z <= 1.0 - m.slope_cosine * m.slope_cosine + cosine_rounding;
+}
+
+/// What is met first on the way down by `reach`, the time made metres. Mostly it is just below: a short look has few
+/// candidates, of which a long one cannot tell which comes first.
+struct Below {
+  Impact impact;
+  double drop = 0.0;
+};
+Below look_below(const Move& m, double horizontal, double reach) {
+  const double nearly = std::min(reach, near_skins * m.skin + near_part * horizontal);
+  Impact s = m.space.sweep(m.body(), m.place, Vec3(0.0, 0.0, -nearly));
+  if (s.hit || !(nearly < reach)) return {s, s.time * nearly};
+  s = m.space.sweep(m.body(), m.place, Vec3(0.0, 0.0, -reach));
+  return {s, s.time * reach};
 }
 
 }  // namespace
@@ -137,17 +155,17 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
   const bool look_for_foot = has_foot(move) && !see_floor(move, stance, reach, horizontal);
   const Vec3 down(0.0, 0.0, -1.0);
-  const Impact s = move.space.sweep(move.body(), move.place, down * reach);
+  const auto [s, to_ground] = look_below(move, horizontal, reach);
   std::optional<Footing> ground;
   if (s.hit) ground = footing(move, stance, s);
   if (s.hit && !ground) {
     // What is met first is too steep, but what carries may be a hair behind it.
     Move lowered = move;
-    lowered.place.z -= std::max(0.0, s.time * reach - move.skin / s.normal.z);
+    lowered.place.z -= std::max(0.0, to_ground - move.skin / s.normal.z);
     ground = footing_here(lowered, stance);
   }
   if (look_for_foot) {
-    const double drop = ground ? s.time * reach - move.skin / s.normal.z : std::numeric_limits<double>::infinity();
+    const double drop = ground ? to_ground - move.skin / s.normal.z : std::numeric_limits<double>::infinity();
     if (carry(move, stance, drop, reach)) return;
   }
   if (!ground) {
@@ -156,7 +174,6 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     stance.grounded = stance.firm = stance.carried = false;
     return;
   }
-  const double to_ground = s.time * reach;
   move.nearest = to_ground + hit_tolerance;
   const double drop = to_ground - move.skin / s.normal.z;
   const double rest = rest_part * 2.0 * move.skin;

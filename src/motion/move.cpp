@@ -11,6 +11,20 @@ namespace {
 /// into it step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
 constexpr double look_ahead = 2.0;
 
+/// The part of a free ball's gap that a body may be away from its centre: so much is given up of the gap that is told.
+constexpr double ball_part = 1.0 / 8.0;
+
+/// Where nothing is as near as clearances are told, the next look reaches farther by so many ways: the steps that a
+/// free ball may last.
+constexpr double ways_ahead = 8.0;
+
+/// A look reaches so many skins at least, however near clearances are told.
+constexpr double least_look = 4.0;
+
+/// What a gap that was found may be less than the true one (space.h): it is at least this part of it, and this much.
+constexpr double gap_part = 7.0 / 8.0;
+constexpr double gap_tolerance = 2e-3;
+
 /// Each merge of two pieces in one direction may move the straight line by a rounding of the coordinates, 1e-9 m at
 /// 6.4e6 m: this many stay far below world_tolerance.
 constexpr int merge_limit = 64;
@@ -51,22 +65,64 @@ Advance probe(const Space& space, const Body& body, const Vec3& from, const Vec3
 }
 
 Advance Move::advance(const Vec3& motion, double seconds) {
+  const double length = glm::length(motion);
+  if (!(length > 0.0)) {
+    time += seconds;
+    return {};
+  }
+  if (!touching || unproven) {
+    const double gap = look_along(motion * (1.0 + look_ahead * skin / length));
+    if (gap > free_gap) {
+      unproven = false;
+      time += seconds;
+      go(motion, settings.radius + std::min(gap, settings.clearance_reach));
+      return {};
+    }
+  }
+  touching = false;
+  if (unproven) {
+    unproven = false;
+    came_upon = space.clearance(body(), place, 0.0).distance < -world_tolerance;
+    if (came_upon) return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
+  }
   const Advance a = probe(motion);
   time += a.fraction * seconds;
   if (a.fraction > 0.0) go(a.fraction < 1.0 ? motion * a.fraction : motion);
   return a;
 }
 
-double Move::clearance_over(const Vec3& motion) const {
-  // Nothing beyond what bounds the way so far can bound it now.
-  const double known = std::clamp(clearance - settings.radius, 0.0, settings.clearance_reach);
-  return settings.radius + std::max(space.clearance(body(), place, motion, known).distance, -world_tolerance);
+double Move::look_along(const Vec3& motion) {
+  const double reach = std::max(settings.clearance_reach, least_look * skin), length = glm::length(motion);
+  const bool same_body = ball_.radius == settings.radius && ball_.height == height;
+  if (same_body && ball_.gap > 0.0) {
+    const double away = std::max(glm::length(place - ball_.centre), glm::length(place + motion - ball_.centre));
+    const double rest = ball_.gap - away;
+    if (rest >= reach || away <= ball_part * ball_.gap) return rest;
+  }
+  const bool in_the_open = same_body && ball_.gap >= reach;
+  const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, nearest, Space::reach_limit});
+  const double gap = space.gap(body(), place, motion, look);
+  if (gap > free_gap) {
+    ball_ = {place + motion, gap, settings.radius, height};
+    if (gap < look) nearest = std::min(nearest, gap / gap_part + gap_tolerance);
+  }
+  return gap;
+}
+
+double Move::gap_over(const Vec3& motion) { return std::min(look_along(motion), settings.clearance_reach); }
+
+double Move::clearance_over(const Vec3& motion) {
+  return settings.radius + std::max(gap_over(motion), -world_tolerance);
 }
 
 void Move::go(const Vec3& motion) {
+  if (glm::length(motion) > 0.0) go(motion, clearance_over(motion));
+}
+
+void Move::go(const Vec3& motion, double certified) {
   const double length = glm::length(motion);
-  if (!(length > 0.0)) return;
-  clearance = clearance_over(motion);
+  clearance = certified;
+  fresh = true;
   place += motion;
   nearest += length;
   const Vec3 direction = motion / length;
@@ -76,7 +132,7 @@ void Move::go(const Vec3& motion) {
     Corner& last = report.corners.back();
     last.position = place;
     last.time = time;
-    last.clearance = clearance;
+    last.clearance = std::min(last.clearance, clearance);
     ++merged_;
   } else {
     report.corners.push({place, height, settings.radius, time, clearance, false});
@@ -93,6 +149,7 @@ void Move::resize(double new_height, const Vec3& new_place) {
   height = new_height;
   place = new_place;
   nearest = std::numeric_limits<double>::infinity();
+  fresh = false;
   report.corners.push({place, height, settings.radius, time, clearance, false});
   last_direction_ = Vec3(0.0);
 }
@@ -141,6 +198,7 @@ Move::Mark Move::mark() const {
           report.corners.size(),
           report.events.size(),
           report.contacts,
+          fresh,
           report.blocked,
           report.met_unknown};
 }
@@ -157,6 +215,7 @@ void Move::undo(const Mark& m) {
   if (!report.corners.empty()) report.corners.back() = m.corner;
   report.events.shorten(m.events);
   report.contacts = m.contacts;
+  fresh = m.fresh;
   report.blocked = m.blocked;
   report.met_unknown = m.met_unknown;
 }

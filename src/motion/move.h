@@ -21,6 +21,10 @@ constexpr double rest_part = 0.125;
 /// Part of the wish's length below which what is left of it along the planes is no motion but a standstill.
 constexpr double standstill_part = 1e-3;
 
+/// Metres. A way with more gap than this is free without a sweep along it. Half the skin of a lossless world, so that a
+/// body at rest beside something has it, and far above what a sweep calls touching.
+constexpr double free_gap = 5e-5;
+
 /// The longest way that one sweep is asked for, metres; a space takes 1e6 m.
 constexpr double longest_way = 5e5;
 
@@ -57,7 +61,7 @@ class Move {
     Corner corner;
     std::size_t corners, events;
     InlineList<Contact, 8> contacts;
-    bool blocked, met_unknown;
+    bool fresh, blocked, met_unknown;
   };
 
   const Space& space;
@@ -67,13 +71,21 @@ class Move {
   const double slope_cosine;
   Vec3 place;
   double height;
-  double clearance;   ///< certified since the step began, or since it was last put somewhere, metres
+  double clearance;   ///< certified at the present place, metres; 0: not known
   double time = 0.0;  ///< seconds since the step began
   /// An upper bound of the gap at the present place, metres: to look for the nearest triangle farther off is in vain.
   double nearest = std::numeric_limits<double>::infinity();
+  /// `clearance` was measured of this body, in the space as it is now.
+  bool fresh = false;
+  /// The body was touching something when it was last seen, so that a look ahead is likely to find it in the way.
+  bool touching = false;
+  /// The space has changed since the body was known to fit where it is. False from the first advance on.
+  bool unproven = false;
+  /// Something of that change is where the body is.
+  bool came_upon = false;
 
   Move(const Space& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
-       double whole_height, double certified)
+       double whole_height, double certified, FreeBall& known)
       : space(in),
         settings(of),
         report(into),
@@ -81,7 +93,8 @@ class Move {
         slope_cosine(cosine),
         place(from),
         height(whole_height),
-        clearance(certified) {}
+        clearance(certified),
+        ball_(known) {}
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
@@ -90,8 +103,11 @@ class Move {
   /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
   /// contact.
   Advance advance(const Vec3& motion, double seconds);
-  /// Certified lower bound of the clearance since the step began and over `motion`, a free way, metres.
-  [[nodiscard]] double clearance_over(const Vec3& motion) const;
+  /// Certified lower bound of the gap over `motion`, metres, at most as far as clearances are told. Not positive where
+  /// the way may not be free.
+  [[nodiscard]] double gap_over(const Vec3& motion);
+  /// The same of the clearance over a way that a sweep has found free.
+  [[nodiscard]] double clearance_over(const Vec3& motion);
   /// Goes along `motion`, part of a way that a sweep has found free, and measures how free that part is.
   void go(const Vec3& motion);
   /// Where a touch left less than half the skin, restores it as far as there is room.
@@ -109,6 +125,11 @@ class Move {
   [[nodiscard]] bool has_room() const;
 
  private:
+  void go(const Vec3& motion, double certified);
+  /// gap_over(), as far as it was looked.
+  [[nodiscard]] double look_along(const Vec3& motion);
+
+  FreeBall& ball_;
   Vec3 last_direction_{0.0};
   int merged_ = 0;
 };

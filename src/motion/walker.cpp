@@ -73,18 +73,41 @@ WalkerInput Walker::slowed(const WalkerInput& input) {
 }
 
 walking::Move Walker::under_way() {
-  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_);
+  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_, ball_);
   m.time = report_.elapsed;
+  m.nearest = nearest_;
+  m.fresh = fresh_;
+  m.touching = touching_;
+  m.unproven = unproven_;
   return m;
 }
 
+void Walker::come_to(const walking::Move& m) {
+  position_ = m.place;
+  height_ = m.height;
+  clearance_ = m.clearance;
+  nearest_ = m.nearest;
+  fresh_ = m.fresh;
+  unproven_ = m.unproven;
+  came_upon_ = m.came_upon;
+}
+
+/// What was known of a space that has changed.
+void Walker::forget() {
+  ball_ = {};
+  nearest_ = std::numeric_limits<double>::infinity();
+  fresh_ = false;
+}
+
 void Walker::begin() {
+  touching_ = !report_.contacts.empty();
+  if (!space_->tells_changes() || space_->revision() != known_at_) forget();
+  known_at_ = space_->revision();
   report_.corners.clear();
   report_.contacts.clear();
   report_.events.clear();
   report_.from = position_;
   report_.elapsed = 0.0;
-  nearest_ = std::numeric_limits<double>::infinity();
   report_.blocked = report_.held = report_.met_unknown = false;
 }
 
@@ -94,12 +117,14 @@ void Walker::finish() {
   report_.radius = settings_.radius;
   report_.grounded = stance_.grounded;
   report_.carried = stance_.carried;
-  clearance_ = 0.0;
-  if (mode_ != Mode::ghost && !held_) {
-    const double reach = std::min(settings_.clearance_reach, nearest_);
-    // Where a sweep ended the body fits, whatever rounding says.
-    clearance_ =
-        settings_.radius + std::max(space_->clearance(body(), position_, reach).distance, -walking::world_tolerance);
+  if (mode_ == Mode::ghost || held_) {
+    clearance_ = 0.0;
+    fresh_ = false;
+  } else if (!fresh_) {
+    walking::Move m = under_way();
+    m.clearance = m.clearance_over(Vec3(0.0));
+    m.fresh = true;
+    come_to(m);
   }
   report_.clearance = report_.least_clearance = clearance_;
   report_.least_gap = clearance_ - settings_.radius;
@@ -120,7 +145,9 @@ void Walker::remember_safe() {
 
 void Walker::put(const Vec3& place, double time) {
   position_ = place;
+  clearance_ = 0.0;
   nearest_ = std::numeric_limits<double>::infinity();
+  fresh_ = false;
   const Corner corner{position_, height_, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
   if (!report_.corners.empty() && report_.corners.back().teleport) {
@@ -191,7 +218,7 @@ void Walker::settle() {
   if (mode_ != Mode::walk || held_) return;
   walking::Move m = under_way();
   walking::keep_ground(m, stance_, 0.0);
-  position_ = m.place;
+  come_to(m);
   if (stance_.grounded || !(safe_height_ > 0.0)) remember_safe();
 }
 
@@ -204,11 +231,23 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
     position_ += motion;
+    nearest_ = std::numeric_limits<double>::infinity();
     if (motion != Vec3(0.0)) report_.corners.push({position_, height_, settings_.radius, dt, 0.0, false});
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
-    if (held_ || space_->revision() != looked_at_) look_again();
+    const bool changed = space_->revision() != looked_at_;
+    // A way that is found free, from where the body is, proves that nothing has come there.
+    const Vec3 wish(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
+    unproven_ = !held_ && changed && wish * dt != Vec3(0.0);
+    if (unproven_) {
+      looked_at_ = space_->revision();
+      resized_ = false;
+    } else if (held_ || changed) {
+      look_again();
+    }
     if (!held_) move(slowed(input), dt);
+    if (unproven_ && embedded()) fit_in();
+    unproven_ = false;
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   finish();
@@ -218,7 +257,11 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
 void Walker::move(const WalkerInput& input, double dt) {
   walking::Ending end = move_for(input, dt);
   if (end == walking::Ending::embedded) {
-    free_body();
+    if (came_upon_) {
+      fit_in();
+    } else {
+      free_body();
+    }
     if (!held_) end = move_for(input, dt - report_.elapsed);
   }
   if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, position_});
@@ -251,9 +294,7 @@ walking::Ending Walker::move_for(const WalkerInput& input, double dt) {
   } else {
     end = fly(m, input.velocity, dt);
   }
-  position_ = m.place;
-  height_ = m.height;
-  nearest_ = m.nearest;
+  come_to(m);
   report_.elapsed = m.time;
   return end;
 }
@@ -305,8 +346,7 @@ bool Walker::resize(double radius, double support_radius) {
   if (mode_ != Mode::ghost && !held_) {
     walking::Move m = under_way();
     walking::adapt(m, stance_, sizes);
-    position_ = m.place;
-    height_ = m.height;
+    come_to(m);
   }
   finish();
   return walking::wanted(sizes, position_, feet()) == walking::Size{settings_.radius, settings_.support_radius};

@@ -14,9 +14,6 @@ namespace roam {
 namespace query {
 namespace {
 
-/// Of a clearance: how much less than the distance that was found may be answered at most.
-constexpr double least_part = 1.0 / 16.0;
-
 /// Metres. The longest motion of one query.
 constexpr double kMotionLimit = 1e6;
 
@@ -139,7 +136,7 @@ void Collector::offer(const Contact& c, double doubt) {
   if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
   enough_ = std::min(enough_, reach_);
   if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {
-    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, c.distance * (1.0 - least_part)));
+    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, c.distance * (1.0 - part_)));
   }
 }
 
@@ -202,6 +199,12 @@ std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& moti
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
   const double tolerance = query::clearance_tolerance_of(data_->lossless);
   return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
+    query::collect(*data_, {body, from, way}, 0, collector);
+  });
+}
+
+double World::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
   });
 }

@@ -33,6 +33,11 @@ inline constexpr double clearance_tolerance = 1.99e-3;
 /// The same in a lossless world or store.
 inline constexpr double lossless_tolerance = 9e-6;
 
+/// Of a clearance: how much less than the distance that was found may be answered at most.
+inline constexpr double least_part = 1.0 / 16.0;
+/// The same of Space::gap, whatever the distance.
+inline constexpr double gap_part = 1.0 / 8.0;
+
 [[nodiscard]] inline double clearance_tolerance_of(bool lossless) {
   return lossless ? lossless_tolerance : clearance_tolerance;
 }
@@ -52,9 +57,15 @@ class Collector {
   /// `floor`: of triangles only this is to be offered.
   Collector(double reach, std::span<Contact> out, bool repeats, const FloorOnly* floor = nullptr)
       : out_(out), floor_(floor), reach_(reach), enough_(reach), repeats_(repeats) {}
-  /// For a clearance.
-  Collector(double reach, Contact& nearest, double tolerance)
-      : out_(&nearest, 1), floor_(nullptr), reach_(reach), enough_(reach), tolerance_(tolerance), repeats_(false) {}
+  /// For a clearance. `part`: of small distances no more than this part is given up.
+  Collector(double reach, Contact& nearest, double tolerance, double part = least_part)
+      : out_(&nearest, 1),
+        floor_(nullptr),
+        reach_(reach),
+        enough_(reach),
+        tolerance_(tolerance),
+        part_(part),
+        repeats_(false) {}
 
   /// Takes a contact or not. Its distance is certified, and no more than `doubt` (m) less than the true one.
   void offer(const Contact& contact, double doubt = 0.0);
@@ -85,7 +96,7 @@ class Collector {
   const FloorOnly* floor_;
   double reach_, enough_;
   double left_out_ = std::numeric_limits<double>::infinity();
-  double tolerance_ = 0.0;
+  double tolerance_ = 0.0, part_ = 0.0;
   bool repeats_;
   std::size_t count_ = 0;
 };
@@ -133,6 +144,18 @@ template <class Collect>
   if (collector.count() == 0) return clearance_of(nullptr, reach);
   nearest.distance = collector.certified();
   return clearance_of(&nearest, reach);
+}
+
+/// Space::gap, likewise.
+template <class Collect>
+[[nodiscard]] double gap_of(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                            const Collect& collect) {
+  check(body, from, motion);
+  check_reach(reach);
+  Contact nearest;
+  Collector collector(reach, nearest, std::numeric_limits<double>::infinity(), gap_part);
+  collect(motion, collector);
+  return collector.count() > 0 ? collector.certified() : reach;
 }
 
 /// Space::floor_clearance, likewise.

@@ -252,6 +252,13 @@ Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motio
   });
 }
 
+double Pager::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const PagedScene scene(state_->residents);
+  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    query::collect_of(scene, {body, from, way}, collector);
+  });
+}
+
 Clearance Pager::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
   const PagedScene scene(state_->residents);
   return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {

@@ -1,0 +1,186 @@
+// What a walker remembers of the free space around it: how little it asks, and that it forgets in time.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "walker_judged.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Body;
+
+/// A room whose walls may be others from one step to the next.
+class ChangingRoom final : public roam::Space {
+ public:
+  explicit ChangingRoom(Mesh mesh, bool tells) : tells_(tells) { become(std::move(mesh)); }
+
+  void become(Mesh mesh) {
+    mesh_ = std::make_unique<Mesh>(std::move(mesh));
+    world_ = std::make_unique<World>(build(*mesh_));
+    if (tells_) ++revision_;
+  }
+  [[nodiscard]] Judge judge() const { return Judge(*mesh_); }
+  [[nodiscard]] int asked() const { return asked_; }
+
+  [[nodiscard]] roam::Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override {
+    ++asked_;
+    return world_->sweep(body, from, motion);
+  }
+  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
+                       std::span<roam::Contact> contacts) const override {
+    ++asked_;
+    return world_->contacts(body, from, motion, reach, contacts);
+  }
+  using Space::clearance;
+  [[nodiscard]] roam::Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
+                                          double reach) const override {
+    ++asked_;
+    return world_->clearance(body, from, motion, reach);
+  }
+  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
+    ++asked_;
+    return world_->gap(body, from, motion, reach);
+  }
+  using Space::floor_clearance;
+  [[nodiscard]] roam::Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
+                                                const roam::Floor& floor) const override {
+    ++asked_;
+    return world_->floor_clearance(body, place, reach, floor);
+  }
+  [[nodiscard]] roam::Box bounds() const override { return world_->bounds(); }
+  [[nodiscard]] double largest_error() const override { return world_->largest_error(); }
+  [[nodiscard]] std::string object_name(std::uint64_t triangle) const override { return world_->object_name(triangle); }
+  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+  [[nodiscard]] bool tells_changes() const override { return tells_; }
+
+ private:
+  std::unique_ptr<Mesh> mesh_;
+  std::unique_ptr<World> world_;
+  bool tells_;
+  std::uint64_t revision_ = 0;
+  mutable int asked_ = 0;
+};
+
+/// A hall of 20 m by 20 m by 10 m about the origin.
+Mesh hall() {
+  Mesh m;
+  add_box(m, {-10.0, -10.0, -5.0}, {10.0, 10.0, 5.0});
+  return m;
+}
+
+/// The same with a wall across it at x.
+Mesh walled_hall(double x) {
+  Mesh m = hall();
+  add_wall(m, x, -10.0, x, 10.0, -5.0, 5.0);
+  return m;
+}
+
+TEST(WalkerFree, FliesFarFromWallsForManyStepsOnOneAnswer) {
+  ChangingRoom room(hall(), true);
+  const Judge judge = room.judge();
+  Walker w(room, ball(0.3), Mode::fly, {-6.0, 0.0, 0.0});
+  const int before = room.asked();
+  for (int i = 0; i < 400; ++i) ASSERT_GE(margin(judge, w.step({{1.8, 0.0, 0.0}}, frame), 0.3), 0.0);
+  EXPECT_NEAR(w.position().x, 6.0, 1e-9);
+  EXPECT_LT(room.asked() - before, 60);
+}
+
+TEST(WalkerFree, AsksNothingWhereItRests) {
+  ChangingRoom room(walled_hall(1.0), true);
+  Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
+  const double clearance = w.report().clearance;
+  const int before = room.asked();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).clearance, clearance);
+  EXPECT_EQ(room.asked(), before);
+}
+
+TEST(WalkerFree, AsksTwiceAStepOnLevelGround) {
+  ChangingRoom room(floor_mesh(), true);
+  Walker w(room, {}, Mode::walk, {-5.0, 0.0, 1.0});
+  for (int i = 0; i < 5; ++i) w.step({{1.4, 0.0, 0.0}}, frame);
+  const int before = room.asked();
+  for (int i = 0; i < 100; ++i) w.step({{1.4, 0.0, 0.0}}, frame);
+  EXPECT_EQ(room.asked() - before, 200);
+}
+
+/// A wall that comes into what was known to be free stops the body, whatever it remembers.
+void meet_a_new_wall(bool tells, double speed) {
+  SCOPED_TRACE(testing::Message() << "tells: " << tells << ", " << speed << " m/s");
+  ChangingRoom room(hall(), tells);
+  Walker w(room, ball(0.3), Mode::fly, {-5.0, 0.0, 0.0});
+  for (int i = 0; i < 3; ++i) w.step({{speed, 0.0, 0.0}}, frame);
+  room.become(walled_hall(w.position().x + 0.302));
+  const Judge judge = room.judge();
+  for (int i = 0; i < 40; ++i) ASSERT_GE(margin(judge, w.step({{speed, 0.0, 0.0}}, frame), 0.3), 0.0) << i;
+  EXPECT_TRUE(w.report().blocked);
+}
+
+TEST(WalkerFree, ForgetsWhatWasFreeWhenTheSpaceChanges) {
+  meet_a_new_wall(true, 0.3);
+  meet_a_new_wall(true, 10.0);
+}
+
+TEST(WalkerFree, RemembersNothingOfASpaceThatDoesNotTellItsChanges) {
+  meet_a_new_wall(false, 0.3);
+  meet_a_new_wall(false, 10.0);
+}
+
+TEST(WalkerFree, TellsTheClearanceOfAChangedSpaceWhereItRests) {
+  for (const bool tells : {true, false}) {
+    ChangingRoom room(hall(), tells);
+    Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
+    EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+    room.become(walled_hall(0.5));
+    const double clearance = w.step({}, frame).clearance;
+    EXPECT_LE(clearance, 0.5);
+    EXPECT_GE(clearance, 0.3 + 0.2 * 7.0 / 8.0 - 0.002);
+  }
+}
+
+TEST(WalkerFree, WhatIsFreeForASmallBodyIsNotForALargeOne) {
+  ChangingRoom room(walled_hall(0.5), true);
+  const Judge judge = room.judge();
+  Walker w(room, WalkerSettings::sphere(0.1), Mode::fly, {-1.0, 0.0, 0.0});
+  for (int i = 0; i < 6; ++i) w.step({{3.0, 0.0, 0.0}}, frame);
+  ASSERT_TRUE(w.resize(0.6, 0.0));
+  for (int i = 0; i < 60; ++i) ASSERT_GE(margin(judge, w.step({{3.0, 0.0, 0.0}}, frame)), 0.0) << i;
+  EXPECT_NEAR(w.position().x, 0.5 - 0.6, 0.005);
+}
+
+TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
+  for (const Mode mode : {Mode::fly, Mode::walk}) {
+    for (const double speed : {0.0, 0.5, 50.0}) {
+      for (const double ahead : {-0.1, 0.1, 0.25}) {
+        SCOPED_TRACE(testing::Message() << name(mode) << " at " << speed << " m/s, a wall " << ahead << " m ahead");
+        ChangingRoom room(hall(), true);
+        Walker w(room, {}, mode, {0.0, 0.0, -4.0});
+        for (int i = 0; i < 30; ++i) w.step({}, frame);
+        const double wall = w.position().x + ahead;
+        room.become(walled_hall(wall));
+        const StepReport& r = w.step({{speed, 0.0, 0.0}}, frame);
+        EXPECT_TRUE(r.has(EventKind::freed));
+        EXPECT_FALSE(r.held);
+        // On the side on which its axis was, and nowhere through.
+        EXPECT_LT((w.position().x - wall) * ahead, 0.0);
+        EXPECT_GE(room.judge().distance(w.body(), w.position(), 1.0), w.settings().radius - 1e-6);
+      }
+    }
+  }
+}
+
+TEST(WalkerFree, AClearanceThatWasLowGrowsAgain) {
+  Mesh m = hall();
+  add_box(m, {-0.5, -5.0, -5.0}, {0.5, -0.4, 5.0});
+  add_box(m, {-0.5, 0.4, -5.0}, {0.5, 5.0, 5.0});
+  ChangingRoom room(m, true);
+  Walker w(room, ball(0.3), Mode::fly, {-3.0, 0.0, 0.0});
+  double least = 2.0;
+  for (int i = 0; i < 120; ++i) least = std::min(least, w.step({{3.0, 0.0, 0.0}}, frame).clearance);
+  EXPECT_LT(least, 0.4);
+  EXPECT_GE(least, 0.3 + 0.1 * 3.0 / 4.0 - 0.004);
+  EXPECT_EQ(w.report().clearance, 1.3);
+}
+
+}  // namespace
