@@ -129,6 +129,9 @@ TEST_F(StoreVerbs, DamageIsNamedSolidAndRepaired) {
   EXPECT_FALSE(found["whole"]);
   ASSERT_GE(found["damage"].size(), 1U);
   EXPECT_TRUE(contains(verified.out, "tile ") && contains(verified.out, " of page 0")) << verified.out;
+  for (const json& damage : found["damage"]) {
+    EXPECT_FALSE(contains(damage["why"], " of page ")) << damage << ": what it is, is said already";
+  }
   EXPECT_TRUE(contains(run({"verify", bad}).out, "--repair"));
 
   const ProgramResult repaired = run({"verify", bad, "--repair", scene()});

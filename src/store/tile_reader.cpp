@@ -15,7 +15,7 @@ std::unique_ptr<index::Block[]> blocks_for(std::size_t bytes) {
 }
 
 [[noreturn]] void refuse(const Store::State& store, const std::string& what, const char* why) {
-  throw Error(fmt::format("{}: {} cannot be used: {}", store.name, what, why));
+  throw Unusable(store.name, what, why);
 }
 
 std::string place(const Box& box) {
@@ -24,6 +24,9 @@ std::string place(const Box& box) {
 }
 
 }  // namespace
+
+Unusable::Unusable(const std::string& store, const std::string& what, const char* reason)
+    : Error(fmt::format("{}: {} cannot be used: {}", store, what, reason)), why(reason) {}
 
 std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
   return fmt::format("tile {} of page {} {}", tile, page, place(box));

@@ -30,12 +30,19 @@ struct LoadedTile {
   std::span<const index::FineLeaf> fine;
 };
 
+/// A page or a tile of a store that cannot be read or is not what was written.
+class Unusable : public Error {
+ public:
+  Unusable(const std::string& store, const std::string& what, const char* reason);
+  std::string why;  ///< the cause alone; what() names store, page or tile, and place too
+};
+
 /// One thread at a time.
 class TileReader {
  public:
   explicit TileReader(const Store::State& store) : store_(store) {}
 
-  // All throw roam::Error naming page or tile, place and cause.
+  // All throw Unusable, or roam::Error that names page or tile, place and cause.
   [[nodiscard]] LoadedPage page(std::uint64_t number);
   [[nodiscard]] LoadedTile tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
   [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number);

@@ -123,8 +123,8 @@ class Verifier {
     LoadedPage page;
     try {
       page = reader.page(number);
-    } catch (const Error& error) {
-      damage({name_of(number, box), error.what(), box});
+    } catch (const Unusable& error) {
+      damage({name_of(number, box), error.why, box});
       return false;
     }
     Box all;
@@ -140,6 +140,9 @@ class Verifier {
         counted.triangles += entry.triangles;
         counted.geometry_hash += entry.geometry_hash;
         counted.largest_error = std::max(counted.largest_error, double(entry.fine_error));
+      } catch (const Unusable& error) {
+        damage({name_of(number, t, box_of(entry)), error.why, box_of(entry)});
+        good = false;
       } catch (const Error& error) {
         damage({name_of(number, t, box_of(entry)), error.what(), box_of(entry)});
         good = false;
@@ -171,7 +174,11 @@ class Verifier {
         }
       }
     }
-    static_cast<void>(reader.numbers(page, entry, number));
+    try {
+      static_cast<void>(reader.numbers(page, entry, number));
+    } catch (const Unusable& error) {
+      throw Error("the numbers of its triangles in the scene: " + error.why);
+    }
   }
 
   std::filesystem::path folder_;
