@@ -258,6 +258,24 @@ TEST(ProbeVerb, TellsAnEndBesideAWallFromADoor) {
   EXPECT_EQ(closed["opening"]["kind"], "end") << closed["answer"];
 }
 
+TEST(ProbeVerb, TellsAWallBesideTheEndOfTheFloorFromADoor) {
+  const TestFolder folder;
+  // A wall along the floor from x = 8 to 12, 0.25 m from where it ends.
+  const std::string scene =
+      folder.write("edge.obj",
+                   "v 0 -2 0\nv 20 -2 0\nv 20 2 0\nv 0 2 0\nv 8 1.75 0\nv 12 1.75 0\nv 12 1.75 3\n"
+                   "v 8 1.75 3\nv 8 -2 0\nv 8 -2 3\no edge\nf 1 2 3 4\nf 5 6 7 8\nf 9 5 8 10\n");
+  const ProgramResult result = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "18,0,1",
+                                                          "--radius", "0.3", "--height", "1.8", "--json"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  const Json report = Json::parse(result.out, nullptr, false);
+  EXPECT_EQ(report["opening"]["kind"], "edge") << report["answer"];
+  EXPECT_FALSE(report["opening"].contains("width_m"));
+  EXPECT_GE(report["opening"]["distance_m"].get<double>(), 0.25 - 1e-3);  // where the walker may stand, or farther out
+  EXPECT_TRUE(contains(report["answer"], "a wall on one side")) << report["answer"];
+  EXPECT_TRUE(contains(report["answer"], "No: ")) << report["answer"];
+}
+
 TEST(ProbeVerb, MeasuresTheHeightOfALintelThatStopsTheBody) {
   Probe probe(0.9);  // 2.1 m high
   probe.ask({"--radius", "0.3", "--height", "2.2", "--json"});

@@ -52,6 +52,7 @@ struct Limit {
     door,    ///< walls on both sides; `size` from one to the other
     lintel,  ///< something above and below, met aslant; `size` is the diameter of the largest body that passes
     gap,     ///< flying: any two sides; `size` from one to the other
+    edge,    ///< a wall on one side, and on the other the floor ends; `size` from the wall to the axis
     start,   ///< the start stands beside a wall; `size` from it to its axis. Or under a ceiling: see `too_low`
     target,  ///< the same of the target
     height,  ///< `size` is the height from the feet that a body of this radius may have
@@ -69,7 +70,7 @@ struct Limit {
   bool too_low = false;  ///< of an end: a headroom is measured, not a distance
 };
 
-/// "door", "lintel", "gap", "end", "height", "step" or "apart".
+/// "door", "lintel", "gap", "edge", "end", "height", "step" or "apart".
 [[nodiscard]] const char* name(Limit::Kind kind);
 [[nodiscard]] inline bool is_end(Limit::Kind kind) { return kind == Limit::Kind::start || kind == Limit::Kind::target; }
 

@@ -27,6 +27,9 @@ constexpr double rise_reach = 0.6;       ///< to both sides of where a way break
 constexpr double rise_within = 0.3;      ///< a floor that rises over more than this is a ramp
 /// Part of a move aside that the clearance grows by where only one side is near.
 constexpr double one_sided = 0.4;
+/// Metres, and part of a normal's length: what a body at a narrowest place has on both sides.
+constexpr double side_reach = 0.02;
+constexpr double side_cosine = 0.3;
 /// Steeper than this towards what is nearest, and it is above.
 constexpr double upright = 0.7;
 
@@ -83,6 +86,24 @@ std::optional<Limit> end_limit(const ProbeSearch& search, const Passage& passage
                 0.5 * clearance * limit.direction;
   limit.along = kind == Limit::Kind::start ? 0.0 : passage.length;
   return limit;
+}
+
+/// Whether something stands on both sides of a body at the narrowest place of a way.
+bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& opening) {
+  const Measure measure = search.measure();
+  const double radius = 0.5 * opening.width;
+  const training::Stand stand =
+      training::stand_at(search.survey, measure, place, radius, 0.9 * radius).value_or(training::Stand{radius, 0.0});
+  std::array<Contact, 64> near;
+  const std::size_t count = search.survey.world().contacts(
+      training::body_of(measure, radius), training::centre_of(measure, place, stand), Vec3(0.0), side_reach, near);
+  bool ahead = false, behind = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double facing = glm::dot(near[i].normal, opening.direction);
+    ahead = ahead || facing < -side_cosine;
+    behind = behind || facing > side_cosine;
+  }
+  return ahead && behind;
 }
 
 /// The headroom of a way: the least height of a body of that radius that something above lets through. Looks for it up
@@ -199,6 +220,11 @@ std::optional<Limit> limit_of(const ProbeSearch& search, const Passage& passage,
   limit.along = on.along;
   limit.heading = level(on.heading);
   limit.feet = passage.found ? on.place : opening.point;
+  if (limit.kind == Limit::Kind::door && !is_between(search, on.place, opening)) {
+    limit.kind = Limit::Kind::edge;
+    limit.size = 0.5 * opening.width;
+    limit.needed = radius;
+  }
   return limit;
 }
 

@@ -82,7 +82,7 @@ OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const P
   view.heading_to = limit.heading;
   view.fits = answer.wide_enough;
   view.floor = question.mode == Mode::fly ? limit.point.z - view.radius : limit.feet.z;
-  if (is_end(limit.kind) && !limit.too_low) {
+  if ((is_end(limit.kind) && !limit.too_low) || limit.kind == Kind::edge) {
     view.kind = OpeningView::Kind::beside;
     view.body = limit.feet;
   } else if (limit.kind == Kind::step) {

@@ -42,6 +42,10 @@ std::string narrowest(const ProbeAnswer& answer) {
     return fmt::format("nothing on it is narrower than the {} itself, which stands {} from a wall",
                        end_name(limit.kind), metres(limit.size));
   }
+  if (limit.kind == Kind::edge)
+    return fmt::format(
+        "the narrowest place has a wall on one side, {} from the way, and the floor's end on the other, {}",
+        metres(limit.size), where);
   if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
     return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
   return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), name(limit.kind),
@@ -84,6 +88,10 @@ std::string stopped_by(const ProbeAnswer& answer) {
       if (answer.room) text += fmt::format(" The nearest place with room for it is {}.", at(*answer.room));
       return text;
     }
+    case Kind::edge:
+      return fmt::format(
+          "At {} there is a wall on one side and the floor's end on the other: a way leads {} from the wall; {}.",
+          at(limit.point), metres(limit.size), missing);
     case Kind::height: {
       std::string text = fmt::format("It is too high: near {} a body of that radius passes up to a height of {}; {}.",
                                      at(limit.feet), metres(limit.size), missing);
@@ -119,6 +127,11 @@ std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
                      p.found ? " wider" : "", question.spacing, 0.7 * question.spacing);
 }
 
+/// Over the side of the scene one falls too.
+bool falls(const ProbeWalk& walk, Mode mode) {
+  return walk.outcome == Outcome::fell || (mode == Mode::walk && walk.outcome == Outcome::left_scene);
+}
+
 /// Where the walker was, as all places are told: of the feet, flying of the centre.
 std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) {
   Vec3 place = answer.walk->at;
@@ -147,6 +160,8 @@ const char* name(Limit::Kind kind) {
       return "lintel";
     case Kind::gap:
       return "gap";
+    case Kind::edge:
+      return "edge";
     case Kind::start:
     case Kind::target:
       return "end";
@@ -173,6 +188,8 @@ std::string text_of(const Limit& limit) {
                          limit.too_low ? "below what is above it" : "from a wall");
     case Kind::height:
       return fmt::format("headroom {}", metres(limit.size));
+    case Kind::edge:
+      return fmt::format("edge of the floor, {} from a wall", metres(limit.size));
     case Kind::step:
       return fmt::format("step of {}", metres(limit.size));
     case Kind::apart:
@@ -188,7 +205,7 @@ std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
   std::string text;
   if (answer.passable) {
     text = fmt::format("Yes: {} gets {} on a way of {:.1f} m; {}.", body, ways, p.length, narrowest(answer));
-  } else if (answer.walk && answer.walk->outcome == Outcome::fell) {
+  } else if (answer.walk && falls(*answer.walk, question.mode)) {
     text = fmt::format(
         "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (--support-radius), or a bridge. "
         "Else it would get {} on a way of {:.1f} m; {}.",
@@ -225,10 +242,10 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
     Json& opening = json["opening"];
     opening = {{"kind", name(limit.kind)}, {"point", to_json(limit.point)}};
     if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
-    const char* const size = limit.kind == Kind::height || limit.too_low ? "height_m"
-                             : is_end(limit.kind)                        ? "distance_m"
-                             : limit.kind == Kind::step                  ? "step_m"
-                                                                         : "width_m";
+    const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
+                             : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
+                             : limit.kind == Kind::step                       ? "step_m"
+                                                                              : "width_m";
     if (limit.kind != Kind::apart) opening[size] = limit.size;
     opening["missing_m"] = answer.missing;
     opening["direction"] = to_json(limit.direction);
@@ -258,9 +275,8 @@ std::string table(std::span<const ProbeAnswer> answers) {
       what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
     else if (!p.found)
       what = "no way at all";
-    const char* const word = answer.passable                                        ? "yes"
-                             : answer.walk && answer.walk->outcome != Outcome::fell ? "?"
-                                                                                    : "no";
+    const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, Mode::walk);
+    const char* const word = answer.passable ? "yes" : contradicts ? "?" : "no";
     text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
                         word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
   }
