@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "clutter.h"
@@ -73,7 +74,7 @@ struct Scene {
 
 void touch_every_child(bool top) {
   clutter::Random random(41);
-  int tested = 0;
+  int tested = 0, left_out = 0;
   for (int q = 0; q < 3000; ++q) {
     const Scene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
@@ -92,6 +93,12 @@ void touch_every_child(bool top) {
       lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
       ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
+      // A part of the radius as what the frame adds to a reach.
+      const float more = q % 3 == 0 ? 0.0F : 0.25F * radius;
+      const lanes::Swept swept(frame, lanes::Reach(way, double(radius) - double(more), h), more);
+      const std::uint32_t met = lanes::met_children(scene.node, swept);
+      ASSERT_NE(met >> i & 1U, 0U) << "query " << q << " child " << i;
+      left_out += kWidth - std::popcount(met);
 
       for (const Vec3& gone : {Vec3(0.0), way}) {
         const long double least = gone == way ? d : scene.distance(i, Vec3(0.0), h, 0.0L);
@@ -115,6 +122,7 @@ void touch_every_child(bool top) {
     }
   }
   EXPECT_GT(tested, 2000);
+  EXPECT_GT(left_out, tested / 4) << "whole numbers tell nothing";
 }
 
 TEST(NodeFilter, LosesNoChildOfATile) { touch_every_child(false); }

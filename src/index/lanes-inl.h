@@ -56,15 +56,16 @@ HWY_INLINE VF largest(const V3& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Ab
 
 /// The start of a query on the grid of a tile or of the top: whole steps and the rest.
 struct Frame {
-  std::int32_t whole[3];
+  alignas(16) std::int32_t whole[4]{};  // an axis each
   float rest[3];
-  float step;
+  float step, inverse;  ///< metres, and steps a metre
 
-  Frame(const Vec3& origin, double grid_step, const Vec3& start) : step(static_cast<float>(grid_step)) {
-    const double inverse = 1.0 / grid_step;  // a power of two: exact
+  HWY_INLINE Frame(const Vec3& origin, double grid_step, const Vec3& start) : step(static_cast<float>(grid_step)) {
+    const double exact = 1.0 / grid_step;  // a power of two
+    inverse = static_cast<float>(exact);
     for (int k = 0; k < 3; ++k) {
       // A start too far away for whole steps can not matter: at the limit it is 4095 m away at least, out of any reach.
-      const double at = std::clamp((start[k] - origin[k]) * inverse, -kFarthestSteps, kFarthestSteps);
+      const double at = std::min(std::max((start[k] - origin[k]) * exact, -kFarthestSteps), kFarthestSteps);
       const double nearest = std::floor(at + 0.5);
       whole[k] = static_cast<std::int32_t>(nearest);
       rest[k] = static_cast<float>(at - nearest);
@@ -182,6 +183,72 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
     out.mask |= bits_of(hn::AndNot(never, slab)) << first;
   }
   out.mask &= (1U << node.child_count) - 1;
+}
+
+/// How far from its start a body reaches on its way, in metres, rounded outwards.
+struct Reach {
+  alignas(16) float lower[4]{}, upper[4]{};
+
+  Reach(const Vec3& motion, double radius, double half_height) {
+    for (int k = 0; k < 3; ++k) {
+      const double around = radius + (k == 2 ? half_height : 0.0);
+      lower[k] = -round_up(around - std::min(motion[k], 0.0));
+      upper[k] = round_up(around + std::max(motion[k], 0.0));
+    }
+  }
+};
+
+/// The box of a reach that is `more` metres wider, in whole steps of a frame, two steps wider than any rounding.
+struct Swept {
+  alignas(16) std::int32_t lower[4], upper[4];
+
+  HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
+    // Of what is farther off than any plane only the side matters. Planes lie between 0 and 2^29 + 2^19 steps.
+    constexpr float far = 0x1p29F;
+    constexpr std::int32_t far_start = 1 << 30;
+    const float steps = frame.inverse * (1.0F + kTimeRoundings * kUnit);
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t whole = std::min(std::max(frame.whole[k], -far_start), far_start);
+      const float low = (reach.lower[k] - more) * steps, high = (reach.upper[k] + more) * steps;
+      lower[k] = whole + static_cast<std::int32_t>(std::max(low, -far)) - 2;
+      upper[k] = whole + static_cast<std::int32_t>(std::min(high, far)) + 2;
+    }
+  }
+};
+
+/// The children of a node whose boxes meet the swept box, in whole numbers: most visits need to know no more.
+HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
+#if HWY_TARGET == HWY_SCALAR
+  std::uint32_t mask = 0;
+  for (int i = 0; i < node.child_count; ++i) {
+    bool met = true;
+    for (int k = 0; k < 3; ++k) {
+      met = met && node.lower[k][i] <= (swept.upper[k] - node.origin[k]) >> node.shift[k] &&
+            node.upper[k][i] >= (swept.lower[k] - node.origin[k]) >> node.shift[k];
+    }
+    mask |= std::uint32_t{met} << i;
+  }
+  return mask;
+#else
+  const hn::FixedTag<std::int32_t, 4> axes;
+  const hn::FixedTag<std::uint8_t, 4> few;
+  const hn::FixedTag<std::uint8_t, kWidth> bytes;
+  // On the node's own grid, of which the boxes lie within 0 to 255: the conversion to bytes saturates.
+  const auto origin = hn::LoadU(axes, node.origin), shift = hn::PromoteTo(axes, hn::LoadU(few, node.shift));
+  const auto on_grid = [&](const std::int32_t* plane) {
+    return hn::DemoteTo(few, hn::Shr(hn::Sub(hn::Load(axes, plane), origin), shift));
+  };
+  const auto lower = on_grid(swept.lower), upper = on_grid(swept.upper);
+  auto apart = hn::Zero(bytes);
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = hn::Set(bytes, static_cast<std::uint8_t>(k));
+    apart = hn::Or(apart, hn::SaturatedSub(hn::LoadU(bytes, node.lower[k]), hn::TableLookupBytes(upper, axis)));
+    apart = hn::Or(apart, hn::SaturatedSub(hn::TableLookupBytes(lower, axis), hn::LoadU(bytes, node.upper[k])));
+  }
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(bytes, hn::Eq(apart, hn::Zero(bytes)), bits);
+  return (std::uint32_t{bits[0]} | std::uint32_t{bits[1]} << 8) & ((1U << node.child_count) - 1);
+#endif
 }
 
 /// The way of a body of which the nearest approach to something is looked for; zero for one at rest.

@@ -53,6 +53,9 @@ inline constexpr float kHitLimit = 1.99e-3F;
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double kLongestPiece = 64.0;
 
+/// Metres. The box around a longer motion is too wide to tell much of what the motion meets.
+inline constexpr float kShortMotion = 4.0F;
+
 /// Steps. Differences of coordinates, of up to 2^16 in a tile, and starts within this fit 32 bits.
 inline constexpr double kFarthestSteps = 0x1p31 - 0x1p17;
 

@@ -80,14 +80,19 @@ HWY_INLINE void prefetch_roots(const Index& index, const Stack& stack) {
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece, double until)
-      : index_(index), piece_(piece), motion_(piece.motion, piece.body.half_height) {
+      : index_(index),
+        piece_(piece),
+        motion_(piece.motion, piece.body.half_height),
+        reach_(piece.motion, piece.body.radius, piece.body.half_height) {
     best_.time = until;
     if (until < 1.0) t_max_ = round_up(until);
   }
 
   Impact run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
-    const float grown = grown_for(round_up(piece_.body.radius + margin_of(index_)), kTopSteps, frame);
+    const double radius = piece_.body.radius + margin_of(index_);
+    const Swept swept(frame, reach_, round_up(margin_of(index_)));
+    const float grown = grown_for(round_up(radius), kTopSteps, frame);
     Stack stack;
     search(
         stack, [this](float key) { return key >= t_max_; },
@@ -96,11 +101,10 @@ class SweepTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Node& node = index_.top[e.number].node;
-          Children children;
-          sweep_node(node, frame, motion_, grown, t_max_, children);
-          push_children(node, children, index_.top, nullptr, stack);
-          prefetch_tiles(index_, node, children);
+          const Descent met = descend(index_.top, e.number, frame, swept, grown);
+          if (met.single) return tile(met.first);
+          push_children(*met.node, met.children, index_.top, nullptr, stack);
+          prefetch_tiles(index_, *met.node, met.children);
         });
     return best_;
   }
@@ -114,6 +118,7 @@ class SweepTraversal {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
     const Frame frame(t.origin, t.step, piece_.start);
+    const Swept swept(frame, reach_, t.error);
     const float radius = round_up(piece_.body.radius + double(t.error));
     const float grown = grown_for(radius, kTileSteps, frame);
     // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
@@ -126,24 +131,53 @@ class SweepTraversal {
     search(
         stack_, [this](float key) { return key >= t_max_; },
         [&](const Stack::Entry& e) {
-          if (e.leaf) return leaf(number, t, leaves[e.number].leaf, e.number, frame, radius, hit_limit, e.key);
-          descend(nodes, leaves, e.number, frame, grown);
+          std::uint32_t only = e.number;
+          if (!e.leaf) {
+            const Descent met = descend(nodes, e.number, frame, swept, grown);
+            if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
+            only = met.first;
+          }
+          leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
         });
   }
 
-  /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency.
-  HWY_INLINE void descend(const Block* nodes, const Block* leaves, std::uint32_t number, const Frame& frame,
-                          float grown) {
+  /// What is left below a node: a single leaf, or the children of one node.
+  struct Descent {
+    bool single;
+    std::uint32_t first;  ///< the leaf
+    const Node* node;
+    Children children;
+  };
+
+  /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency. Boxes
+  /// in whole numbers settle most visits at a third of the price; times of entry matter only where there is a choice.
+  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
+                             float grown) {
+    Descent out;
     for (;;) {
       const Node& node = nodes[number].node;
-      Children children;
-      sweep_node(node, frame, motion_, grown, t_max_, children);
-      const auto child = static_cast<std::uint32_t>(std::countr_zero(children.mask));
-      if ((children.mask & (children.mask - 1)) != 0 || child >= node.inner_count) {
-        push_children(node, children, nodes, leaves, stack_);
-        return;
+      out.single = false;
+      out.node = &node;
+      if (!short_) {
+        sweep_node(node, frame, motion_, grown, t_max_, out.children);
+        return out;
       }
-      number = node.first_node + child;
+      out.children.mask = met_children(node, swept);
+      if (out.children.mask == 0) return out;
+      const auto child = static_cast<std::uint32_t>(std::countr_zero(out.children.mask));
+      if ((out.children.mask & (out.children.mask - 1)) == 0) {
+        if (child < node.inner_count) {
+          number = node.first_node + child;
+          continue;
+        }
+        out.single = true;
+        out.first = node.first_leaf + (child - node.inner_count);
+        return out;
+      }
+      const std::uint32_t met = out.children.mask;
+      sweep_node(node, frame, motion_, grown, t_max_, out.children);
+      out.children.mask &= met;
+      return out;
     }
   }
 
@@ -182,6 +216,8 @@ class SweepTraversal {
   const Index& index_;
   const Piece& piece_;
   Motion motion_;
+  Reach reach_;
+  bool short_ = motion_.longest <= kShortMotion;
   Impact best_;
   float t_max_ = 1.0F;
   Stack stack_;
