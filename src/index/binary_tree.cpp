@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 namespace roam::index {
@@ -10,6 +13,35 @@ namespace {
 constexpr int kBins = 16;
 /// Up to this many items every split position is tried instead of bins.
 constexpr std::uint32_t kExactBelow = 64;
+
+/// A box that grows: StepBox::include, all axes at once. A vector of lower bounds ends with, one of upper bounds begins
+/// with a number that means nothing.
+class Bounds {
+ public:
+  void include(const StepBox& box) {
+    static_assert(offsetof(StepBox, upper) == 12 && sizeof(StepBox) == 24);
+    include(load(&box, 0), load(&box, 8));
+  }
+  void include(const Bounds& other) { include(other.lower_, other.upper_); }
+  [[nodiscard]] StepBox box() const { return {{lower_[0], lower_[1], lower_[2]}, {upper_[1], upper_[2], upper_[3]}}; }
+  [[nodiscard]] double half_area(double margin) const { return box().half_area(margin); }
+
+ private:
+  using Four = std::int32_t __attribute__((vector_size(16)));  // g++ and clang
+
+  static Four load(const StepBox* box, std::size_t offset) {
+    Four four;
+    std::memcpy(&four, reinterpret_cast<const char*>(box) + offset, sizeof four);
+    return four;
+  }
+  void include(const Four& lower, const Four& upper) {
+    lower_ = lower < lower_ ? lower : lower_;
+    upper_ = upper > upper_ ? upper : upper_;
+  }
+
+  Four lower_{INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
+  Four upper_{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+};
 
 struct Split {
   double cost = std::numeric_limits<double>::infinity();
@@ -27,20 +59,7 @@ class Builder {
 
   BinaryTree run() {
     tree_.nodes.push_back(node(0, static_cast<std::uint32_t>(boxes_.size())));
-    std::vector<std::pair<std::int32_t, int>> open{{0, 0}};
-    while (!open.empty()) {
-      const auto [index, depth] = open.back();
-      open.pop_back();
-      const BinaryNode n = tree_.nodes[index];
-      if (options_.fits_leaf({tree_.order.data() + n.begin, n.end - n.begin})) continue;
-      const std::uint32_t middle = divide(n, depth);
-      const auto left = static_cast<std::int32_t>(tree_.nodes.size());
-      tree_.nodes[index].left = left;
-      tree_.nodes.push_back(node(n.begin, middle));
-      tree_.nodes.push_back(node(middle, n.end));
-      open.push_back({left + 1, depth + 1});
-      open.push_back({left, depth + 1});
-    }
+    build_below(0, 0);
     return std::move(tree_);
   }
 
@@ -50,22 +69,51 @@ class Builder {
   }
 
   [[nodiscard]] double tests(std::uint32_t items) const {
-    return double((items + options_.items_per_test - 1) / options_.items_per_test);
+    return double((items + options_.items_per_test - 1) >> tests_shift_);
+  }
+
+  /// Divides a node, and all below it, until what is left fits leaves.
+  void build_below(std::int32_t root, int root_depth) {
+    std::vector<std::pair<std::int32_t, int>> open{{root, root_depth}};
+    while (!open.empty()) {
+      const auto [index, depth] = open.back();
+      open.pop_back();
+      const BinaryNode n = tree_.nodes[index];
+      if (fits_leaf(n)) continue;
+      if (n.end - n.begin <= kExactBelow && depth < kSahDepth) {
+        Few few(*this, n);
+        few.divide(index, depth, few.all());
+        continue;
+      }
+      const std::int32_t left = divide_at(index, divide(n, depth));
+      open.push_back({left + 1, depth + 1});
+      open.push_back({left, depth + 1});
+    }
+  }
+
+  [[nodiscard]] bool fits_leaf(const BinaryNode& n) const {
+    return options_.fits_leaf({tree_.order.data() + n.begin, n.end - n.begin});
   }
 
   [[nodiscard]] BinaryNode node(std::uint32_t begin, std::uint32_t end) const {
-    BinaryNode n;
-    n.begin = begin;
-    n.end = end;
-    for (std::uint32_t i = begin; i < end; ++i) n.box.include(boxes_[tree_.order[i]]);
-    return n;
+    Bounds bounds;
+    for (std::uint32_t i = begin; i < end; ++i) bounds.include(boxes_[tree_.order[i]]);
+    return {bounds.box(), -1, begin, end};
+  }
+
+  /// Gives a node two children and returns the number of the left one.
+  std::int32_t divide_at(std::int32_t index, std::uint32_t middle) {
+    const auto left = static_cast<std::int32_t>(tree_.nodes.size());
+    const std::uint32_t begin = tree_.nodes[index].begin, end = tree_.nodes[index].end;
+    tree_.nodes[index].left = left;
+    tree_.nodes.push_back(node(begin, middle));
+    tree_.nodes.push_back(node(middle, end));
+    return left;
   }
 
   /// Reorders the items of `n` in two halves and returns where the second begins.
   std::uint32_t divide(const BinaryNode& n, int depth) {
-    const std::uint32_t count = n.end - n.begin;
     if (depth < kSahDepth) {
-      if (count <= kExactBelow) return divide_exactly(n);
       const Split split = best_binned(n);
       if (split.axis >= 0) {
         const auto first = tree_.order.begin() + n.begin;
@@ -91,44 +139,100 @@ class Builder {
     return middle;
   }
 
-  /// Tries each position between two centres on each axis.
-  std::uint32_t divide_exactly(const BinaryNode& n) {
-    const std::uint32_t count = n.end - n.begin;
-    std::uint32_t* items = tree_.order.data() + n.begin;
-    // By centre, then by item: one number sorts twice as fast as a pair.
-    constexpr int item_bits = 24;
-    constexpr std::uint64_t item_mask = (1U << item_bits) - 1;
-    std::array<std::array<std::uint64_t, kExactBelow>, 3> sorted;
-    std::array<double, kExactBelow> area_left{};
-    double best_cost = std::numeric_limits<double>::infinity();
-    int best_axis = 0;
-    std::uint32_t best_position = count / 2;
-    for (int axis = 0; axis < 3; ++axis) {
-      auto& keys = sorted[axis];
-      const std::int64_t first = 2 * std::int64_t{n.box.lower[axis]};
-      for (std::uint32_t i = 0; i < count; ++i) {
-        keys[i] = static_cast<std::uint64_t>(centre(items[i], axis) - first) << item_bits | items[i];
-      }
-      std::sort(keys.begin(), keys.begin() + count);
-      StepBox box;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        box.include(boxes_[keys[i] & item_mask]);
-        area_left[i] = box.half_area(options_.margin);
-      }
-      box = {};
-      for (std::uint32_t i = count - 1; i > 0; --i) {
-        box.include(boxes_[keys[i] & item_mask]);
-        const double cost = area_left[i - 1] * tests(i) + box.half_area(options_.margin) * tests(count - i);
-        if (cost < best_cost) {
-          best_cost = cost;
-          best_axis = axis;
-          best_position = i;
+  /// A node of few items and all below it: each position between two centres is tried on each axis. The items are
+  /// sorted once; halves of what is sorted are sorted.
+  class Few {
+   public:
+    /// Items by their centres on each axis: numbers of boxes_, in the low bits of the centre.
+    using Sorted = std::array<std::array<std::uint64_t, kExactBelow>, 3>;
+
+    Few(Builder& builder, const BinaryNode& n) : builder_(builder) {
+      count_ = n.end - n.begin;
+      const auto first = builder.tree_.order.begin() + n.begin;
+      std::copy(first, first + count_, items_.begin());
+      std::sort(items_.begin(), items_.begin() + count_);  // at equal centres the lower item comes first
+      for (std::uint32_t i = 0; i < count_; ++i) boxes_[i] = builder.boxes_[items_[i]];
+      for (int axis = 0; axis < 3; ++axis) {
+        auto& keys = all_[axis];
+        const std::int64_t least = 2 * std::int64_t{n.box.lower[axis]};
+        for (std::uint32_t i = 0; i < count_; ++i) {
+          const std::int64_t centre = std::int64_t{boxes_[i].lower[axis]} + boxes_[i].upper[axis];
+          keys[i] = static_cast<std::uint64_t>(centre - least) << kBits | i;
         }
+        std::sort(keys.begin(), keys.begin() + count_);
       }
     }
-    for (std::uint32_t i = 0; i < count; ++i) items[i] = static_cast<std::uint32_t>(sorted[best_axis][i] & item_mask);
-    return n.begin + best_position;
-  }
+    [[nodiscard]] const Sorted& all() const { return all_; }
+
+    /// Divides a node, which does not fit a leaf, until all below it do.
+    void divide(std::int32_t index, int depth, const Sorted& sorted) {
+      const BinaryNode n = builder_.tree_.nodes[index];
+      const std::uint32_t count = n.end - n.begin;
+      const auto [axis, position] = best(sorted, count);
+      std::uint32_t* const order = builder_.tree_.order.data() + n.begin;
+      std::uint64_t right = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const auto number = sorted[axis][i] & kMask;
+        order[i] = items_[number];
+        right |= std::uint64_t{i >= position} << number;
+      }
+      const std::int32_t left = builder_.divide_at(index, n.begin + position);
+      for (const std::int32_t child : {left, left + 1}) {
+        const BinaryNode half = builder_.tree_.nodes[child];
+        if (builder_.fits_leaf(half)) continue;
+        if (depth + 1 == kSahDepth) {
+          builder_.build_below(child, depth + 1);
+          continue;
+        }
+        Sorted its;
+        for (int k = 0; k < 3; ++k) {
+          std::uint32_t found = 0;
+          for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint64_t key = sorted[k][i];
+            if ((right >> (key & kMask) & 1U) == std::uint64_t(child - left)) its[k][found++] = key;
+          }
+        }
+        divide(child, depth + 1, its);
+      }
+    }
+
+   private:
+    static constexpr int kBits = 6;
+    static constexpr std::uint64_t kMask = (1U << kBits) - 1;
+    static_assert(kExactBelow <= 1U << kBits);
+
+    [[nodiscard]] std::pair<int, std::uint32_t> best(const Sorted& sorted, std::uint32_t count) const {
+      const double margin = builder_.options_.margin;
+      std::array<double, kExactBelow> area_left{};
+      double best_cost = std::numeric_limits<double>::infinity();
+      std::pair<int, std::uint32_t> best{0, count / 2};
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto& keys = sorted[axis];
+        Bounds bounds;
+        for (std::uint32_t i = 0; i < count; ++i) {
+          bounds.include(boxes_[keys[i] & kMask]);
+          area_left[i] = bounds.half_area(margin);
+        }
+        bounds = {};
+        for (std::uint32_t i = count - 1; i > 0; --i) {
+          bounds.include(boxes_[keys[i] & kMask]);
+          const double cost =
+              area_left[i - 1] * builder_.tests(i) + bounds.half_area(margin) * builder_.tests(count - i);
+          if (cost < best_cost) {
+            best_cost = cost;
+            best = {axis, i};
+          }
+        }
+      }
+      return best;
+    }
+
+    Builder& builder_;
+    std::uint32_t count_ = 0;
+    std::array<std::uint32_t, kExactBelow> items_;
+    std::array<StepBox, kExactBelow> boxes_;
+    Sorted all_;
+  };
 
   [[nodiscard]] Split best_binned(const BinaryNode& n) const {
     Split best;
@@ -145,7 +249,7 @@ class Builder {
     }
     for (int k = 0; k < 3; ++k) width[k] = (upper[k] - lower[k]) / kBins + 1;
     struct Bin {
-      StepBox box;
+      Bounds box;
       std::uint32_t count = 0;
     };
     std::array<std::array<Bin, kBins>, 3> bins{};
@@ -160,7 +264,7 @@ class Builder {
     }
     for (int k = 0; k < 3; ++k) {
       std::array<double, kBins> cost_left{};
-      StepBox box;
+      Bounds box;
       std::uint32_t count = 0;
       for (int b = 0; b < kBins; ++b) {
         box.include(bins[k][b].box);
@@ -191,6 +295,7 @@ class Builder {
 
   std::span<const StepBox> boxes_;
   const BinaryTreeOptions& options_;
+  const int tests_shift_ = std::countr_zero(options_.items_per_test);
   BinaryTree tree_;
 };
 

@@ -25,7 +25,8 @@ struct BinaryTree {
 };
 
 struct BinaryTreeOptions {
-  /// The heuristic's cost of n items is that of n rounded up to a multiple of this: what a leaf test costs.
+  /// The heuristic's cost of n items is that of n rounded up to a multiple of this, a power of two: what
+  /// a leaf test costs.
   std::uint32_t items_per_test = kWidth;
   /// Steps by which a query grows the boxes, in all: the chance of a visit goes with the area of the grown box. More
   /// than 0, or flat scenes leave the heuristic without a preference.
