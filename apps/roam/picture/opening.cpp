@@ -224,8 +224,11 @@ class OpeningPainter {
     // A height stands beside the body, as far as what hangs there is drawn out.
     const bool is_height = !l.is_level && o.kind == OpeningView::Kind::passage;
     const Point aside(is_height ? l.body.x + o.radius + 0.2 * o.radius : 0.0, 0.0);
-    if (is_height)
-      lines("drawn out", {{map(middle + half), map(middle + half + 1.15 * aside)}}, 1.4, measure_ink, map.panel());
+    if (is_height) {
+      std::vector<Polyline> drawn_out;
+      for (const Point& end : {middle - half, middle + half}) drawn_out.push_back({map(end), map(end + 1.15 * aside)});
+      lines("drawn out", std::move(drawn_out), 1.4, measure_ink, map.panel());
+    }
     measure(map, middle + aside - half, middle + aside + half, o.width);
     Rect taken;
     taken.include(map({l.body.x - o.radius, o.floor}));
