@@ -218,6 +218,19 @@ TEST(Route, AWaypointOnTheGroundOrAtEyeHeightCountsAsReachedOnFoot) {
   }
 }
 
+TEST(Route, OfATallPersonIsReachedByALowBodyUnlessAFloorIsBetween) {
+  const WalkerSettings ball{.radius = 0.3, .height = 0.6, .eye = 0.5};
+  const auto outcome = [&](const Mesh& mesh, double height) {
+    return follow(mesh, ball, Mode::walk, {{-5.0, 0.0, 0.31}, {0.0, 0.0, height}}).outcome;
+  };
+  EXPECT_EQ(outcome(floor_mesh(), 2.0), Outcome::reached);
+  EXPECT_EQ(outcome(floor_mesh(), 2.02), Outcome::blocked);
+  Mesh storeys = floor_mesh();
+  scenes::add_floor(storeys, -2.0, -2.0, 2.0, 2.0, 1.5);
+  EXPECT_EQ(outcome(storeys, 1.4), Outcome::reached);
+  EXPECT_EQ(outcome(storeys, 1.6), Outcome::blocked);
+}
+
 TEST(Route, AWaypointTooNearAWallIsReachedAsNearAsTheBodyGets) {
   Mesh m = floor_mesh();
   scenes::add_wall(m, 2.0, -10.0, 2.0, 10.0, 0.0, 3.0);

@@ -90,9 +90,11 @@ class Route {
   /// Places the walker at waypoints[0]. In walk mode it first comes down to the ground there, on the spot.
   ///
   /// In walk mode a waypoint counts as reached when it is within the body's radius of the axis, seen from above, and at
-  /// most the step height above the body's top or below its lowest point; in fly mode when it is within the radius of
-  /// the axis. The body still heads for the waypoint itself and only turns to the next one when it is there, or when it
-  /// counts as reached and something keeps the body from coming nearer: corners are not cut.
+  /// most the step height above the body's top or below its lowest point. For bodies lower than 2 m, paths being those
+  /// of persons, also at most 2 m above the lowest point, where nothing is between. In fly mode it
+  /// counts when it is within the radius of the axis. The body still heads for the waypoint itself and only turns to
+  /// the next one when it is there, or when it counts as reached and something keeps the body from coming nearer:
+  /// corners are not cut.
   ///
   /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
   /// waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in ghost mode.

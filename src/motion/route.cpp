@@ -18,6 +18,10 @@ constexpr std::uint64_t least_patience_steps = 8;
 /// Metres: nearer to a waypoint than this is at it. Ten times the rounding of coordinates at 6.4e6 m.
 constexpr double at_waypoint = 1e-8;
 
+/// Metres above the feet: a waypoint that a tall person's path has so high is one of a low body too, where it is in
+/// sight.
+constexpr double tall_person = 2.0;
+
 /// A contact is what the opening is measured from when it is within this many skins.
 constexpr double opening_skins = 4.0;
 
@@ -69,7 +73,9 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
   const Vec3 way = waypoint - walker.position();
   const double beside = glm::length(Vec3(way.x, way.y, 0.0));
   if (walker.mode() == Mode::walk) {
-    return beside <= body.radius && std::abs(way.z) <= 0.5 * body.height() + walker.settings().step;
+    if (beside > body.radius) return false;
+    if (std::abs(way.z) <= 0.5 * body.height() + walker.settings().step) return true;
+    return way.z > 0.0 && way.z + 0.5 * body.height() <= tall_person && !walker.space().ray(walker.position(), way).hit;
   }
   const double above = std::max(0.0, std::abs(way.z) - body.half_height);
   return beside * beside + above * above <= body.radius * body.radius;
