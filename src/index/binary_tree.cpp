@@ -14,29 +14,41 @@ constexpr int kBins = 16;
 /// Up to this many items every split position is tried instead of bins.
 constexpr std::uint32_t kExactBelow = 64;
 
-/// A box that grows: StepBox::include, all axes at once. A vector of lower bounds ends with, one of upper bounds begins
-/// with a number that means nothing.
+/// All axes at once, in g++ and clang. A vector of lower bounds ends with, one of upper bounds begins with a number
+/// that means nothing.
+using Four = std::int32_t __attribute__((vector_size(16)));
+
+Four lower_of(const StepBox& box) {
+  Four four;
+  std::memcpy(&four, &box, sizeof four);
+  return four;
+}
+Four upper_of(const StepBox& box) {
+  static_assert(offsetof(StepBox, upper) == 12 && sizeof(StepBox) == 24);
+  Four four;
+  std::memcpy(&four, reinterpret_cast<const char*>(&box) + 8, sizeof four);
+  return four;
+}
+/// Doubled, so that they are whole.
+Four centres_of(const StepBox& box) {
+  const Four upper = upper_of(box);
+  return lower_of(box) + __builtin_shufflevector(upper, upper, 1, 2, 3, 3);
+}
+Four least(const Four& a, const Four& b) { return a < b ? a : b; }
+Four most(const Four& a, const Four& b) { return a > b ? a : b; }
+
+/// A box that grows: StepBox::include.
 class Bounds {
  public:
-  void include(const StepBox& box) {
-    static_assert(offsetof(StepBox, upper) == 12 && sizeof(StepBox) == 24);
-    include(load(&box, 0), load(&box, 8));
-  }
+  void include(const StepBox& box) { include(lower_of(box), upper_of(box)); }
   void include(const Bounds& other) { include(other.lower_, other.upper_); }
   [[nodiscard]] StepBox box() const { return {{lower_[0], lower_[1], lower_[2]}, {upper_[1], upper_[2], upper_[3]}}; }
   [[nodiscard]] double half_area(double margin) const { return box().half_area(margin); }
 
  private:
-  using Four = std::int32_t __attribute__((vector_size(16)));  // g++ and clang
-
-  static Four load(const StepBox* box, std::size_t offset) {
-    Four four;
-    std::memcpy(&four, reinterpret_cast<const char*>(box) + offset, sizeof four);
-    return four;
-  }
   void include(const Four& lower, const Four& upper) {
-    lower_ = lower < lower_ ? lower : lower_;
-    upper_ = upper > upper_ ? upper : upper_;
+    lower_ = least(lower, lower_);
+    upper_ = most(upper, upper_);
   }
 
   Four lower_{INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
@@ -64,7 +76,7 @@ class Builder {
   }
 
  private:
-  [[nodiscard]] std::int64_t centre(std::uint32_t item, int axis) const {  // doubled, so that it is whole
+  [[nodiscard]] std::int64_t centre(std::uint32_t item, int axis) const {  // doubled
     return std::int64_t{boxes_[item].lower[axis]} + boxes_[item].upper[axis];
   }
 
@@ -236,29 +248,25 @@ class Builder {
 
   [[nodiscard]] Split best_binned(const BinaryNode& n) const {
     Split best;
-    std::array<std::int64_t, 3> lower{}, width{};
-    lower.fill(std::numeric_limits<std::int64_t>::max());
-    std::array<std::int64_t, 3> upper{};
-    upper.fill(std::numeric_limits<std::int64_t>::min());
+    Four lower{INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX}, upper{INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
     for (std::uint32_t i = n.begin; i < n.end; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const std::int64_t c = centre(tree_.order[i], k);
-        lower[k] = std::min(lower[k], c);
-        upper[k] = std::max(upper[k], c);
-      }
+      const Four centres = centres_of(boxes_[tree_.order[i]]);
+      lower = least(centres, lower);
+      upper = most(centres, upper);
     }
-    for (int k = 0; k < 3; ++k) width[k] = (upper[k] - lower[k]) / kBins + 1;
     struct Bin {
       Bounds box;
       std::uint32_t count = 0;
     };
     std::array<std::array<Bin, kBins>, 3> bins{};
-    const std::array<double, 3> inverse{1.0 / double(width[0]), 1.0 / double(width[1]), 1.0 / double(width[2])};
+    std::array<double, 3> inverse{};
+    for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / double((upper[k] - lower[k]) / kBins + 1);
     for (std::uint32_t i = n.begin; i < n.end; ++i) {
-      const std::uint32_t item = tree_.order[i];
+      const StepBox& box = boxes_[tree_.order[i]];
+      const Four centres = centres_of(box) - lower;
       for (int k = 0; k < 3; ++k) {
-        Bin& bin = bins[k][std::min(kBins - 1, int(double(centre(item, k) - lower[k]) * inverse[k]))];
-        bin.box.include(boxes_[item]);
+        Bin& bin = bins[k][std::min(kBins - 1, int(double(centres[k]) * inverse[k]))];
+        bin.box.include(box);
         ++bin.count;
       }
     }

@@ -41,7 +41,8 @@ inline constexpr int kSahDepth = 40;
 /// No tree is deeper: at most 2^24 items, halved below kSahDepth.
 inline constexpr int kMaxDepth = kSahDepth + 24;
 
-/// Deterministic: depends on the boxes and their order only. `boxes` holds 1 to 2^24 boxes.
+/// Deterministic: depends on the boxes and their order only. `boxes` holds 1 to 2^24 boxes, whose
+/// coordinates are from 0 to 2^30 - 1.
 [[nodiscard]] BinaryTree build_binary_tree(std::span<const StepBox> boxes, const BinaryTreeOptions& options);
 
 }  // namespace roam::index
