@@ -52,6 +52,7 @@ class FlyLattice final : public LatticeGraph {
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
+  bool goes(NodeId, NodeId) override { return true; }
   Neighbours beside(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 

@@ -17,6 +17,9 @@ class LatticeGraph {
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
   /// All neighbours, which are made and measured if need be.
   virtual Neighbours expand(NodeId id) = 0;
+  /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
+  /// is to be gone, for on foot walkers are sent over gaps.
+  virtual bool goes(NodeId from, NodeId to) = 0;
   /// Flying: all places whose cells touch that of a place, whoever gets from one to the other. Made if need be.
   virtual Neighbours beside(NodeId id) = 0;
   /// Those neighbours that are known.

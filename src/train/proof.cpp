@@ -8,6 +8,7 @@
 
 #include "train/answer.h"
 #include "train/interval.h"
+#include "train/on_way.h"
 
 namespace roam::training {
 
@@ -80,9 +81,12 @@ class Proof {
   /// The chosen body on every path, then the sizes beside the ends.
   std::vector<Attempt> attempts() {
     std::vector<Attempt> all;
-    for (std::size_t i = 0; i < training_.paths.size(); ++i)
-      all.push_back({i, training_.radius, training_.support_radius, training_.paths[i].way, Judgement::passed,
-                     "the chosen body", true});
+    for (std::size_t i = 0; i < training_.paths.size(); ++i) {
+      const TrainedPath& path = training_.paths[i];
+      if (path.largest && *path.largest < training_.radius) continue;  // chosen for the others
+      all.push_back(
+          {i, training_.radius, training_.support_radius, path.way, Judgement::passed, "the chosen body", true});
+    }
     for (std::size_t i = 0; i < training_.paths.size(); ++i) add_opening(i, all);
     for (const PathCrossing& crossing : evidence_.crossings) {
       if (evidence_.cracks[crossing.crossing.crack].radius == training_.paths[crossing.path].smallest)
@@ -96,7 +100,7 @@ class Proof {
     const Passage& passage = layout_.paths[path].passage;
     if (!training_.paths[path].largest || !passage.opening) return;
     const double largest = *training_.paths[path].largest, outside = outside_share * largest;
-    const double place = nearest_along(passage.way, passage.opening->point);
+    const double place = nearest_on(passage.way, passage.opening->point, kind_.mode).along;
     all.push_back({path, inside_share * largest, foot_, stretch(passage.way, place, run_up), Judgement::passed,
                    "just inside the opening"});
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
@@ -144,24 +148,6 @@ class Proof {
 
   [[nodiscard]] bool fits(const Vec3& place, double radius) const {
     return clearance_at(survey_, layout_.measure, place) >= std::min(radius, 0.999 * layout_.measure.widest);
-  }
-
-  /// m along a way, of its place nearest to a point, seen from above when walking.
-  [[nodiscard]] double nearest_along(const std::vector<Vec3>& way, Vec3 point) const {
-    double best = 0.0, least = std::numeric_limits<double>::infinity(), gone = 0.0;
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const Vec3 along = way[i] - way[i - 1];
-      const double length = glm::length(along);
-      const double part =
-          length > 0.0 ? std::clamp(glm::dot(point - way[i - 1], along) / (length * length), 0.0, 1.0) : 0.0;
-      const double apart = glm::distance(point, way[i - 1] + part * along);
-      if (apart < least) {
-        least = apart;
-        best = gone + part * length;
-      }
-      gone += length;
-    }
-    return best;
   }
 
   const Survey& survey_;

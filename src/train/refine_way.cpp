@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "train/refine.h"
 #include "train/walk_lattice_place.h"
@@ -14,22 +15,30 @@ namespace {
 constexpr double stride = 0.1;
 /// Metres. A straight piece leaves the floor by at most this, a kerb's height below and above.
 constexpr double floor_tolerance = 0.1;
+/// Metres. What rises by less over a stride than the slope limit, and this, is no step.
+constexpr double uneven = 0.02;
 /// A shorter way may be this much narrower than what it replaces.
 constexpr double kept_share = 0.9;
 /// Metres. Straight pieces are no longer: each is tried by stepping along all of it.
 constexpr double longest_piece = 20.0;
 
-/// As passes(), and the floor is within `tolerance` of the straight line.
+/// As passes(), and the floor is within `tolerance` of the straight line. No step is climbed on it: where one is, the
+/// way keeps to the places that a walker has been seen to climb it between.
 bool passes_on_floor(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to, double radius,
                      double tolerance) {
   if (measure.mode == Mode::fly) return goes_straight(survey, measure, from, to, radius);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const int count = std::max(1, static_cast<int>(std::ceil(length / stride)));
+  const double sloping = length / count * std::tan(glm::radians(survey.slope_degrees())) + uneven;
   Vec3 at = from;
+  double level = level_at(survey, measure, from);
   for (int i = 1; i <= count; ++i) {
     const Vec3 line = from + (to - from) * (static_cast<double>(i) / count);
     const auto foot = i == count ? std::optional(to) : foot_at(survey, measure, {line.x, line.y, at.z});
     if (!foot || std::abs(foot->z - line.z) > tolerance || std::abs(foot->z - at.z) > measure.step) return false;
+    const double before = level;
+    level = level_at(survey, measure, *foot);
+    if (std::abs(level - before) > sloping) return false;
     if (!goes_straight(survey, measure, at, *foot, radius)) return false;
     at = *foot;
   }

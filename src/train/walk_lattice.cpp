@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "train/lattice_graph.h"
+#include "train/trials.h"
 #include "train/walk_lattice_place.h"
 
 namespace roam::training {
@@ -30,6 +31,7 @@ struct Standing {
   Vec3 place{0.0};
   double level = 0.0;  ///< see Foot
   double free = 0.0;
+  bool carried = false;
 };
 
 /// What a place of the lattice knows of itself, beside its Node.
@@ -37,8 +39,10 @@ struct Column {
   LatticePoint at;
   NodeId next = no_node;              ///< another place over the same point of the lattice, made earlier
   std::uint8_t settled = 0;           ///< bit set of the directions that were looked at
+  std::uint8_t tried = 0;             ///< likewise, that walkers were sent in and got through
   std::array<NodeId, directions> to;  ///< the neighbour in each direction, or no_node
   double level = 0.0;                 ///< of its foot
+  bool carried = false;               ///< likewise
 };
 
 class WalkLattice final : public LatticeGraph {
@@ -48,19 +52,21 @@ class WalkLattice final : public LatticeGraph {
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
+  bool goes(NodeId from, NodeId to) override;
   Neighbours beside(NodeId id) override { return expand(id); }
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:
   [[nodiscard]] Vec3 point(const LatticePoint& p) const { return origin_ + Vec3(spacing_ * p.x, spacing_ * p.y, 0.0); }
   [[nodiscard]] Standing standing(NodeId id) const {
-    return {nodes_[id].place, columns_[id].level, nodes_[id].clearance};
+    return {nodes_[id].place, columns_[id].level, nodes_[id].clearance, columns_[id].carried};
   }
   NodeId make(const LatticePoint& at, const Foot& foot);
   [[nodiscard]] NodeId nearest_over(const LatticePoint& at, double level, double tolerance) const;
   [[nodiscard]] std::optional<Foot> foot_from(const Standing& from, const Vec3& to) const;
   [[nodiscard]] NodeId look(NodeId from, int direction);
   [[nodiscard]] bool linked(const Standing& a, const Standing& b) const;
+  [[nodiscard]] bool walked(const Standing& a, const Standing& b) const;
 
   const Survey& survey_;
   const Measure measure_;
@@ -78,7 +84,7 @@ NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot) {
   float clearance = stand ? static_cast<float>(stand->radius) : 0.0F;
   if (stand && clearance > stand->radius) clearance = std::nextafter(clearance, 0.0F);
   nodes_.push_back({foot.place, clearance});
-  Column column{at, table_.find(at), 0, {}, foot.level};
+  Column column{.at = at, .next = table_.find(at), .to = {}, .level = foot.level, .carried = foot.carried};
   column.to.fill(no_node);
   columns_.push_back(column);
   table_.set(at, id);
@@ -126,6 +132,18 @@ bool WalkLattice::linked(const Standing& a, const Standing& b) const {
          goes_straight(survey_, measure_, between->place, b.place, least);
 }
 
+/// Whether a walker gets from one place to another where one of them is over a gap: on the largest foot, for what lies
+/// in the gap may still be within a step, or the gap go on into an open drop. So one goes there.
+bool WalkLattice::walked(const Standing& a, const Standing& b) const {
+  constexpr double person = 0.3;  // m
+  constexpr double share = 0.97;  // of what is free
+  if (!a.carried && !b.carried) return true;
+  const BodyKind kind{.height = measure_.height, .step = measure_.step, .slope_degrees = survey_.slope_degrees()};
+  const std::array<Vec3, 2> way = a.carried ? std::array{b.place, a.place} : std::array{a.place, b.place};
+  const double radius = std::min(share * std::min(a.free, b.free), person);
+  return try_way(survey_, kind, radius, measure_.support_max, way).outcome == Outcome::reached;
+}
+
 NodeId WalkLattice::look(NodeId from, int direction) {
   const Standing here = standing(from);
   LatticePoint at = columns_[from].at;
@@ -160,6 +178,22 @@ Neighbours WalkLattice::expand(NodeId id) {
     other.to[static_cast<std::size_t>(opposite(direction))] = id;
   }
   return neighbours(id);
+}
+
+bool WalkLattice::goes(NodeId from, NodeId to) {
+  auto& there = columns_[from].to;
+  const auto found = std::find(there.begin(), there.end(), to);
+  if (found == there.end()) return false;
+  const auto direction = static_cast<int>(found - there.begin());
+  const unsigned bit = 1U << direction;
+  if (columns_[from].tried & bit) return true;
+  if (!walked(standing(from), standing(to))) {
+    *found = columns_[to].to[static_cast<std::size_t>(opposite(direction))] = no_node;
+    return false;
+  }
+  columns_[from].tried = static_cast<std::uint8_t>(columns_[from].tried | bit);
+  columns_[to].tried = static_cast<std::uint8_t>(columns_[to].tried | 1U << opposite(direction));
+  return true;
 }
 
 Neighbours WalkLattice::neighbours(NodeId id) const {

@@ -18,6 +18,12 @@ constexpr std::size_t most_cuts = 48;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+/// The height of the knee over the feet. Who climbs nothing still stands on his floor and not in it.
+double knee(const Measure& measure) {
+  constexpr double least = 5e-3;  // m
+  return std::max(measure.step, least);
+}
+
 /// The largest radius of a capsule between two fixed heights that leaves a point outside, which lies `aside` of the
 /// axis, `above` the bottom and `below` the top.
 double capsule_limit(double aside, double above, double below) {
@@ -35,7 +41,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     const Clearance c = survey.world().clearance(body_of(measure, std::max(radius - slack, 0.0)), centre, 0.0);
     if (!c.found) return Stand{radius, 0.0};
     const double limit = capsule_limit(std::hypot(c.point.x - centre.x, c.point.y - centre.y),
-                                       c.point.z - (place.z + measure.step), place.z + measure.height - c.point.z);
+                                       c.point.z - (place.z + knee(measure)), place.z + measure.height - c.point.z);
     radius = std::min(limit, radius - std::max(least_cut, -c.distance));
   }
   return std::nullopt;
@@ -120,18 +126,18 @@ std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, con
 
 double largest_radius(const Measure& measure) {
   if (measure.mode == Mode::fly || measure.height == 0.0) return measure.widest;
-  return std::min(measure.widest, 0.5 * (measure.height - measure.step));
+  return std::min(measure.widest, 0.5 * (measure.height - knee(measure)));
 }
 
 Body body_of(const Measure& measure, double radius) {
   if (measure.mode == Mode::fly || measure.height == 0.0) return {radius, 0.0};
-  return {radius, std::max(0.0, 0.5 * (measure.height - measure.step) - radius)};
+  return {radius, std::max(0.0, 0.5 * (measure.height - knee(measure)) - radius)};
 }
 
 Vec3 centre_of(const Measure& measure, const Vec3& place, const Stand& stand) {
   if (measure.mode == Mode::fly) return place;
   if (measure.height == 0.0) return place + Vec3(0.0, 0.0, stand.lift + stand.radius);
-  return place + Vec3(0.0, 0.0, 0.5 * (measure.height + measure.step));
+  return place + Vec3(0.0, 0.0, 0.5 * (measure.height + knee(measure)));
 }
 
 std::optional<Stand> stand_at(const Survey& survey, const Measure& measure, const Vec3& place, double largest,

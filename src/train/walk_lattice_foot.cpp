@@ -21,6 +21,9 @@ constexpr double touch = 1e-3;
 /// as between the bars of a grate, carry everybody.
 constexpr double under_axis = 0.02;
 
+/// The foot touches a floor that is hardly steeper nearly under its axis.
+constexpr double gentle_cosine = 0.9;
+
 /// The largest ball whose lowest point is fixed and that has a point outside itself which lies `aside` and `above`.
 double ball_beside(double aside, double above) { return (aside * aside + above * above) / (2.0 * above); }
 
@@ -87,7 +90,8 @@ std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, do
       continue;
     }
     const double lowest = start - s.time * reach;
-    if (beside <= under_axis) return Foot{Vec3(x, y, lowest), lowest, false};
+    const bool is_gentle = s.feature == Feature::face && s.normal.z >= gentle_cosine;
+    if (beside <= under_axis || is_gentle) return Foot{Vec3(x, y, lowest), lowest, false};
     // On a slope, or on a rim: of a kerb, with floor below it, or of a gap, into which the ball has sunk.
     if (const auto below = floor_under_axis(survey, measure, x, y, s.point.z, lowest))
       return Foot{Vec3(x, y, lowest), *below, false};

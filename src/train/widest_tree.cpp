@@ -28,6 +28,7 @@ struct Narrower {
 struct WidestTree::State {
   std::unique_ptr<LatticeGraph> graph;
   std::vector<NodeId> root, parent;  ///< of each place; no_node
+  std::vector<float> offered;        ///< of each place: the widest of `edges` that lead to it; less than 0: none
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
   std::uint64_t pushed = 0;
@@ -37,13 +38,25 @@ struct WidestTree::State {
   void cover() {
     root.resize(graph->size(), no_node);
     parent.resize(graph->size(), no_node);
+    offered.resize(graph->size(), -1.0F);
+  }
+  void offer(NodeId from, NodeId to) {
+    if (root[to] == growing) return;
+    // Of those that lead to one place the widest is taken, and of equals the first: the others would only wait.
+    const float width = std::min(graph->node(from).clearance, graph->node(to).clearance);
+    if (width <= offered[to]) return;
+    offered[to] = width;
+    edges.push({width, pushed++, from, to});
+  }
+  /// Where what led to a place does not after all: what else does.
+  void offer_again(NodeId to) {
+    offered[to] = -1.0F;
+    for (const NodeId from : graph->neighbours(to))
+      if (root[from] == growing) offer(from, to);
   }
   void push(NodeId from, const Neighbours& neighbours) {
     cover();
-    for (const NodeId to : neighbours) {
-      if (root[to] == growing) continue;
-      edges.push({std::min(graph->node(from).clearance, graph->node(to).clearance), pushed++, from, to});
-    }
+    for (const NodeId to : neighbours) offer(from, to);
   }
   void take(NodeId id, NodeId from) {
     root[id] = growing;
@@ -57,6 +70,7 @@ struct WidestTree::State {
     cover();
     if (root[id] != no_node && root[id] == growing) return;
     edges = {};
+    std::fill(offered.begin(), offered.end(), -1.0F);
     growing = root[id] == no_node ? id : root[id];
     for (NodeId n = 0; n < static_cast<NodeId>(root.size()); ++n)
       if (root[n] == growing) root[n] = parent[n] = no_node;
@@ -88,9 +102,39 @@ bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::u
     if (goes_on && taken % places_between_questions == 0 && !goes_on(s.graph->size())) return false;
     const Edge edge = s.edges.top();
     s.edges.pop();
-    if (s.root[edge.to] != s.growing) s.take(edge.to, edge.from);
+    if (s.root[edge.to] == s.growing) continue;
+    if (s.graph->goes(edge.from, edge.to)) {
+      s.take(edge.to, edge.from);
+    } else {
+      s.offer_again(edge.to);
+    }
   }
   return true;
+}
+
+void WidestTree::join(NodeId root, const std::vector<bool>& among) {
+  State& s = *state_;
+  s.edges = {};
+  std::fill(s.offered.begin(), s.offered.end(), -1.0F);
+  s.growing = no_node;
+  std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
+  std::vector<bool> joined(s.root.size(), false);
+  std::uint64_t pushed = 0;
+  const auto take = [&](NodeId id, NodeId from) {
+    joined[id] = true;
+    s.root[id] = root;
+    s.parent[id] = from;
+    for (const NodeId to : s.graph->neighbours(id)) {
+      if (among[to] && !joined[to])
+        edges.push({std::min(s.graph->node(id).clearance, s.graph->node(to).clearance), pushed++, id, to});
+    }
+  };
+  take(root, no_node);
+  while (!edges.empty()) {
+    const Edge edge = edges.top();
+    edges.pop();
+    if (!joined[edge.to] && s.graph->goes(edge.from, edge.to)) take(edge.to, edge.from);
+  }
 }
 
 std::size_t WidestTree::size() const { return state_->graph->size(); }
@@ -104,7 +148,7 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
   LatticeGraph& graph = *state_->graph;
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   std::vector<NodeId> before(graph.size(), no_node);
-  std::uint64_t pushed = 0;
+  std::uint64_t pushed = 0, taken = 0;
   before[from] = from;
   for (NodeId at = from; at != to;) {
     const Neighbours neighbours = graph.expand(at);
@@ -114,9 +158,10 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
       if (before[next] != no_node || width <= least || blocked(graph.node(next))) continue;
       edges.push({width, pushed++, at, next});
     }
-    while (!edges.empty() && before[edges.top().to] != no_node) edges.pop();
+    while (!edges.empty() && (before[edges.top().to] != no_node || !graph.goes(edges.top().from, edges.top().to)))
+      edges.pop();
     if (edges.empty()) return {};
-    if (goes_on && pushed % places_between_questions == 0 && !goes_on(graph.size())) return {};
+    if (goes_on && taken++ % places_between_questions == 0 && !goes_on(graph.size())) return {};
     const Edge edge = edges.top();
     edges.pop();
     before[edge.to] = edge.from;

@@ -1,0 +1,136 @@
+// Where ways lead up and down, and that none leads where a walker cannot step.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "roam/passage.h"
+#include "train/trials.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Outcome;
+using roam::Passage;
+using roam::Survey;
+using roam::training::BodyKind;
+using roam::training::try_way;
+
+constexpr double height = 1.8, person = 0.3;
+
+Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
+
+Passage widest(const Mesh& mesh, const Vec3& from, const Vec3& to, double step = 0.3) {
+  return roam::widest_way(survey_of(mesh), from, to, {.height = height, .step = step});
+}
+
+/// How a person fares along a way, there or back.
+Outcome walked(const Mesh& mesh, std::vector<Vec3> way) {
+  return try_way(survey_of(mesh), BodyKind{.height = height}, person, 0.0, way).outcome;
+}
+
+/// Walls from -4 to 3 m round 10 by 4 m: without a floor.
+Mesh shaft() {
+  Mesh m;
+  for (const double y : {-2.0, 2.0}) add_wall(m, 0.0, y, 10.0, y, -4.0, 3.0);
+  for (const double x : {0.0, 10.0}) add_wall(m, x, -2.0, x, 2.0, -4.0, 3.0);
+  return m;
+}
+
+Mesh room() {
+  Mesh m = shaft();
+  add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
+  return m;
+}
+constexpr Vec3 one_end{1.0, 0.0, 0.0}, other_end{9.0, 0.0, 0.0};
+
+TEST(PassageSteps, KeepToTheFloorBesideAnOpenDrop) {
+  // A ledge 1 m wide along one wall, over a floor 4 m below.
+  Mesh m = shaft();
+  add_floor(m, 0.0, -2.0, 10.0, -1.0, 0.0);
+  add_floor(m, 0.0, -2.0, 10.0, 2.0, -4.0);
+  const Passage p = widest(m, {1.0, -1.5, 0.0}, {9.0, -1.5, 0.0});
+  ASSERT_TRUE(p.found);
+  for (const Vec3& place : p.way) EXPECT_LE(place.y, -0.97);
+  EXPECT_EQ(walked(m, p.way), Outcome::reached);
+}
+
+TEST(PassageSteps, LeadOverASplitAndOverNoOpenDrop) {
+  for (const double gap : {0.4, 1.2, 1.9, 2.2, 3.0}) {
+    Mesh m = shaft();
+    add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
+    add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
+    EXPECT_EQ(widest(m, one_end, other_end).found, gap < 2.0) << gap;
+  }
+}
+
+TEST(PassageSteps, EndWhereTheFloorEnds) {
+  Mesh m;
+  add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
+  const Passage p = widest(m, one_end, {10.2, 0.0, 0.0});
+  ASSERT_TRUE(p.found);
+  EXPECT_LE(p.way.back().x, 10.02);
+  EXPECT_EQ(walked(m, p.way), Outcome::reached);
+}
+
+TEST(PassageSteps, LeadOntoNoTable) {
+  Mesh m = room();
+  add_box(m, {4.0, -1.0, 0.0}, {6.0, 1.0, 0.75});
+  EXPECT_FALSE(widest(m, one_end, {5.0, 0.0, 0.75}).found);
+  EXPECT_FALSE(widest(m, {5.0, 0.0, 0.75}, one_end).found);
+  EXPECT_EQ(walked(m, widest(m, one_end, other_end).way), Outcome::reached);
+}
+
+TEST(PassageSteps, LeadOntoABedByWhatOneStepsOn) {
+  for (const bool has_step : {false, true}) {
+    Mesh m = room();
+    add_box(m, {4.0, -1.0, 0.0}, {6.0, 1.0, 0.5});
+    if (has_step) add_box(m, {3.4, -1.0, 0.0}, {4.0, 1.0, 0.25});
+    const Passage up = widest(m, one_end, {5.0, 0.0, 0.5}), down = widest(m, {5.0, 0.0, 0.5}, one_end);
+    EXPECT_EQ(up.found, has_step);
+    EXPECT_EQ(down.found, has_step);
+    if (!has_step) continue;
+    EXPECT_EQ(walked(m, up.way), Outcome::reached);
+    EXPECT_EQ(walked(m, down.way), Outcome::reached);
+  }
+}
+
+TEST(PassageSteps, RollOverNothingHigherThanAStep) {
+  for (const double top : {0.29, 0.31, 0.36, 0.45, 0.6}) {
+    for (const double thick : {0.02, 0.15, 0.8}) {
+      Mesh m = room();
+      add_box(m, {5.0, -2.0, 0.0}, {5.0 + thick, 2.0, top});
+      EXPECT_EQ(widest(m, one_end, other_end).found, top < 0.3) << top << " " << thick;
+    }
+  }
+}
+
+TEST(PassageSteps, LeadUpAndDownStairs) {
+  Mesh m;
+  const double rise = 0.18, tread = 0.28;
+  add_floor(m, 0.0, -1.0, 3.0, 1.0, 0.0);
+  for (int i = 0; i < 8; ++i) {
+    const double x = 3.0 + tread * i;
+    add_wall(m, x, -1.0, x, 1.0, rise * i, rise * (i + 1));
+    add_floor(m, x, -1.0, x + tread, 1.0, rise * (i + 1));
+  }
+  add_floor(m, 3.0 + 8 * tread, -1.0, 9.0, 1.0, 8 * rise);
+  for (const double y : {-1.0, 1.0}) add_wall(m, 0.0, y, 9.0, y, 0.0, 4.0);
+  const Vec3 top{8.0, 0.0, 8 * rise};
+  const Passage up = widest(m, one_end, top), down = widest(m, top, one_end);
+  ASSERT_TRUE(up.found);
+  ASSERT_TRUE(down.found);
+  EXPECT_FALSE(up.limited);
+  EXPECT_EQ(walked(m, up.way), Outcome::reached);
+  EXPECT_EQ(walked(m, down.way), Outcome::reached);
+}
+
+TEST(PassageSteps, OfABodyThatClimbsNothingLeadOverLevelFloor) {
+  Mesh m = room();
+  EXPECT_TRUE(widest(m, one_end, other_end, 0.0).found);
+  add_box(m, {5.0, -2.0, 0.0}, {5.5, 2.0, 0.05});
+  EXPECT_FALSE(widest(m, one_end, other_end, 0.0).found);
+  EXPECT_TRUE(widest(m, one_end, other_end, 0.06).found);
+}
+
+}  // namespace
