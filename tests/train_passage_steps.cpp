@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "roam/passage.h"
 #include "train/trials.h"
@@ -131,6 +132,22 @@ TEST(PassageSteps, OfABodyThatClimbsNothingLeadOverLevelFloor) {
   add_box(m, {5.0, -2.0, 0.0}, {5.5, 2.0, 0.05});
   EXPECT_FALSE(widest(m, one_end, other_end, 0.0).found);
   EXPECT_TRUE(widest(m, one_end, other_end, 0.06).found);
+}
+
+TEST(PassageSteps, KnowSoonThatAnEndIsShutIn) {
+  // A closet on a plain of 10,000 m2, of which only as much is looked at as it needs to say where they part.
+  Mesh m;
+  add_floor(m, -100.0, -100.0, 100.0, 100.0, 0.0);
+  add_box(m, {-1.0, -1.0, -0.5}, {1.0, 1.0, 3.0});
+  for (const bool from_closet : {true, false}) {
+    const Vec3 in{0.0, 0.0, 0.0}, out{5.0, 0.0, 0.0};
+    const Passage p = from_closet ? widest(m, in, out) : widest(m, out, in);
+    EXPECT_FALSE(p.found);
+    EXPECT_TRUE(p.complete);
+    EXPECT_LT(p.places, 200'000);
+    ASSERT_TRUE(p.opening);
+    EXPECT_NEAR(std::max(std::abs(p.opening->point.x), std::abs(p.opening->point.y)), 1.0, 0.3);
+  }
 }
 
 }  // namespace

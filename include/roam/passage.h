@@ -29,12 +29,13 @@
 namespace roam {
 
 struct PassageOptions {
-  Mode mode = Mode::walk;   ///< walk or fly
-  double height = 0.0;      ///< of the body on foot; 0: a sphere, 2 * radius high. At least `step` where it is not 0.
-  double step = 0.3;        ///< what walking climbs, see WalkerSettings::step. A sphere climbs at most its radius.
-  double widest = 1.0;      ///< > 0: no larger radius is looked for, and a way where it fits is "not limited"
-  double narrowest = 0.05;  ///< > 0, < widest: ways for no larger radius than this are not looked for
-  double spacing = 0.2;     ///< of the places that are looked at, > 0. Openings under 0.7 of it may be overlooked.
+  Mode mode = Mode::walk;    ///< walk or fly
+  double height = 0.0;       ///< of the body on foot; 0: a sphere, 2 * radius high. At least `step` where it is not 0.
+  double step = 0.3;         ///< what walking climbs, see WalkerSettings::step. A sphere climbs at most its radius.
+  double widest = 1.0;       ///< > 0: no larger radius is looked for, and a way where it fits is "not limited"
+  double narrowest = 0.05;   ///< > 0, < widest: ways for no larger radius than this are not looked for
+  double support_max = 1.0;  ///< > 0: where a disc of this radius fits into a gap of the floor, no way leads over it
+  double spacing = 0.2;      ///< of the places that are looked at, > 0. Openings under 0.7 of it may be overlooked.
   /// Places looked at, at most; then what was found so far is answered and Passage::complete is false.
   std::uint64_t most_places = 20'000'000;
   /// Called now and then with the number of places looked at. Returning false ends the search: as most_places.
@@ -67,7 +68,8 @@ struct Passage {
   std::vector<Vec3> way;
   double length = 0.0;  ///< of the way
   /// What decides, when limited. When not found: where what is reached from the start comes nearest to what is reached
-  /// from the end, of width 0 and across what parts them; none where they are far apart.
+  /// from the end, of width 0 and across what parts them; none where they are far apart. When one of the two has been
+  /// looked at whole, only so much of the other is.
   std::optional<Opening> opening;
   /// No way for a radius larger than `bound` exists: certified, by what fits at the ends and under the height, and in
   /// the air by cells as large as `spacing`, to 0.87 of it. Infinite where nothing is known.
@@ -78,7 +80,7 @@ struct Passage {
 };
 
 /// The widest way between two places of a scene: of the feet or the eyes of a person, taken down to the floor below on
-/// foot (at most `Survey` deep); of the centre when flying. Throws roam::Error for places that are not finite, options
+/// foot, however deep; of the centre when flying. Throws roam::Error for places that are not finite, options
 /// out of range and, naming the place, for one where no body of `narrowest` can be.
 [[nodiscard]] Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to,
                                  const PassageOptions& options = {});

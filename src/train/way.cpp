@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "roam/passage.h"
 #include "train/refine.h"
@@ -38,6 +39,7 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
   positive(o.widest, "the widest radius");
   positive(o.narrowest, "the narrowest radius");
   positive(o.spacing, "the spacing");
+  positive(o.support_max, "the largest foot");
   if (!(o.narrowest < o.widest)) refuse("the narrowest radius must be less than the widest");
   if (o.mode == Mode::fly) return;
   if (!(o.step >= 0.0 && o.step <= Space::reach_limit)) refuse("the step must be between 0 and 1000 m");
@@ -59,13 +61,12 @@ class Search {
     Passage best;
     best.bound = end_bound();
     if (a && b) {
-      (void)tree_.grow(*a, *b, goes_on());
-      const std::vector<NodeId> way = tree_.way(*a, *b);
+      const bool joined = grow_together(*a, *b);
+      const std::vector<NodeId> way = joined ? tree_.way(*a, *b) : std::vector<NodeId>{};
       if (!way.empty()) {
         best = refined(way);
         others(*a, *b, best);
       } else if (!ended_) {
-        (void)tree_.grow(*b, no_node, goes_on());
         best.opening = gap_between(tree_, *a, *b);
       }
     }
@@ -98,6 +99,28 @@ class Search {
     const double ends = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
     if (ends < limit) return ends + rounding + survey_.world().largest_error();
     return limit < measure_.widest ? limit : unknown;
+  }
+  /// Grows from both ends in turn, four times as far each time, until they meet or all that is in reach of one is
+  /// known: an end in a closet is not looked for all over a country. Returns whether they meet.
+  bool grow_together(NodeId a, NodeId b) {
+    constexpr std::uint64_t first = 20'000;
+    constexpr std::uint64_t factor = 4;
+    std::uint64_t budget = first;
+    const auto grows_whole = [&](NodeId root, NodeId until) {
+      const std::uint64_t most = tree_.size() + budget;
+      return tree_.grow(root, until, [&](std::uint64_t places) { return goes_on()(places) && places < most; });
+    };
+    for (;; budget *= factor) {
+      for (const auto& [root, until] : {std::pair(a, b), std::pair(b, a)}) {
+        const bool whole = grows_whole(root, until);
+        if (tree_.root(until) == tree_.root(root)) return true;
+        if (ended_) return false;
+        if (!whole) continue;
+        // As much of the other side, to say where they come nearest.
+        (void)grows_whole(until, root);
+        return false;
+      }
+    }
   }
   [[nodiscard]] std::function<bool(std::uint64_t)> goes_on() {
     return [this](std::uint64_t places) {
@@ -173,8 +196,9 @@ class Search {
 
 Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
   check(from, to, options);
-  Measure measure{options.mode, options.mode == Mode::fly ? 0.0 : options.height, options.step, options.widest,
-                  options.narrowest};
+  Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
+                  options.step,      options.widest,
+                  options.narrowest, options.support_max};
   const bool rolls = options.mode == Mode::walk && options.height == 0.0;
   if (rolls) measure.step = std::min(options.step, options.widest);
   for (;;) {

@@ -29,6 +29,7 @@ struct WidestTree::State {
   std::unique_ptr<LatticeGraph> graph;
   std::vector<NodeId> root, parent;  ///< of each place; no_node
   std::vector<float> offered;        ///< of each place: the widest of `edges` that lead to it; less than 0: none
+  std::vector<NodeId> were_offered;  ///< places that may have one
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
   std::uint64_t pushed = 0;
@@ -45,6 +46,7 @@ struct WidestTree::State {
     // Of those that lead to one place the widest is taken, and of equals the first: the others would only wait.
     const float width = std::min(graph->node(from).clearance, graph->node(to).clearance);
     if (width <= offered[to]) return;
+    if (offered[to] < 0.0F) were_offered.push_back(to);
     offered[to] = width;
     edges.push({width, pushed++, from, to});
   }
@@ -63,17 +65,24 @@ struct WidestTree::State {
     parent[id] = from;
     push(id, graph->expand(id));
   }
+  void forget_edges() {
+    edges = {};
+    for (const NodeId id : were_offered) offered[id] = -1.0F;
+    were_offered.clear();
+  }
   /// Makes `edges` those of the tree that `id` hangs in, or a new tree of it. A tree that was left for another one is
   /// grown again from its root, over places that are known by now: the other may have taken some out of its middle, and
   /// what hangs on those would hang on itself when they are taken back.
   void turn_to(NodeId id) {
     cover();
     if (root[id] != no_node && root[id] == growing) return;
-    edges = {};
-    std::fill(offered.begin(), offered.end(), -1.0F);
-    growing = root[id] == no_node ? id : root[id];
-    for (NodeId n = 0; n < static_cast<NodeId>(root.size()); ++n)
-      if (root[n] == growing) root[n] = parent[n] = no_node;
+    forget_edges();
+    const bool is_new = root[id] == no_node;
+    growing = is_new ? id : root[id];
+    if (!is_new) {
+      for (NodeId n = 0; n < static_cast<NodeId>(root.size()); ++n)
+        if (root[n] == growing) root[n] = parent[n] = no_node;
+    }
     take(growing, no_node);
   }
 };
@@ -114,8 +123,7 @@ bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::u
 
 void WidestTree::join(NodeId root, const std::vector<bool>& among) {
   State& s = *state_;
-  s.edges = {};
-  std::fill(s.offered.begin(), s.offered.end(), -1.0F);
+  s.forget_edges();
   s.growing = no_node;
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   std::vector<bool> joined(s.root.size(), false);
