@@ -1,10 +1,43 @@
 // Jolt: TransformedShape.CastShape against one MeshShape, both sides of a triangle solid, the nearest hit only.
 let Jolt;
 
+// The package's module has 128 MB that cannot grow: 0.5 M triangles are too many. The same module with more.
+function withPages(module, pages) {
+  const number = (value) => {
+    const bytes = [];
+    for (; value > 127; value >>>= 7) bytes.push((value & 127) | 128);
+    return [...bytes, value];
+  };
+  for (let at = 8; at < module.length;) {
+    const section = module[at];
+    let length = 0, body = at + 1;
+    for (let shift = 0; ; shift += 7) {
+      const byte = module[body++];
+      length |= (byte & 127) << shift;
+      if (byte < 128) break;
+    }
+    if (section === 5) {
+      // One memory, with a least and a greatest size.
+      const limits = [1, 1, ...number(pages), ...number(pages)];
+      return Buffer.concat(
+        [module.subarray(0, at), Buffer.from([5, ...number(limits.length), ...limits]), module.subarray(body + length)]);
+    }
+    at = body + length;
+  }
+  return module;
+}
+
 async function start() {
   const folder = modules + 'jolt-physics/dist/';
   const factory = (await import(pathToFileURL(folder + 'jolt-physics.wasm.js').href)).default;
-  Jolt = await factory({ wasmBinary: readFileSync(folder + 'jolt-physics.wasm.wasm') });
+  const twoGigabytes = 32768;
+  const wasm = await WebAssembly.compile(withPages(readFileSync(folder + 'jolt-physics.wasm.wasm'), twoGigabytes));
+  Jolt = await factory({
+    instantiateWasm(imports, done) {
+      WebAssembly.instantiate(wasm, imports).then((instance) => done(instance, wasm));
+      return {};
+    },
+  });
 }
 
 function make(vertices, indices) {
