@@ -205,7 +205,8 @@ struct Corner {
   double radius = 0.0;
   double time = 0.0;  ///< seconds since the step began
   /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
-  /// and a body that is being freed). Never less than radius - 1e-6 otherwise.
+  /// and a body that is being freed). Never less than radius - 1e-6 otherwise; it may be less than the true clearance,
+  /// by a quarter of the gap and 2 mm at most on a free way: Space::clearance tells more.
   double clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is said about the way
 };

@@ -7,6 +7,8 @@
 #define ROAM_INDEX_LEAF_INL_H_
 #endif
 
+#include <limits>
+
 #include "index/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -225,7 +227,9 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
 /// Any w bounds: over the whole way m, from any place of the axis t of the way along,
 /// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
 /// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
-HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, VF& left, Children& out) {
+/// `most` becomes how near they come at least, but for rounding.
+HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, VF& left, Children& out,
+                          float* most) {
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
   const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};
@@ -237,7 +241,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
         hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(kSpeedRoundings * kUnit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     MF active = triangle;
-    VF least = zero, time = zero, height = zero;
+    VF least = zero, time = zero, height = zero, nearest = set(std::numeric_limits<float>::max());
     // The place of the axis that is nearest to a point, one after the other along its way and along itself.
     const auto approach = [&](const V3& p) {
       if (way.moves) {
@@ -253,6 +257,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     for (int round = 0;; ++round) {
       const V3 centre = scale(m, time), place{centre.x, centre.y, hn::Add(centre.z, height)};
       V3 w = t.away(place);
+      nearest = hn::Min(nearest, dot(w, w));
       const V3 closest = place - w;
       VF inverse = set(way.inverse_square);
       V3 across = m;
@@ -285,6 +290,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     const MF out_of_reach = hn::AndNot(active, triangle);
     left = hn::Min(left, hn::IfThenElse(out_of_reach, least, left));
     hn::Store(least, kF, out.key + first);
+    hn::Store(hn::Sqrt(nearest), kF, most + first);
     out.mask |= bits_of(active) << first;
   }
 }

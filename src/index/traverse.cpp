@@ -315,7 +315,8 @@ class NearTraversal {
             push_children(node, children, nodes, leaves, stack_);
             return;
           }
-          near_leaf(leaves[e.number].leaf, frame, way_, reach, passed.lanes, children);
+          alignas(64) float most[kWidth];
+          near_leaf(leaves[e.number].leaf, frame, way_, reach, passed.lanes, children, most);
           while (children.mask != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
             for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
@@ -324,7 +325,7 @@ class NearTraversal {
             }
             if (passed.over(children.key[nearest], reach)) break;
             children.mask &= ~(1U << nearest);
-            reach_ = visit_(context_, {number, t.leaves + e.number, nearest});
+            reach_ = visit_(context_, {number, t.leaves + e.number, nearest}, {children.key[nearest], most[nearest]});
             reach = axis_reach(error);
           }
         });

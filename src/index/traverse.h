@@ -63,9 +63,15 @@ struct Impact {
 /// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
+/// How near a stored triangle, without its low bits, comes to the body's axis on its way, metres.
+struct Nearness {
+  float least;  ///< certified: it comes no nearer
+  float most;   ///< an estimate: it comes as near as that
+};
+
 /// Receives a triangle that may be near and returns how near others must be to matter, from now on: metres from the
 /// body's surface, never more than before.
-using Visit = double (*)(void* context, const Place& place);
+using Visit = double (*)(void* context, const Place& place, const Nearness& near);
 
 /// Visits all triangles that may come within `reach` (m) of the body's surface somewhere along the piece, each at
 /// least once, roughly nearest first. Grown by the tile's error as above. Absent tiles are looked at likewise. Returns a

@@ -14,6 +14,10 @@ namespace roam {
 namespace query {
 namespace {
 
+/// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
+/// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
+constexpr float kTight = 3e-4F;
+
 /// Metres. The longest motion of one query.
 constexpr double kMotionLimit = 1e6;
 
@@ -92,10 +96,17 @@ struct Visitor {
   TriangleId base;
   Collector& collector;
 
-  static double visit(void* self, const index::Place& place) {
+  static double visit(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
+    const index::Tile& tile = v.index.tiles[place.tile];
+    if (v.collector.bounds_only() && !tile.fine && near.most - near.least <= kTight) {
+      Contact bound;
+      bound.distance = double(near.least) - v.piece.body.radius - double(tile.error);
+      v.collector.offer(bound);
+      return v.collector.enough();
+    }
     const auto triangle = index::local_triangle(v.index, place, v.piece.start);
-    const double doubt = 2.0 * index::stored_error(v.index.tiles[place.tile]);
+    const double doubt = 2.0 * index::stored_error(tile);
     if (const FloorOnly* const floor = v.collector.floor()) {
       for (const auto& part : floor->pieces(triangle)) {
         v.collector.offer(contact_with(part, v.index, v.piece, place, v.base), doubt);

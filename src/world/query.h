@@ -57,14 +57,24 @@ class Collector {
   /// `floor`: of triangles only this is to be offered.
   Collector(double reach, std::span<Contact> out, bool repeats, const FloorOnly* floor = nullptr)
       : out_(out), floor_(floor), reach_(reach), enough_(reach), repeats_(repeats) {}
-  /// For a clearance. `part`: of small distances no more than this part is given up.
-  Collector(double reach, Contact& nearest, double tolerance, double part = least_part)
+  /// For a clearance.
+  Collector(double reach, Contact& nearest, double tolerance)
       : out_(&nearest, 1),
         floor_(nullptr),
         reach_(reach),
         enough_(reach),
         tolerance_(tolerance),
-        part_(part),
+        part_(least_part),
+        repeats_(false) {}
+  /// For a gap: of `nearest` only the distance is needed.
+  Collector(double reach, Contact& nearest)
+      : out_(&nearest, 1),
+        floor_(nullptr),
+        reach_(reach),
+        enough_(reach),
+        tolerance_(std::numeric_limits<double>::infinity()),
+        part_(gap_part),
+        bounds_only_(true),
         repeats_(false) {}
 
   /// Takes a contact or not. Its distance is certified, and no more than `doubt` (m) less than the true one.
@@ -86,6 +96,8 @@ class Collector {
   [[nodiscard]] double certified() const { return std::min(out_[0].distance, left_out_); }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const FloorOnly* floor() const { return floor_; }
+  /// Nothing but how far the nearest is will be asked for.
+  [[nodiscard]] bool bounds_only() const { return bounds_only_; }
 
  private:
   [[nodiscard]] std::span<Contact>::iterator end() const { return out_.begin() + static_cast<std::ptrdiff_t>(count_); }
@@ -97,6 +109,7 @@ class Collector {
   double reach_, enough_;
   double left_out_ = std::numeric_limits<double>::infinity();
   double tolerance_ = 0.0, part_ = 0.0;
+  bool bounds_only_ = false;
   bool repeats_;
   std::size_t count_ = 0;
 };
@@ -153,7 +166,7 @@ template <class Collect>
   check(body, from, motion);
   check_reach(reach);
   Contact nearest;
-  Collector collector(reach, nearest, std::numeric_limits<double>::infinity(), gap_part);
+  Collector collector(reach, nearest);
   collect(motion, collector);
   return collector.count() > 0 ? collector.certified() : reach;
 }
