@@ -120,6 +120,7 @@ TEST(Training, ByThePapersMethodEndsBetweenWhatFellAndWhatWasBlocked) {
   const Training none = roam::train(corridor({.door = 0.8, .split = 1.25}), {.method = Method::paper});
   EXPECT_FALSE(none.feasible);
   EXPECT_TRUE(says(none, "contradiction")) << none.answer;
+  EXPECT_TRUE(says(none, "0.300 m, is only what") || says(none, "passed most")) << none.answer;
 }
 
 /// The walls of a corridor lie beside the lattice as they like.
@@ -159,12 +160,22 @@ TEST(Training, SaysWhyThereIsNothingToTrain) {
   Mesh wall;
   scenes::add_wall(wall, 0.0, 0.0, 5.0, 0.0, 0.0, 3.0);
   EXPECT_TRUE(says(roam::train(survey_of({wall})), "no floor"));
-  Mesh low;
-  scenes::add_box(low, {0.0, 0.0, 0.0}, {5.0, 5.0, 0.35});
-  scenes::add_floor(low, -1.0, -1.0, 6.0, 6.0, 0.4);  // nobody stands in or under this
+  Mesh low;  // a ceiling over the floor, and a steep roof over the ceiling
+  scenes::add_floor(low, 0.0, 0.0, 1.0, 5.0, 0.0);
+  scenes::add_floor(low, 0.0, 0.0, 1.0, 5.0, 0.4);
+  for (const double x : {0.0, 1.0}) {
+    scenes::add_wall(low, x, 0.0, x, 5.0, 0.0, 0.4);
+    scenes::add_quad(low, {x, 0.0, 0.4}, {x, 5.0, 0.4}, {0.5, 5.0, 1.9}, {0.5, 0.0, 1.9});
+  }
+  for (const double y : {0.0, 5.0}) {
+    scenes::add_wall(low, 0.0, y, 1.0, y, 0.0, 0.4);
+    scenes::add_triangle(low, {0.0, y, 0.4}, {1.0, y, 0.4}, {0.5, y, 1.9});
+  }
   const Training t = roam::train(survey_of({low}), {.height = 1.8});
   EXPECT_TRUE(t.complete);
-  EXPECT_FALSE(t.answer.empty());
+  EXPECT_FALSE(t.feasible);
+  EXPECT_TRUE(t.paths.empty());
+  EXPECT_TRUE(says(t, "There is no free place")) << t.answer;
 }
 
 TEST(Training, OfOneTriangleIsNotLimited) {
@@ -179,14 +190,32 @@ TEST(Training, OfOneTriangleIsNotLimited) {
 
 TEST(Training, ThatIsToldToEndAnswersWhatItKnowsAndSaysSo) {
   const Survey survey = corridor({.door = 0.8, .split = 0.5});
-  for (const char* at : {"looking for places", "planning paths", "looking for cracks", "trials"}) {
-    TrainOptions options;
+  const auto ended = [&](const std::string& at, Method method = Method::interval) {
+    TrainOptions options{.method = method, .height = 1.8};
     options.progress = [&](const std::string& stage, double) { return stage != at; };
-    const Training t = roam::train(survey, options);
+    Training t = roam::train(survey, options);
     EXPECT_FALSE(t.complete) << at;
-    EXPECT_GT(t.radius, 0.0) << at;
-    EXPECT_TRUE(says(t, "Ended early")) << t.answer;
-  }
+    EXPECT_FALSE(t.feasible) << at;
+    EXPECT_DOUBLE_EQ(t.radius, 0.3) << at;
+    EXPECT_TRUE(says(t, "Ended early, while " + at)) << t.answer;
+    return t;
+  };
+  const Training places = ended("looking for places");
+  EXPECT_TRUE(says(places, "No pla")) << places.answer;
+  EXPECT_TRUE(places.paths.empty());
+  const Training paths = ended("planning paths");
+  EXPECT_TRUE(says(paths, "No path was planned yet")) << paths.answer;
+  const Training cracks = ended("looking for cracks");
+  EXPECT_NEAR(cracks.largest.value_or(0.0), 0.4, 1e-3);
+  EXPECT_EQ(cracks.smallest, 0.0);
+  EXPECT_TRUE(says(cracks, "not all cracks were looked for")) << cracks.answer;
+  const Training trials = ended("trials");
+  EXPECT_NEAR(trials.largest.value_or(0.0), 0.4, 1e-3);
+  EXPECT_NEAR(trials.smallest, 0.25, 1e-3);
+  EXPECT_TRUE(says(trials, "the best so far")) << trials.answer;
+  const Training paper = ended("roaming the paths", Method::paper);
+  EXPECT_TRUE(says(paper, "none passed any path")) << paper.answer;
+  EXPECT_FALSE(says(paper, "0.000 m")) << paper.answer;
 }
 
 TEST(Training, RefusesOptionsThatNobodyCanMean) {

@@ -257,9 +257,28 @@ TEST(Cracks, TellHowFarTheyAreAndEndWhenTold) {
                 .size(),
             1u);
   EXPECT_EQ(last, 1.0);
-  int asked = 0;
-  EXPECT_TRUE(find_cracks(survey, {}, c.is_reached, [&](double) { return ++asked < 1; }).empty());
-  EXPECT_EQ(asked, 1);
+}
+
+TEST(Cracks, ThatWereFoundWhenToldToEndAreAnswered) {
+  const FloorCase c = straight_split("", 0.5, 2.0, 12.0, 0.05);
+  const Survey survey = survey_of(c.mesh);
+  for (const double until : {0.8, 0.81, 0.9}) {
+    int asked_again = 0;
+    bool told = false, while_measuring = false;
+    const auto found = find_cracks(survey, {}, c.is_reached, [&](double done) {
+      if (told) ++asked_again;
+      told = told || done >= until;
+      while_measuring = while_measuring || (done > 0.8 && done < 1.0);
+      return !told;
+    });
+    EXPECT_EQ(asked_again, 0) << until;
+    EXPECT_EQ(while_measuring, until > 0.8) << until;
+    ASSERT_EQ(found.size(), 1u) << until;
+    EXPECT_EQ(found.front().kind, Crack::Kind::crack);
+    EXPECT_NEAR(found.front().radius, 0.25, 5e-3) << until;
+    EXPECT_LE(found.front().radius, 0.25 + 2e-5) << until;
+    EXPECT_FALSE(found.front().rim.empty());
+  }
 }
 
 TEST(Cracks, AreNoneWhereThereIsNoFloor) {

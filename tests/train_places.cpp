@@ -1,6 +1,7 @@
 // Where bodies can be: components of the floor, and which of them are meant to be walked in.
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -105,13 +106,13 @@ TEST(TrainPlaces, WindingsAreTrustedWhereSharedEdgesRunBothWays) {
   EXPECT_EQ(share(loose), 0.0) << "no edge is shared";
 }
 
-TEST(TrainPlaces, WhereFacesAreThereFromBothSidesOnlyTheLargestComponentIsInside) {
+TEST(TrainPlaces, WhereFacesAreThereFromBothSidesWhatIsClosedIsInside) {
   Mesh mesh = two_rooms();
   shells::add_backs(mesh);
   const Look look(mesh);
-  ASSERT_EQ(inside_of(look), 1u);
+  EXPECT_EQ(inside_of(look), 2u);
   EXPECT_TRUE(look.at({4, 3, 0})->inside);
-  EXPECT_EQ(look.at({22, 2, 0})->verdict, Verdict::smaller);
+  EXPECT_TRUE(look.at({22, 2, 0})->inside);
 }
 
 TEST(TrainPlaces, TheTopOfAWallIsALedge) {
@@ -173,6 +174,86 @@ TEST(TrainPlaces, WhatIsTooLargeIsCutAndSaysSo) {
   EXPECT_LT(look.tree.size(), 2000u);
 }
 
+/// Each place that a tree reached is in one component, and hangs together with its root.
+void expect_no_place_is_lost(const WidestTree& tree, const std::vector<Component>& components) {
+  std::vector<int> times(tree.size(), 0);
+  for (const Component& c : components) {
+    for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+      ++times[c.nodes[i]];
+      if (i % 997 == 0) {
+        EXPECT_FALSE(tree.way(c.root, c.nodes[i]).empty());
+      }
+    }
+  }
+  std::size_t lost = 0, twice = 0;
+  for (NodeId id = 0; id < tree.size(); ++id) {
+    if (tree.root(id) != no_node && times[id] == 0) ++lost;
+    if (times[id] > 1) ++twice;
+  }
+  EXPECT_EQ(lost, 0u);
+  EXPECT_EQ(twice, 0u);
+}
+
+TEST(TrainPlaces, OfPartsThatWereCutNoneIsLost) {
+  // Each larger than what is looked at first, and all together than what there may be.
+  Mesh mesh;
+  for (const double x : {0.0, 60.0, 120.0}) shells::add_room(mesh, {x, 0, 0}, {x + 50, 50, 3});
+  const Look look(mesh, 0.2, 70'000);
+  for (const double x : {20.0, 80.0, 140.0}) {
+    const Component* room = look.at({x, 20, 0});
+    ASSERT_NE(room, nullptr) << x;
+    EXPECT_GE(room->nodes.size(), 5'000u) << x;
+  }
+  expect_no_place_is_lost(look.tree, look.components);
+}
+
+TEST(TrainPlaces, AreTheSameForAnyNumberOfThreads) {
+  Mesh mesh = two_rooms();
+  scenes::add_box(mesh, {2, 2, 0}, {3, 3, 2.5});
+  const auto found = [&](int threads, std::uint64_t most) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    const Look look(mesh, 0.2, most);
+    std::vector<std::vector<NodeId>> nodes;
+    for (const Component& c : look.components) nodes.push_back(c.nodes);
+    return nodes;
+  };
+  for (const std::uint64_t most : {300u, 500'000u}) EXPECT_EQ(found(1, most), found(4, most));
+}
+
+TEST(TrainPlaces, TheTopOfALargeRoomIsNotLookedAt) {
+  // It is more than what is looked at first, and all of it counts.
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {40, 40, 3});
+  const Look look(mesh);
+  ASSERT_NE(look.at({20, 20, 0}), nullptr);
+  EXPECT_EQ(look.at({20, 20, 3}), nullptr);
+}
+
+TEST(TrainPlaces, WhoIsTooTallForTheRoomsStandsNowhereInside) {
+  Mesh shell;
+  shells::add_room(shell, {0, 0, 0}, {8, 6, 1.7});
+  Mesh thick = shell;
+  shells::add_room(thick, {-0.5, -0.5, -0.5}, {8.5, 6.5, 2.2}, true);
+  Mesh doubled = shell;
+  shells::add_backs(doubled);
+  Mesh reversed = thick;
+  shells::flip(reversed);
+  for (const Mesh& mesh : {shell, thick, doubled, reversed}) {
+    const Look look(mesh);
+    EXPECT_EQ(inside_of(look), 0u);
+    ASSERT_FALSE(look.components.empty());
+    EXPECT_EQ(look.components.front().verdict, Verdict::over_low_rooms);
+  }
+}
+
+TEST(TrainPlaces, TheTopOfSolidGroundIsAScene) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {20, 20, 1.5}, true);
+  const Look look(mesh);
+  ASSERT_NE(look.at({10, 10, 1.5}), nullptr);
+  EXPECT_TRUE(look.at({10, 10, 1.5})->inside);
+}
+
 TEST(TrainPlaces, EndedEarlyItAnswersWhatWasFound) {
   const Survey survey = Survey::build({two_rooms()});
   const Measure measure = shells::person();
@@ -181,6 +262,7 @@ TEST(TrainPlaces, EndedEarlyItAnswersWhatWasFound) {
   const auto found = find_components(survey, measure, tree, 1, [&](double) { return ++asked < 4; });
   EXPECT_LT(tree.size(), 2000u);
   for (const Component& c : found) EXPECT_FALSE(c.nodes.empty());
+  expect_no_place_is_lost(tree, found);
 }
 
 TEST(TrainPlaces, TheOrderOfTrianglesAndAPlaceFarAwayChangeNothing) {

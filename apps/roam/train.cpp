@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "interrupt.h"
@@ -27,6 +28,16 @@ struct TrainVerbOptions {
   bool no_profile = false;
   bool json = false;
 };
+
+/// A whole number from `least` to `most`.
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
+  return {[=](std::string& text) {
+            std::int64_t value = 0;
+            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return within ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+          },
+          ""};
+}
 
 /// Training in the stages that it names, on standard error.
 class StagedProgress {
@@ -59,6 +70,11 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.threads = o.scene.threads;
   if (o.train.mode == Mode::fly && o.train.height > 0.0)
     throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
+  constexpr double least_above_knee = 0.1;  // m
+  if (o.train.height > 0.0 && o.train.height <= o.train.step + least_above_knee)
+    throw UsageError(fmt::format(
+        "--height {:g} with --step {:g}: nothing is left above the knee; take a smaller step or leave --height out",
+        o.train.height, o.train.step));
   if (o.no_profile && !o.profile.empty()) throw UsageError("-o and --no-profile: one of them");
   check_output(o, "--picture", o.picture);
   check_output(o, "-o", o.profile);
@@ -122,18 +138,20 @@ void add_train(CLI::App& program, Run& run) {
   TrainVerbOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
   verb->add_option("--paths", o.train.paths, "To plan (default: 5, or one for each dead end where there are more)")
-      ->check(CLI::Range(1, 10'000))
+      ->check(whole_number(1, 10'000))
       ->type_name("N");
-  verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")->type_name("S");
+  verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("S");
   verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(number_within(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--support-max", o.train.support_max,
                    "The largest foot, in metres: wider cracks are open drops (default: 1)")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(number_within(0.1, 100.0))
       ->type_name("R");
   verb->add_option("--height", o.train.height, "Whole height, in metres (default: a sphere)")
-      ->check(positive)
+      ->check(number_within(0.1, 100.0))
       ->type_name("H");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(CLI::IsMember({"walk", "fly"}))
@@ -142,15 +160,15 @@ void add_train(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"interval", "paper"}))
       ->type_name("METHOD");
   verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(number_within(0.0, 100.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
-      ->check(CLI::Range(0.0, 89.0))
+      ->check(number_within(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--spacing", o.train.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(CLI::Range(0.02, 100.0))
+      ->check(number_within(0.02, 100.0))
       ->type_name("M");
   verb->add_option("--picture", o.picture, "Draw what decides, as .svg or .png")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile there (default: SCENE.roam.json)")->type_name("FILE");

@@ -141,6 +141,15 @@ Json json_report(const TrainReport& report) {
                       {"direction", to_json(c.direction)},
                       {"on_a_path", c.on_a_path}});
   }
+  Json parts = Json::array();
+  for (const ConnectedPart& p : t.parts) {
+    parts.push_back({{"place", to_json(p.place)},
+                     {"area_m2", report.options.mode == Mode::walk ? Json(p.area) : Json(nullptr)},
+                     {"places", p.places},
+                     {"trained", p.trained},
+                     {"whole", p.whole},
+                     {"why", p.why}});
+  }
   Json json = {{"scene", report.scene},
                {"triangles", report.triangles},
                {"mode", roam::name(report.options.mode)},
@@ -162,6 +171,7 @@ Json json_report(const TrainReport& report) {
                {"regions", std::move(regions)},
                {"cracks", std::move(cracks)},
                {"contradictions", t.contradictions},
+               {"parts", std::move(parts)},
                {"places", t.places},
                {"profile", nullptr},
                {"seconds", t.seconds}};

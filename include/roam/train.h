@@ -79,11 +79,21 @@ struct Crack {
 
 /// What decides one end of the interval.
 struct Decisive {
-  enum class Kind : std::uint8_t { opening, split, step };
+  enum class Kind : std::uint8_t { opening, split };
   Kind kind = Kind::opening;
   Vec3 point{0.0};
   double width = 0.0;   ///< m: of the door, or the split
   Vec3 direction{0.0};  ///< unit, across
+};
+
+/// What of the scene hangs together for the smallest body, and is no scrap.
+struct ConnectedPart {
+  Vec3 place{0.0};    ///< where it is widest: of the feet, or the centre when flying
+  double area = 0.0;  ///< m2 of floor; 0 when flying
+  std::uint64_t places = 0;
+  bool trained = false;  ///< paths were planned in it
+  bool whole = true;     ///< false: not all of it was looked at
+  std::string why;       ///< it was left out; empty where it was trained
 };
 
 struct Training {
@@ -97,17 +107,18 @@ struct Training {
   bool complete = true;         ///< false: ended early
   std::string answer;           ///< in plain words, one to three sentences
   std::vector<TrainedPath> paths;
-  std::vector<Crack> cracks;        ///< of the floor that was reached, widest first
-  std::vector<Decisive> decisive;   ///< of the upper end, then of the lower, where there is one
-  std::vector<SizeRegion> regions;  ///< where another size is to be used, and why
+  std::vector<Crack> cracks;         ///< of the floor that was reached, widest first
+  std::vector<Decisive> decisive;    ///< of the upper end, then of the lower, where there is one
+  std::vector<SizeRegion> regions;   ///< where another size is to be used, and why
+  std::vector<ConnectedPart> parts;  ///< those that were trained, then those left out; most places first
   /// Trials that ended otherwise than the ends say they must, a sentence each; `answer` names the first of them.
   std::vector<std::string> contradictions;
   std::uint64_t places = 0;  ///< free places looked at
-  double seconds = 0.0;             ///< of wall clock; the only member that differs between runs
+  double seconds = 0.0;      ///< of wall clock; the only member that differs between runs
 };
 
-/// Throws roam::Error for options out of range. A scene with no free place, no floor, or rooms without a way between
-/// them is no error: `answer` says it.
+/// Throws roam::Error for options out of range. A scene with no free place, no floor, no room that is high enough, or
+/// rooms without a way between them is no error: `answer` says it.
 [[nodiscard]] Training train(const Survey& survey, const TrainOptions& options = {});
 
 }  // namespace roam

@@ -8,8 +8,12 @@ namespace {
 
 /// Contradictions that are told in full; of more only the number.
 constexpr std::size_t most_told = 2;
-/// A part that was left out is told of when it has more than this part of the places that were not.
+/// A part that was left out is told of when it has more than this part of the places of the largest that was not.
 constexpr std::size_t worth_telling = 10;
+/// Openings that stop the chosen body, likewise.
+constexpr std::size_t most_stops = 3;
+/// Parts that are told of one by one; of more only the number.
+constexpr std::size_t most_parts = 3;
 
 /// "all 5 paths", "the path".
 std::string all_paths(const Training& training) {
@@ -36,7 +40,7 @@ std::string split_words(const Training& training) {
 }
 
 std::string interval_words(const Training& training, bool cracks_known) {
-  const char* const no_crack = cracks_known ? "no crack lies on the way" : "cracks were not looked for";
+  const char* const no_crack = cracks_known ? "no crack lies on the way" : "not all cracks were looked for";
   const bool cracked = training.smallest > 0.0;
   if (!training.largest) {
     return cracked ? fmt::format("Any radius from {:.3f} m up does; {} decides, and no opening limits it.",
@@ -59,7 +63,36 @@ std::string feasible_words(const Training& training, bool cracks_known) {
   return text;
 }
 
-std::string infeasible_words(const Training& training) {
+/// Of a body that is too wide for some paths, chosen for the others: how many those are, and what stops it on the rest.
+std::string for_most_words(const Layout& layout, const Training& training) {
+  std::vector<std::string> stops;
+  std::size_t served = 0;
+  for (std::size_t i = 0; i < training.paths.size(); ++i) {
+    const TrainedPath& path = training.paths[i];
+    if (!path.largest || *path.largest >= training.radius) {
+      ++served;
+      continue;
+    }
+    const std::optional<Opening>& opening = layout.paths[i].passage.opening;
+    stops.push_back(fmt::format("path {} lets {:.3f} m through", i + 1, *path.largest) +
+                    (opening ? " at " + at(opening->point) : ""));
+  }
+  std::string text = fmt::format(
+      "No useful size serves {}: {} lets at most {:.3f} m through. Use {}: it serves {} of them. Of the "
+      "others ",
+      all_paths(training), opening_words(training), *training.largest,
+      body_words(training.radius, training.support_radius), served);
+  for (std::size_t i = 0; i < std::min(stops.size(), most_stops); ++i) text += (i == 0 ? "" : ", ") + stops[i];
+  if (stops.size() > most_stops)
+    text += fmt::format(", and {} more let less than that through", stops.size() - most_stops);
+  text += ".";
+  if (training.support_radius > training.radius && training.smallest > 0.0)
+    text += fmt::format(" The foot is for {}.", split_words(training));
+  return text;
+}
+
+std::string infeasible_words(const Layout& layout, const Training& training) {
+  if (training.largest && training.radius > *training.largest) return for_most_words(layout, training);
   if (!training.largest) {
     return fmt::format(
         "No one radius serves {}: {} carries none below {:.3f} m, more than such a body may have. Use {}.",
@@ -77,6 +110,26 @@ std::string infeasible_words(const Training& training) {
       body_words(training.radius, training.support_radius));
 }
 
+std::string size_words(const ConnectedPart& part) {
+  return part.area > 0.0 ? fmt::format("{:.0f} m2", part.area) : fmt::format("{} places", part.places);
+}
+
+/// Which parts were left out and why, and what of those that were not was not looked at.
+std::string parts_words(const std::vector<ConnectedPart>& parts) {
+  std::string text;
+  std::size_t left_out = 0, told = 0;
+  for (const ConnectedPart& part : parts) {
+    if (part.trained && !part.whole)
+      text += fmt::format(" Of the part about {} only {} were looked at.", at(part.place), size_words(part));
+    if (part.trained || part.places <= parts.front().places / worth_telling) continue;
+    if (++left_out > most_parts) continue;
+    text += fmt::format("{} the {} about {} ({})", told++ == 0 ? " Left out:" : ",", size_words(part), at(part.place),
+                        part.why);
+  }
+  if (left_out > most_parts) text += fmt::format(", and {} more", left_out - most_parts);
+  return left_out > 0 ? text + "." : text;
+}
+
 }  // namespace
 
 std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
@@ -87,7 +140,8 @@ std::string body_words(double radius, double support_radius) {
   return fmt::format("a radius of {:.3f} m", radius);
 }
 
-std::string nothing_to_train(const Survey& survey, const TrainOptions& options) {
+std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
+                             const std::vector<ConnectedPart>& parts) {
   if (survey.triangles() == 0)
     return "There is no triangle in the scene: nothing limits a body, and nothing carries it.";
   if (options.mode == Mode::walk && survey.floor_triangles().empty()) {
@@ -96,37 +150,53 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options) 
         "points up, say so; else train for flying.",
         survey.triangles(), survey.slope_degrees());
   }
+  if (!parts.empty()) {
+    return fmt::format(
+        "A body {:g} m high stands nowhere inside: where it fits at all, as on the {:.0f} m2 about {}, is on top of "
+        "rooms "
+        "that are lower. Take a lower body.",
+        options.height, parts.front().area, at(parts.front().place));
+  }
   return options.mode == Mode::walk
              ? "There is no free place: nowhere on the floor does even the smallest body fit. Is the height right, and "
                "the unit of length?"
              : "There is no free place: nowhere does even the smallest body fit. Is the unit of length right?";
 }
 
-std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known) {
+std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known, bool ended) {
   const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
-  if (training.paths.empty()) {
+  const bool has_conflict = training.largest && training.smallest > *training.largest;
+  if (ended && training.paths.empty()) {
+    text = fmt::format("No path was planned yet: a body with {} is only what a person has.",
+                       body_words(training.radius, training.support_radius));
+  } else if (ended && !has_conflict) {
+    text = fmt::format("A body with {} is the best so far. {}", body_words(training.radius, training.support_radius),
+                       interval_words(training, cracks_known));
+  } else if (training.paths.empty()) {
     text = fmt::format("There is room to stand but no way to go: a body with {} fits there.",
                        body_words(training.radius, training.support_radius));
   } else {
-    text = training.feasible ? feasible_words(training, cracks_known) : infeasible_words(training);
+    text = training.feasible ? feasible_words(training, cracks_known) : infeasible_words(layout, training);
   }
   if (layout.components.size() > 1) {
     text += fmt::format(" The scene has {} parts without a way between them; paths were planned in each.",
                         layout.components.size());
   }
-  if (layout.left_out > layout.components[0].nodes.size() / worth_telling) {
-    text +=
-        fmt::format(" A part of {} places (beside {}) was left out: it seems to be outside, or on top of something.",
-                    layout.left_out, layout.components[0].nodes.size());
-  }
+  text += parts_words(training.parts);
+  if (layout.uncertain > 0)
+    text += fmt::format(" {} more ways that were planned could not be certified for any size, and do not count.",
+                        layout.uncertain);
   for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
   if (contradictions.size() > most_told)
     text += fmt::format(" {} more trials contradict the geometry.", contradictions.size() - most_told);
   return text;
 }
 
-std::string paper_answer(const PaperResult& result, const Training& training) {
+namespace {
+
+/// How the procedure ended.
+std::string paper_words(const PaperResult& result, const Training& training) {
   using Ending = PaperResult::Ending;
   const auto fell = [&] {
     return fmt::format("{:.3f} m falls on path {} at {}", result.fallen->radius, result.fallen->path + 1,
@@ -153,9 +223,22 @@ std::string paper_answer(const PaperResult& result, const Training& training) {
     case Ending::out_of_trials:
       return "The radius did not settle in 20 trials of a path.";
     case Ending::cancelled:
-      return fmt::format("Of the radii tried so far {:.3f} m passed most.", result.radius);
+      return "The paths were not roamed to the end.";
   }
   return {};
+}
+
+}  // namespace
+
+std::string paper_answer(const PaperResult& result, const Training& training) {
+  if (training.paths.empty())
+    return fmt::format("There is room to stand but no way to go: nothing was roamed, and {} is only what a person has.",
+                       body_words(training.radius, 0.0));
+  std::string text = paper_words(result, training);
+  if (result.ending == PaperResult::Ending::settled) return text;
+  return text + (result.radius > 0.0 ? fmt::format(" Of all that were tried {:.3f} m passed most paths.", result.radius)
+                                     : fmt::format(" As none passed any path, {} is only what a person has.",
+                                                   body_words(training.radius, 0.0)));
 }
 
 std::string ended_early(const std::string& stage) {

@@ -3,6 +3,7 @@
 /// What training found, in plain words.
 
 #include <string>
+#include <vector>
 
 #include "roam/train.h"
 #include "train/layout.h"
@@ -16,11 +17,13 @@ namespace roam::training {
 /// "a radius of 0.3 m", and the foot, where there is one.
 [[nodiscard]] std::string body_words(double radius, double support_radius);
 
-/// Why nothing could be trained: no triangle, no floor, no free place.
-[[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options);
+/// Why nothing could be trained: no triangle, no floor, no free place, none but on top of rooms that are too low.
+[[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
+                                           const std::vector<ConnectedPart>& parts);
 
-/// Of Method::interval. Whether all cracks were looked for.
-[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known);
+/// Of Method::interval. Whether all cracks were looked for, and whether it was ended before all was done.
+[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known,
+                                          bool ended);
 
 /// Of Method::paper.
 [[nodiscard]] std::string paper_answer(const PaperResult& result, const Training& training);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <span>
 #include <unordered_map>
 
@@ -71,7 +72,7 @@ class Search {
       batch = std::min(2 * batch, last_batch);
     }
     // What is large is grown on, in the order in which it was met: where the scene is detailed comes first. Then what
-    // came out into the open. They take over all other trees that they meet.
+    // came out into the open. They take over all other trees that they meet; components() joins what they leave.
     for (const NodeId root : large_)
       if (!ended_ && tree_.root(root) == root) grow(root, Sight::closed, most_places_);
     for (const NodeId root : came_out_)
@@ -134,7 +135,6 @@ class Search {
     if (!seed || tree_.root(*seed) != no_node) return;
     const Sight sight = start.open ? Sight::open : start.sight;
     grow(*seed, sight, sight == Sight::open ? most_open() : sight == Sight::closed ? first_look : most_places_);
-    reached_.add(start.place, 0);
   }
 
   /// By at most `most_new` places.
@@ -151,26 +151,37 @@ class Search {
         mark = before + static_cast<std::uint64_t>(asked_growth * static_cast<double>(places - before));
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
-      // It makes no new places where it has met a tree that came out before.
-      out = open_running == 2 || (is_look && turns++ > most_turns + (places - before) / places_a_turn);
-      return !out && places < most && asked_to_go_on();
+      out = open_running == 2;
+      // It makes no new places where it has met a tree that was looked at before.
+      const bool is_idle = is_look && turns++ > most_turns + (places - before) / places_a_turn;
+      return !out && !is_idle && places < most && asked_to_go_on();
     });
     if (tree_.size() >= most_of_all) ended_ = true;
     if (out) came_out_.push_back(root);
     if (!whole && sight == Sight::open) open_was_cut_ = true;
-    if (!whole && !out) {
-      if (is_look && !ended_)
-        large_.push_back(root);
-      else
-        cut_ = root;
-    }
+    if (!whole && !out && is_look && !ended_) large_.push_back(root);
     if (whole) whole_.push_back(root);
-    for (std::size_t id = before; id < tree_.size(); ++id) {
-      const auto node = static_cast<NodeId>(id);
-      if (tree_.root(node) == no_node) continue;
-      reached_.add(tree_.node(node).place, 0);
-      if (whole && sight == Sight::closed) ++closed_places_;
-    }
+    note_reached();
+    if (whole && sight == Sight::closed) closed_places_ += places_of(root);
+  }
+
+  /// What was reached since it was last asked, new or seen earlier.
+  void note_reached() {
+    for (std::size_t id = was_reached_.size(); id < tree_.size(); ++id) seen_.push_back(static_cast<NodeId>(id));
+    was_reached_.resize(tree_.size(), false);
+    std::erase_if(seen_, [&](NodeId id) {
+      if (tree_.root(id) == no_node) return false;
+      was_reached_[id] = true;
+      reached_.add(tree_.node(id).place, 0);
+      return true;
+    });
+  }
+
+  [[nodiscard]] std::uint64_t places_of(NodeId root) const {
+    std::uint64_t places = 0;
+    for (std::size_t id = 0; id < tree_.size(); ++id)
+      if (tree_.root(static_cast<NodeId>(id)) == root) ++places;
+    return places;
   }
 
   [[nodiscard]] bool newest_are_open(NodeId root) const {
@@ -204,7 +215,8 @@ class Search {
     return closed * reversed_ratio < area - closed;
   }
 
-  [[nodiscard]] std::vector<Component> components() const {
+  /// Every place that was reached is in one of them.
+  [[nodiscard]] std::vector<Component> components() {
     std::vector<Component> found;
     std::unordered_map<NodeId, std::size_t> number;
     const auto add = [&](NodeId root, bool whole) {
@@ -214,14 +226,21 @@ class Search {
       c.whole = whole;
       found.push_back(std::move(c));
     };
-    for (const NodeId root : whole_) add(root, true);
-    // Of trees that were cut only the last one holds together: it may have taken places from the others.
-    if (cut_ != no_node && tree_.root(cut_) == cut_) add(cut_, false);
+    note_reached();
+    for (const NodeId root : whole_)
+      if (tree_.root(root) == root) add(root, true);
+    // Of trees that were cut, one may have taken places from the middle of another.
     for (std::size_t id = 0; id < tree_.size(); ++id) {
-      const auto component = number.find(tree_.root(static_cast<NodeId>(id)));
-      if (component != number.end()) found[component->second].nodes.push_back(static_cast<NodeId>(id));
+      const auto node = static_cast<NodeId>(id);
+      if (!was_reached_[id] || number.contains(tree_.root(node))) continue;
+      tree_.join(node, was_reached_);
+      add(node, false);
     }
-    leave_out_waste(found);
+    for (std::size_t id = 0; id < tree_.size(); ++id) {
+      if (was_reached_[id])
+        found[number.at(tree_.root(static_cast<NodeId>(id)))].nodes.push_back(static_cast<NodeId>(id));
+    }
+    mark_waste(found);
     std::stable_sort(found.begin(), found.end(),
                      [](const Component& a, const Component& b) { return a.nodes.size() > b.nodes.size(); });
     return found;
@@ -229,28 +248,37 @@ class Search {
 
   /// What could not be grown whole is no part of the scene that people come for where some other part has more of the
   /// floors' triangles: the ground under a dam, beside its gallery.
-  void leave_out_waste(std::vector<Component>& found) const {
-    const auto cut = std::find_if(found.begin(), found.end(), [](const Component& c) { return !c.whole; });
-    if (cut == found.end() || found.size() < 2) return;
-    const std::size_t detail = detail_of(*cut);
-    const bool is_waste =
-        std::any_of(found.begin(), found.end(), [&](const Component& c) { return c.whole && detail_of(c) > detail; });
-    if (is_waste) found.erase(cut);
+  void mark_waste(std::vector<Component>& found) const {
+    const auto is_whole = [](const Component& c) { return c.whole; };
+    if (std::all_of(found.begin(), found.end(), is_whole) || std::none_of(found.begin(), found.end(), is_whole)) return;
+    const std::vector<std::size_t> details = details_of(found);
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].whole) most = std::max(most, details[i]);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (!found[i].whole && details[i] < most) found[i].verdict = Verdict::unfinished;
   }
 
-  /// How many of some triangles of the floors are under its places.
-  [[nodiscard]] std::size_t detail_of(const Component& component) const {
+  /// How many of some triangles of the floors are under the places of each.
+  [[nodiscard]] std::vector<std::size_t> details_of(const std::vector<Component>& found) const {
     Columns places{reached_column};
-    for (const NodeId node : component.nodes) places.add(tree_.node(node).place, 0);
+    for (std::uint32_t i = 0; i < found.size(); ++i)
+      for (const NodeId node : found[i].nodes) places.add(tree_.node(node).place, i);
     const auto ids = survey_.floor_triangles();
     const std::size_t step = 1 + ids.size() / triangles_asked;
-    std::size_t count = 0;
+    std::vector<std::size_t> counts(found.size(), 0), counted(found.size(), ids.size());
     for (std::size_t i = 0; i < ids.size(); i += step) {
       const Triangle t = survey_.triangle(ids[i]);
       const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-      if (places.any(middle, 0, [&](const auto& e) { return std::abs(e.z - middle.z) <= reached_column; })) ++count;
+      (void)places.any(middle, 0, [&](const auto& e) {
+        if (std::abs(e.z - middle.z) <= reached_column && counted[e.owner] != i) {
+          counted[e.owner] = i;
+          ++counts[e.owner];
+        }
+        return false;
+      });
     }
-    return count;
+    return counts;
   }
 
   const Survey& survey_;
@@ -260,8 +288,9 @@ class Search {
   std::uint64_t most_places_;
   const std::function<bool(double)>& goes_on_;
   Columns reached_{reached_column};
+  std::vector<bool> was_reached_;    ///< by id: in whichever tree
+  std::vector<NodeId> seen_;         ///< not reached yet, ascending
   std::vector<NodeId> whole_;        ///< roots of trees that nothing is beside
-  NodeId cut_ = no_node;             ///< root of the last tree that was not grown whole
   std::vector<Start> open_, backs_;  ///< samples that wait
   std::vector<NodeId> large_;        ///< roots of what is closed and was looked at, not grown whole
   std::vector<NodeId> came_out_;     ///< roots of what began closed and goes on in the open
@@ -280,7 +309,16 @@ std::vector<Component> find_components(const Survey& survey, const Measure& meas
   const bool trusted = windings_can_be_trusted(survey);
   std::vector<Component> found =
       Search(survey, measure, tree, trusted, most_places, goes_on).run(sample_places(survey, measure.mode, seed));
+  // What is unfinished judges nothing: it may be anything, and larger than all the rest.
+  const auto unfinished = std::stable_partition(found.begin(), found.end(),
+                                                [](const Component& c) { return c.verdict != Verdict::unfinished; });
+  std::vector<Component> rest(std::make_move_iterator(unfinished), std::make_move_iterator(found.end()));
+  found.erase(unfinished, found.end());
   judge(survey, measure, tree, trusted, found);
+  for (Component& c : rest) {
+    c.inside = false;
+    found.push_back(std::move(c));
+  }
   return found;
 }
 

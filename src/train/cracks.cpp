@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <unordered_map>
 
-#include "train/disjoint_sets.h"
 #include "train/void_measure.h"
 
 namespace roam::training {
@@ -59,36 +56,18 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
 
 /// Discs that overlap at about one level belong to one drop.
 std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<RimPlace>& open) {
-  const double reach = options.support_max;
-  DisjointSets sets(open.size());
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares;
-  for (std::uint32_t i = 0; i < open.size(); ++i) {
-    const Vec3& c = open[i].disc.centre;
-    for (int k = 0; k < 9; ++k) {
-      const auto near = squares.find(square_at(c.x + (k % 3 - 1) * reach, c.y + (k / 3 - 1) * reach, reach));
-      if (near == squares.end()) continue;
-      for (const std::uint32_t other : near->second) {
-        const Vec3 apart = open[other].disc.centre - c;
-        if (std::hypot(apart.x, apart.y) <= reach && std::abs(apart.z) <= options.step) sets.unite(i, other);
-      }
-    }
-    squares[square_at(c.x, c.y, reach)].push_back(i);
-  }
-  std::map<std::uint32_t, FoundCrack> drops;
-  for (std::uint32_t i = 0; i < open.size(); ++i) {
-    FoundCrack& drop = drops[sets.find(i)];
-    if (drop.rim.empty()) {
-      drop.kind = Crack::Kind::open_drop;
-      drop.point = open[i].disc.centre;
-      drop.radius = drop.foot = options.support_max;
-      const Vec3 out = drop.point - open[i].rim;
-      const double length = std::hypot(out.x, out.y);
-      drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
-    }
-    drop.rim.push_back(open[i].rim);
-  }
   std::vector<FoundCrack> all;
-  for (auto& [set, drop] : drops) all.push_back(std::move(drop));
+  for (const std::vector<std::size_t>& group : together(open, options.support_max, options.step)) {
+    FoundCrack& drop = all.emplace_back();
+    const RimPlace& first = open[group.front()];
+    drop.kind = Crack::Kind::open_drop;
+    drop.point = first.disc.centre;
+    drop.radius = drop.foot = options.support_max;
+    const Vec3 out = drop.point - first.rim;
+    const double length = std::hypot(out.x, out.y);
+    drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
+    for (const std::size_t i : group) drop.rim.push_back(open[i].rim);
+  }
   return all;
 }
 
@@ -97,13 +76,17 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
                              const std::function<bool(double)>& goes_on) {
   const VoidProbe probe(survey, options);
   std::atomic<bool> ended{false};
-  std::function<bool(double)> finding;
-  if (goes_on) finding = [&](double done) { return goes_on(kFindShare * done); };
+  std::function<bool(double)> finding, measuring;
+  if (goes_on) {
+    finding = [&](double done) { return goes_on(kFindShare * done); };
+    measuring = [&](double done) { return goes_on(kFindShare + (1.0 - kFindShare) * done); };
+  }
   const std::vector<RimPlace> voids = find_voids(survey, options, probe, is_reached, finding, ended);
   std::vector<RimPlace> open, rest;
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
   std::vector<FoundCrack> cracks;
-  for (const MeasuredVoid& measured : measure_voids(options, probe, OpenDrops(options, probe, open), rest, ended)) {
+  const OpenDrops drops(options, probe, open);
+  for (const MeasuredVoid& measured : measure_voids(options, probe, drops, rest, measuring, ended)) {
     if (measured.disc.radius >= probe.open()) {
       for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});
     } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {

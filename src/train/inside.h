@@ -2,6 +2,7 @@
 /// \file
 /// What of a scene is meant to be walked in, told from what lies on top of it, behind it and within its walls.
 
+#include <span>
 #include <vector>
 
 #include "train/places.h"
@@ -32,6 +33,14 @@ inline constexpr double reversed_ratio = 2.0;
 
 /// Metres between neighbours of the lattice, seen from above on foot; 0 for a place without any. `id` has been reached.
 [[nodiscard]] double spacing_of(const WidestTree& tree, NodeId id);
+
+/// So few places that a body can make no way.
+[[nodiscard]] bool is_scrap(const Component& component);
+
+/// How many of some triangles of the scene each component sees from beside them: one is what a scene is for when it
+/// sees much of it.
+[[nodiscard]] std::vector<std::size_t> surfaces_seen(const Survey& survey, const WidestTree& tree,
+                                                     std::span<const Component> components);
 
 /// Sets shares and verdicts of components, most places first, whose nodes are known. `trusted`: windings can be.
 void judge(const Survey& survey, const Measure& measure, const WidestTree& tree, bool trusted,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "train/detour.h"
 #include "train/neck_ways.h"
@@ -26,9 +27,22 @@ constexpr double foot_precision = 0.03;
 constexpr std::size_t most_searched = 8;
 constexpr double least_searched = 0.01;
 
+/// m: nobody, and hardly a device on wheels, is narrower.
+constexpr double least_useful = 0.15;
+
 /// Radii that a body of this kind can have at all.
 double cap(const BodyKind& kind, const TrainOptions& options) {
   return std::min(options.radius_max, largest_radius(kind));
+}
+
+/// The least of what the paths let through, of those that let `useful` through; none where there are none.
+std::optional<double> least_from(double useful, const Training& training) {
+  std::optional<double> least;
+  for (const TrainedPath& path : training.paths) {
+    const double most = path.largest.value_or(std::numeric_limits<double>::infinity());
+    if (most >= useful && (!least || most < *least)) least = most;
+  }
+  return least;
 }
 
 CrackOptions crack_options(const TrainOptions& options, const Measure& measure) {
@@ -124,7 +138,7 @@ class Paths {
       const std::optional<Ends> ends = must_be_crossed(survey_, layout_, reached, crack);
       if (!ends) continue;
       Passage passage = plan_path(survey_, layout_, options_.spacing, *ends);
-      if (passage.way.size() < 2) continue;
+      if (passage.way.size() < 2 || !passage.found) continue;
       layout_.paths.push_back({*ends, std::move(passage)});
       describe(layout_.paths.size() - 1);
       cross(crossings, layout_.paths.size() - 1);
@@ -172,10 +186,14 @@ double trapped_below(double crack_radius, double step) {
 }
 
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training) {
-  const double most = training.largest.value_or(cap(kind, options));
-  const double upper = training.largest ? inside_share * most : most;
+  const double largest = training.largest.value_or(cap(kind, options));
+  // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
+  const double useful = std::min(least_useful, cap(kind, options));
+  const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
+  const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
+  const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
   const double lower = carried_share * training.smallest;
-  training.feasible = training.smallest <= most;
+  training.feasible = !most_of_others && training.smallest <= most;
   training.radius = std::min(person, upper);
   if (training.feasible && training.radius < lower)
     training.radius = lower <= upper ? lower : 0.5 * (training.smallest + most);

@@ -47,9 +47,10 @@ struct Evidence {
 /// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
 [[nodiscard]] double trapped_below(double crack_radius, double step);
 
-/// Chooses radius and support_radius from the ends, and says whether the interval is feasible:
+/// Chooses radius and support_radius from the paths and both ends, and says whether the interval is feasible:
 ///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of
 ///     3 % to the upper end and 8 % to the lower, so that the rims carry it;
+///   - where the upper end is of no use to anybody, as above of the paths that let a useful size through;
 ///   - where no radius is in the interval, the person's or the largest that passes, and a foot;
 ///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall the largest
 ///   disc

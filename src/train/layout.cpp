@@ -9,6 +9,7 @@
 #include <limits>
 #include <tuple>
 
+#include "train/inside.h"
 #include "train/refine.h"
 
 namespace roam::training {
@@ -37,6 +38,42 @@ std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
   return counts;
 }
 
+/// Why a component is not roamed.
+const char* why_left_out(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::inside:
+      return "much smaller than the rest";
+    case Verdict::backs:
+      return "outside, or within walls: the backs of triangles look at it";
+    case Verdict::on_top:
+      return "on top of something";
+    case Verdict::over_low_rooms:
+      return "on top of rooms that are lower than the body";
+    case Verdict::smaller:
+      return "small beside the rest, or open to the sky, and windings do not tell whether it is inside";
+    case Verdict::unfinished:
+      return "open country, not looked at whole";
+  }
+  return "";
+}
+
+ConnectedPart part_of(const Measure& measure, const WidestTree& tree, const Component& component, bool roamed) {
+  ConnectedPart part;
+  part.places = component.nodes.size();
+  part.trained = roamed;
+  part.whole = component.whole;
+  if (!roamed) part.why = why_left_out(component.verdict);
+  const auto widest = std::max_element(component.nodes.begin(), component.nodes.end(), [&](NodeId a, NodeId b) {
+    return tree.node(a).clearance < tree.node(b).clearance;
+  });
+  part.place = tree.node(*widest).place;
+  if (measure.mode == Mode::walk) {
+    const double cell = spacing_of(tree, *widest);
+    part.area = static_cast<double>(part.places) * cell * cell;
+  }
+  return part;
+}
+
 void refine_paths(const Survey& survey, double spacing, Layout& layout, Stages& stages) {
   stages.begin("planning paths");
   std::atomic<std::size_t> done{0};
@@ -48,6 +85,7 @@ void refine_paths(const Survey& survey, double spacing, Layout& layout, Stages& 
     stages.at(static_cast<double>(++done) / static_cast<double>(layout.paths.size()));
   });
   std::erase_if(layout.paths, [](const PlannedPath& path) { return path.passage.way.size() < 2; });
+  layout.uncertain = std::erase_if(layout.paths, [](const PlannedPath& path) { return !path.passage.found; });
 }
 
 }  // namespace
@@ -59,6 +97,7 @@ Measure measure_of(const TrainOptions& options) {
   measure.step = options.step;
   measure.widest = options.radius_max;
   measure.narrowest = std::min(narrowest, 0.5 * options.radius_max);
+  measure.support_max = options.support_max;
   return measure;
 }
 
@@ -82,16 +121,17 @@ constexpr double farthest_end = 1.0;
 
 /// The widest place beside one of the lattice: or the wall beside its end would decide what a path lets through.
 Vec3 widest_beside(const Survey& survey, const Measure& measure, double spacing, const Vec3& from) {
+  const bool flies = measure.mode == Mode::fly;
   Vec3 best = from;
   double most = clearance_at(survey, measure, from);
   for (double step = 0.5 * spacing; step > end_precision; step *= 0.5) {
     for (bool moved = true; moved;) {
       moved = false;
       // In a corner only a slanting step makes room on both sides.
-      for (int direction = 0; direction < 9; ++direction) {
-        const Vec3 way(step * (direction % 3 - 1), step * (direction / 3 - 1), 0.0);
-        Vec3 place = best + way;
-        if (glm::distance(Vec3(place.x, place.y, from.z), from) > farthest_end) continue;
+      for (int direction = 0; direction < (flies ? 27 : 9); ++direction) {
+        const Vec3 way(direction % 3 - 1, direction / 3 % 3 - 1, flies ? direction / 9 - 1 : 0);
+        Vec3 place = best + step * way;
+        if (glm::distance(Vec3(place.x, place.y, flies ? place.z : from.z), from) > farthest_end) continue;
         if (measure.mode == Mode::walk) {
           const auto foot = foot_at(survey, measure, place);
           if (!foot) continue;
@@ -124,19 +164,19 @@ Passage plan_path(const Survey& survey, const Layout& layout, double spacing, co
 
 Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages) {
   const Measure measure = measure_of(options);
-  Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, 0, {}};
+  Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, {}, {}, 0};
   stages.begin("looking for places");
   std::vector<Component> found =
       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); });
   // Most places first.
   const auto largest = std::find_if(found.begin(), found.end(), [](const Component& c) { return c.inside; });
   const std::size_t least = largest == found.end() ? 0 : largest->nodes.size() / least_part;
+  const auto is_roamed = [&](const Component& c) { return c.inside && c.nodes.size() >= least; };
+  std::stable_partition(found.begin(), found.end(), is_roamed);
   for (Component& component : found) {
-    if (component.inside && component.nodes.size() >= least) {
-      layout.components.push_back(std::move(component));
-    } else {
-      layout.left_out = std::max(layout.left_out, component.nodes.size());
-    }
+    const bool roamed = is_roamed(component);
+    if (!is_scrap(component)) layout.parts.push_back(part_of(measure, layout.tree, component, roamed));
+    if (roamed) layout.components.push_back(std::move(component));
   }
   for (const Component& component : layout.components)
     layout.rooms.push_back(find_rooms(survey, measure, layout.tree, component));

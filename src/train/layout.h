@@ -27,9 +27,9 @@ struct Layout {
   WidestTree tree;
   std::vector<Component> components;  ///< that are roamed
   std::vector<Rooms> rooms;           ///< of each
-  /// Places of the largest component that is not: outside, on top of something, or tiny; 0: there is none.
-  std::size_t left_out = 0;
+  std::vector<ConnectedPart> parts;   ///< these, then those that are not, for what they were taken for
   std::vector<PlannedPath> paths;
+  std::size_t uncertain = 0;  ///< ways that were planned and then certified for no body: not among the paths
 };
 
 /// What is measured for a training.

@@ -35,7 +35,7 @@ struct PaperResult {
     cancelled,
   };
   Ending ending = Ending::cancelled;
-  double radius = 0.0;           ///< that passes all paths, or passed most of them: the smallest of those
+  double radius = 0.0;           ///< that passes all paths, or passed most of them: the smallest of those; 0: none did
   std::optional<Trial> fallen;   ///< the largest that fell
   std::optional<Trial> blocked;  ///< the smallest that was blocked
   std::vector<Trial> trials;     ///< all, in their order

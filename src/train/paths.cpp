@@ -139,7 +139,49 @@ class Plan {
     return widest;
   }
 
+  /// The room that a way begins in, or first comes to.
+  [[nodiscard]] std::uint32_t first_room(const std::vector<NodeId>& way) const {
+    for (const NodeId id : way)
+      if (room_of_[index(id)] != no_room) return room_of_[index(id)];
+    return no_room;
+  }
+
+  /// `from`, or another place of its room where the way is narrowest before it has left that: what decides is the way
+  /// between rooms, not the corner that an end was drawn in. Towards another room the widest place of the room; within
+  /// one room as far along the way as it goes on widening.
+  [[nodiscard]] NodeId out_of_corner(NodeId from, NodeId to) const {
+    std::vector<NodeId> way = tree_.way(from, to);
+    const std::uint32_t room = first_room(way);
+    if (room == no_room) return from;
+    const auto here = [&](NodeId id) { return room_of_[index(id)] == room; };
+    const auto left = std::find_if_not(std::find_if(way.begin(), way.end(), here), way.end(), here);
+    if (left == way.end()) return widening(way);
+    const auto within = std::min_element(way.begin(), left, narrower_),
+               beyond = std::min_element(left, way.end(), narrower_);
+    return narrower_(*within, *beyond) ? rooms_.rooms[room].widest : from;
+  }
+
+  /// Where a way begins when it leaves out how it widens at first: as long as it is narrowest within end_reach of its
+  /// beginning, and wider by more than the lattice errs within as much again.
+  [[nodiscard]] NodeId widening(const std::vector<NodeId>& way) const {
+    constexpr float wider = 1.1F;
+    auto begin = way.begin();
+    for (;;) {
+      auto end = begin;
+      for (double gone = 0.0; end + 1 != way.end() && gone <= end_reach; ++end)
+        gone += glm::length(tree_.node(*(end + 1)).place - tree_.node(*end).place);
+      const auto narrowest = std::min_element(begin, way.end(), narrower_);
+      const auto widest = std::max_element(begin, end, narrower_);
+      if (narrowest >= end || tree_.node(*widest).clearance <= wider * tree_.node(*narrowest).clearance) return *begin;
+      if (widest <= narrowest) return *begin;
+      begin = widest;
+    }
+  }
+
   void add(NodeId from, NodeId to) {
+    if (from == to) return;
+    from = out_of_corner(from, to);
+    to = out_of_corner(to, from);
     if (from == to) return;
     ends_.push_back({from, to});
     visited_.insert(from);
@@ -191,7 +233,13 @@ class Plan {
     }
   }
 
+  struct Narrower {
+    const WidestTree& tree;
+    bool operator()(NodeId a, NodeId b) const { return tree.node(a).clearance < tree.node(b).clearance; }
+  };
+
   const WidestTree& tree_;
+  const Narrower narrower_{tree_};
   const Component& component_;
   const Rooms& rooms_;
   Draw draw_;

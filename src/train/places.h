@@ -15,13 +15,15 @@ namespace roam::training {
 
 /// What a component is taken for; docs/training.md has the rules.
 enum class Verdict : std::uint8_t {
-  inside,   ///< a part of the scene that is meant to be walked in
-  backs,    ///< looks at the backs of triangles: outside of what is walked in, or within rock
-  on_top,   ///< of something: open to the sky over another component, or one falls from it into a larger one
-  smaller,  ///< than another that is inside, where windings cannot be trusted to tell; or a scrap of a few places
+  inside,          ///< a part of the scene that is meant to be walked in
+  backs,           ///< looks at the backs of triangles: outside of what is walked in, or within rock
+  over_low_rooms,  ///< on top of what the body is too tall for
+  on_top,          ///< of something: open to the sky over another component, or one falls from it into a larger one
+  smaller,     ///< than another and open to the sky as it is, where windings cannot tell; or a scrap of a few places
+  unfinished,  ///< not looked at whole, and without as much detail as another part: open country
 };
 
-/// "inside", "backs", "on top" or "smaller".
+/// "inside", "backs", "on top", "smaller" or "unfinished".
 [[nodiscard]] const char* name(Verdict verdict);
 
 /// Places that hang together for a body of `narrowest`.
@@ -30,17 +32,18 @@ struct Component {
   std::vector<NodeId> nodes;  ///< ascending
   double back_share = 0.0;    ///< of places from which most rays that hit something hit the backs of triangles
   double open_share = 0.0;    ///< of places from which most rays upwards meet nothing
-  bool whole = true;          ///< false: ended early, by `most_places` or `goes_on`
+  bool whole = true;          ///< false: ended early, by `most_places` or `goes_on`; it may go on, or join others
   bool inside = true;         ///< verdict == Verdict::inside
   Verdict verdict = Verdict::inside;
 };
 
 /// All components of the scene: sampled on its floors by area and by triangle (flying: in its box too), each grown
-/// whole in `tree`, most places first. At least one is inside, where there is any. What only sees the backs of
-/// triangles is left out where it is plain that the windings are right.
-/// `most_places`: no component is grown beyond so many places, what is open to the sky not beyond as many as there are
-/// of what is closed, and all together not beyond twice as many. `goes_on` is asked now and then with the fraction of
-/// the samples that were looked at; false ends it with what was found.
+/// whole in `tree`, most places first, unfinished ones last. Each place that was reached is in one of them. At least
+/// one is inside, where there is any but on top of rooms that are too low for the body. What only sees the backs of
+/// triangles is left out where it is plain that the windings are right. `most_places`: no component is grown beyond so
+/// many places, what is open to the sky not beyond as many as there are of what is closed, and all together not beyond
+/// twice as many. `goes_on` is asked now and then with the fraction of the samples that were looked at; false ends it
+/// with what was found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                                      std::uint64_t seed,
                                                      const std::function<bool(double)>& goes_on = {},
@@ -85,8 +88,9 @@ struct Ends {
 
 /// Draws `count` pairs (0: 5, or the dead ends where there are more), by `seed`: every room lies on the way between
 /// two of them, as far as so many pairs can do that, and so does each neck that is the widest between its rooms. Each
-/// end is at the widest place of its room within 2 m. What is left over goes where no path has been yet. Empty when
-/// the component has but one place.
+/// end is at the widest place of its room within 2 m, or elsewhere in it where the way would else be narrowest before
+/// it has left the room, or at its end. What is left over goes where no path has been yet. Empty when the component has
+/// but one place.
 [[nodiscard]] std::vector<Ends> draw_paths(const WidestTree& tree, const Component& component, const Rooms& rooms,
                                            int count, std::uint64_t seed);
 

@@ -61,11 +61,33 @@ void find_interval(const Survey& survey, const TrainOptions& options, const Body
   choose_body(kind, options, evidence, training);
   if (!stages.ended()) add_regions(survey, options, layout, stages, training);
   if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);
-  training.answer = interval_answer(layout, training, evidence.complete);
+  training.answer = interval_answer(layout, training, evidence.complete, stages.ended());
   if (evidence.least_foot > options.support_max && training.support_radius > 0.0)
     training.answer +=
         fmt::format(" A gap beside a wall needs a foot of {:.2f} m, more than was allowed: it is not carried.",
                     evidence.least_foot);
+}
+
+/// Laid out for the step of the body that comes of it: a sphere climbs at most its radius. Less climbs less, so this
+/// comes down to it.
+Layout lay_out_for_body(const Survey& survey, TrainOptions options, const BodyKind& kind, Stages& stages) {
+  constexpr double same_step = 1e-4;  // m
+  const bool rolls = options.mode == Mode::walk && options.height == 0.0;
+  if (rolls) options.step = std::min(options.step, std::min(usual_radius, options.radius_max));
+  for (;;) {
+    Layout layout = lay_out(survey, options, stages);
+    if (!rolls || stages.ended() || options.method == Method::paper) return layout;
+    Training first;
+    for (const PlannedPath& path : layout.paths) {
+      TrainedPath& described = first.paths.emplace_back();
+      if (!path.passage.limited) continue;
+      described.largest = path.passage.radius;
+      first.largest = std::min(first.largest.value_or(path.passage.radius), path.passage.radius);
+    }
+    choose_body(kind, options, {}, first);
+    if (first.radius >= options.step - same_step) return layout;
+    options.step = first.radius;
+  }
 }
 
 void follow_paper(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Layout& layout,
@@ -112,11 +134,12 @@ Training train(const Survey& survey, const TrainOptions& options) {
   const BodyKind kind = kind_of(survey, options);
   TrainOptions laid = options;
   if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
-  Layout layout = lay_out(survey, laid, stages);
+  Layout layout = lay_out_for_body(survey, laid, kind, stages);
   for (const Component& component : layout.components) training.places += component.nodes.size();
+  training.parts = layout.parts;
   if (layout.components.empty()) {
     take_usual_body(options, kind, training);
-    training.answer = stages.ended() ? "No place was found." : nothing_to_train(survey, options);
+    training.answer = stages.ended() ? "No place was found." : nothing_to_train(survey, options, layout.parts);
   } else if (options.method == Method::paper) {
     follow_paper(survey, options, kind, layout, stages, training);
   } else {

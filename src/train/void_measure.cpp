@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -41,8 +42,9 @@ struct Cell {
 /// The voids of one part of the scene that no other part's floods come to.
 class Floods {
  public:
-  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops)
-      : options_(options), probe_(probe), drops_(drops), spacing_(kSpacingShare * probe.radius()) {}
+  /// `ended`: what is being flooded is measured as far as it came.
+  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops, const std::atomic<bool>& ended)
+      : options_(options), probe_(probe), drops_(drops), ended_(ended), spacing_(kSpacingShare * probe.radius()) {}
 
   void add(const RimPlace& place) {
     if (drops_.cover(place.disc.centre)) return;
@@ -122,7 +124,7 @@ class Floods {
       }
     };
     for (const Cell& near : about(seed)) enter(seed, near.x, near.y);
-    while (!open.empty()) {
+    while (!open.empty() && !ended_) {
       const Cell cell = open.front();
       open.pop_front();
       const Vec3 from = place_of(cell);
@@ -246,6 +248,7 @@ class Floods {
   const CrackOptions& options_;
   const VoidProbe& probe_;
   const OpenDrops& drops_;
+  const std::atomic<bool>& ended_;
   double spacing_;
   std::unordered_map<std::uint64_t, std::vector<Cell>> cells_;
   DisjointSets sets_;
@@ -253,6 +256,21 @@ class Floods {
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
   std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
 };
+
+/// What was climbed to and not measured: the widest disc of each void.
+std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& drops, std::vector<RimPlace> places) {
+  std::erase_if(places, [&](const RimPlace& place) { return drops.cover(place.disc.centre); });
+  std::vector<MeasuredVoid> voids;
+  for (const std::vector<std::size_t>& group : together(places, options.support_max, options.step)) {
+    MeasuredVoid& found = voids.emplace_back();
+    for (const std::size_t i : group) {
+      if (places[i].disc.radius > found.disc.radius) found.disc = places[i].disc;
+      found.rim.push_back(places[i].rim);
+    }
+    found.foot = found.disc.radius;
+  }
+  return voids;
+}
 
 /// Places in parts that are farther from each other than two floods reach, in the order of their first places.
 std::vector<std::vector<RimPlace>> apart(const std::vector<RimPlace>& places) {
@@ -315,19 +333,56 @@ bool OpenDrops::cover(const Vec3& place) const {
 }
 
 std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
-                                        const std::vector<RimPlace>& places, const std::atomic<bool>& ended) {
+                                        const std::vector<RimPlace>& places, const std::function<bool(double)>& goes_on,
+                                        std::atomic<bool>& ended) {
   const std::vector<std::vector<RimPlace>> parts = apart(places);
   std::vector<std::vector<MeasuredVoid>> measured(parts.size());
+  std::vector<std::vector<RimPlace>> left(parts.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto asked = [&] {
+    if (!goes_on || ended) return;
+    const std::lock_guard lock(mutex);
+    if (!ended && !goes_on(double(done++) / double(places.size()))) ended = true;
+  };
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    Floods floods(options, probe, drops);
+    Floods floods(options, probe, drops, ended);
     for (const RimPlace& place : parts[i]) {
-      if (ended) return;
-      floods.add(place);
+      asked();
+      if (ended)
+        left[i].push_back(place);
+      else
+        floods.add(place);
     }
     measured[i] = floods.measured();
   });
   std::vector<MeasuredVoid> all;
+  std::vector<RimPlace> rest;
   for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
+  for (std::vector<RimPlace>& part : left) std::move(part.begin(), part.end(), std::back_inserter(rest));
+  for (MeasuredVoid& found : climbed(options, drops, std::move(rest))) all.push_back(std::move(found));
+  return all;
+}
+
+std::vector<std::vector<std::size_t>> together(const std::vector<RimPlace>& places, double reach, double step) {
+  DisjointSets sets(places.size());
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const Vec3& c = places[i].disc.centre;
+    for (int k = 0; k < 9; ++k) {
+      const auto near = squares.find(square_at(c.x + (k % 3 - 1) * reach, c.y + (k / 3 - 1) * reach, reach));
+      if (near == squares.end()) continue;
+      for (const std::uint32_t other : near->second) {
+        const Vec3 apart = places[other].disc.centre - c;
+        if (std::hypot(apart.x, apart.y) <= reach && std::abs(apart.z) <= step) sets.unite(i, other);
+      }
+    }
+    squares[square_at(c.x, c.y, reach)].push_back(i);
+  }
+  std::map<std::uint32_t, std::vector<std::size_t>> groups;  // a set's name is its least number
+  for (std::uint32_t i = 0; i < places.size(); ++i) groups[sets.find(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> all;
+  for (auto& [set, group] : groups) all.push_back(std::move(group));
   return all;
 }
 

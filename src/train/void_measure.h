@@ -32,10 +32,18 @@ struct MeasuredVoid {
 };
 
 /// The voids of rim places whose climbs ended below probe.open(), and those that turned out to be as large after all.
-/// Places that `drops` cover belong to them and are left out.
+/// Places that `drops` cover belong to them and are left out. `goes_on` is asked from several threads, one at a time,
+/// with the fraction done; when it says so, or `ended` is set before, what is not measured yet is as wide as its best
+/// climb, which is at most as wide as it is.
 [[nodiscard]] std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe,
                                                       const OpenDrops& drops, const std::vector<RimPlace>& places,
-                                                      const std::atomic<bool>& ended);
+                                                      const std::function<bool(double)>& goes_on,
+                                                      std::atomic<bool>& ended);
+
+/// The numbers of places whose discs lie within `reach` of each other, level by level, at about one level: each group
+/// ascending, in the order of their first ones.
+[[nodiscard]] std::vector<std::vector<std::size_t>> together(const std::vector<RimPlace>& places, double reach,
+                                                             double step);
 
 /// The number of a square of the plan, `side` wide; squares 2^32 apart share one.
 [[nodiscard]] std::uint64_t square_at(double x, double y, double side);

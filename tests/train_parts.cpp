@@ -1,0 +1,167 @@
+// What training answers where a scene has several parts, where a body stands nowhere, and where no one size is of use.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "roam/train.h"
+#include "train_scenes.h"
+#include "train_shells.h"
+
+namespace {
+
+using roam::ConnectedPart;
+using roam::Mesh;
+using roam::Training;
+using roam::Vec3;
+
+bool says(const Training& t, const std::string& part) { return t.answer.find(part) != std::string::npos; }
+
+const ConnectedPart* part_near(const Training& t, const Vec3& place, double within) {
+  for (const ConnectedPart& part : t.parts) {
+    const Vec3 to = part.place - place;
+    if (std::abs(to.x) < within && std::abs(to.y) < within && std::abs(to.z) < 0.5) return &part;
+  }
+  return nullptr;
+}
+
+TEST(TrainedParts, AreNamedEachWithItsPlaceItsFloorAndWhetherItCounts) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});
+  shells::add_room(mesh, {20, 0, 0}, {24, 5, 3});
+  shells::add_room(mesh, {40, 0, 0}, {50, 5, 3}, true);  // a block: its roof is outside
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  const ConnectedPart* large = part_near(t, {4, 3, 0}, 4.0);
+  const ConnectedPart* small = part_near(t, {22, 2.5, 0}, 2.5);
+  ASSERT_NE(large, nullptr);
+  ASSERT_NE(small, nullptr);
+  EXPECT_TRUE(large->trained && small->trained);
+  EXPECT_EQ(large, &t.parts.front());
+  EXPECT_NEAR(large->area, 48.0, 5.0);
+  EXPECT_NEAR(small->area, 20.0, 3.0);
+  EXPECT_TRUE(large->why.empty());
+  EXPECT_TRUE(says(t, "2 parts without a way between them")) << t.answer;
+  const ConnectedPart* roof = part_near(t, {45, 2.5, 3}, 5.0);
+  ASSERT_NE(roof, nullptr);
+  EXPECT_FALSE(roof->trained);
+  EXPECT_FALSE(roof->why.empty());
+  EXPECT_NEAR(roof->area, 50.0, 5.0);
+  EXPECT_TRUE(says(t, "Left out: the 5")) << t.answer;
+  EXPECT_TRUE(says(t, roof->why)) << t.answer;
+}
+
+TEST(TrainedParts, AreNoneForABodyThatIsTallerThanTheRooms) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 2.2});
+  shells::add_room(mesh, {-0.4, -0.4, -0.4}, {8.4, 6.4, 2.6}, true);
+  const roam::Survey survey = survey_of({mesh});
+  const Training tall = roam::train(survey, {.height = 2.3});
+  EXPECT_FALSE(tall.feasible);
+  EXPECT_TRUE(tall.paths.empty());
+  EXPECT_TRUE(says(tall, "stands nowhere inside")) << tall.answer;
+  EXPECT_TRUE(says(tall, "2.60)")) << "where it does stand: " << tall.answer;
+  const Training fits = roam::train(survey, {.height = 2.1});
+  EXPECT_TRUE(fits.feasible) << fits.answer;
+  EXPECT_FALSE(says(fits, "nowhere"));
+}
+
+/// A hall with four side rooms, one of them behind a slit.
+Mesh hall(double slit) {
+  using namespace scenes;
+  Mesh mesh;
+  shells::add_room(mesh, {-6, -4, 0}, {6, 4, 3});
+  const auto closet = [&](double x0, double x1, double y, double side, double door) {
+    const double middle = 0.5 * (x0 + x1);
+    add_box(mesh, {x0, y - 0.05, 0}, {middle - 0.5 * door, y + 0.05, 3});
+    add_box(mesh, {middle + 0.5 * door, y - 0.05, 0}, {x1, y + 0.05, 3});
+    add_box(mesh, {x0 - 0.1, std::min(y, side), 0}, {x0, std::max(y, side), 3});
+    add_box(mesh, {x1, std::min(y, side), 0}, {x1 + 0.1, std::max(y, side), 3});
+  };
+  closet(-5, -2, 2, 4, 0.9);
+  closet(2, 5, 2, 4, 0.9);
+  closet(-5, -2, -2, -4, 0.9);
+  closet(2, 5, -2, -4, slit);
+  return mesh;
+}
+
+TEST(TrainedParts, WhereNoUsefulSizeServesAllTheBodyIsTheOneThatServesMost) {
+  const Training t = roam::train(survey_of({hall(0.28)}), {.height = 1.8, .spacing = 0.1});
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.14, 1e-3);
+  EXPECT_FALSE(t.feasible);
+  EXPECT_DOUBLE_EQ(t.radius, 0.3);
+  EXPECT_TRUE(says(t, "No useful size serves all")) << t.answer;
+  EXPECT_TRUE(says(t, "0.140 m")) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  const auto served = std::count_if(t.paths.begin(), t.paths.end(),
+                                    [](const auto& path) { return !path.largest || *path.largest >= 0.3; });
+  EXPECT_GT(served, 0);
+  EXPECT_TRUE(says(t, "it serves " + std::to_string(served) + " of them")) << t.answer;
+  ASSERT_FALSE(t.regions.empty());
+  EXPECT_NEAR(t.regions.front().radius, 0.136, 2e-3);
+  const Training wide = roam::train(survey_of({hall(0.9)}), {.height = 1.8});
+  EXPECT_TRUE(wide.feasible) << wide.answer;
+}
+
+TEST(TrainedParts, OfASphereAreThoseThatItClimbsTo) {
+  // A door of 0.3 m, and behind it a platform that only a larger sphere climbs.
+  using namespace scenes;
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {6, 4, 3});
+  shells::add_room(mesh, {6, 0, 0.25}, {9, 4, 3});
+  for (auto it = mesh.triangles.begin(); it != mesh.triangles.end();) {
+    const roam::Triangle t = mesh.triangle(static_cast<std::size_t>(it - mesh.triangles.begin()));
+    const bool between = t[0].x == 6.0 && t[1].x == 6.0 && t[2].x == 6.0;
+    it = between ? mesh.triangles.erase(it) : it + 1;
+  }
+  add_wall(mesh, 6, 0, 6, 4, 0.0, 0.25);
+  add_box(mesh, {3, 0, 0}, {3.1, 1.85, 3});
+  add_box(mesh, {3, 2.15, 0}, {3.1, 4, 3});
+  const Training t = roam::train(survey_of({mesh}), {});
+  ASSERT_TRUE(t.largest) << t.answer;
+  EXPECT_NEAR(*t.largest, 0.15, 1e-3);
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  for (const roam::TrainedPath& path : t.paths) EXPECT_NEAR(path.from.z, path.to.z, 0.01);
+  EXPECT_NE(part_near(t, {7.5, 2, 0.25}, 1.5), nullptr) << "the platform is a part of its own";
+}
+
+TEST(TrainedParts, ADeadEndThatOnlyNarrowsDecidesNothing) {
+  // Two rooms, a door of 0.8 m between them, and out of one of them a wedge.
+  using namespace scenes;
+  Mesh mesh;
+  add_floor(mesh, 0, 0, 20, 6, 0.0);
+  add_floor(mesh, 0, 0, 20, 6, 3.0);
+  for (const double x : {0.0, 12.0}) add_wall(mesh, x, 0, x, x == 0.0 ? 6 : 2.3, 0.0, 3.0);
+  add_wall(mesh, 12, 3.7, 12, 6, 0.0, 3.0);
+  add_wall(mesh, 0, 0, 12, 0, 0.0, 3.0);
+  add_wall(mesh, 0, 6, 12, 6, 0.0, 3.0);
+  add_box(mesh, {5, 0, 0}, {5.2, 2.6, 3});
+  add_box(mesh, {5, 3.4, 0}, {5.2, 6, 3});
+  add_wall(mesh, 12, 2.3, 17, 3.0, 0.0, 3.0);
+  add_wall(mesh, 12, 3.7, 17, 3.0, 0.0, 3.0);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Training t = roam::train(survey_of({mesh}), {.seed = seed, .height = 1.8});
+    ASSERT_TRUE(t.largest) << t.answer;
+    EXPECT_NEAR(*t.largest, 0.4, 1e-3) << t.answer;
+  }
+}
+
+TEST(TrainedParts, InAPocketOfARoomNoPathEndsThatDecides) {
+  // Behind a pier is a niche that opens to the room by 0.5 m and is no room itself: too small.
+  using namespace scenes;
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {10, 5, 3});
+  add_box(mesh, {5, 0, 0}, {5.2, 2.1, 3});
+  add_box(mesh, {5, 2.9, 0}, {5.2, 5, 3});
+  add_box(mesh, {9.4, 0, 0}, {9.5, 4.2, 3});  // a slot 0.5 m wide along the far wall, open at one end
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Training t = roam::train(survey_of({mesh}), {.seed = seed, .paths = 2, .height = 1.8});
+    ASSERT_TRUE(t.largest) << t.answer;
+    EXPECT_NEAR(*t.largest, 0.4, 1e-3) << seed << ": " << t.answer;
+  }
+}
+
+}  // namespace
