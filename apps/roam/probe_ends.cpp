@@ -24,7 +24,8 @@ constexpr double in_sight = 3.0;      ///< how far room is looked for in sight
 constexpr double around_floor = 1.5;  ///< how far from a floor's nearest point room is looked for
 constexpr double same_floor = 0.5;    ///< nearer points of floors are tried once
 constexpr int ring_places = 24;
-constexpr std::size_t most_floors = 48;  ///< points of floors that are tried
+constexpr std::size_t most_candidates = 100'000;  ///< of them that are kept on the way
+constexpr std::size_t most_floors = 48;           ///< points of floors that are tried
 
 /// The floor that a foot near a place comes to; flying, the place.
 std::optional<Vec3> placed(const ProbeSearch& search, const Measure& measure, const Vec3& near) {
@@ -42,13 +43,16 @@ std::vector<Vec3> nearest_floors(const Survey& survey, const Vec3& place) {
     double apart;
     Vec3 point;
   };
+  const auto is_nearer = [](const Candidate& a, const Candidate& b) { return a.apart < b.apart; };
   std::vector<Candidate> all;
-  all.reserve(survey.floor_triangles().size());
   for (const TriangleId id : survey.floor_triangles()) {
     const Proximity p = proximity({0.0, 0.0}, place, survey.triangle(id));
     all.push_back({p.distance, p.point});
+    if (all.size() < 2 * most_candidates) continue;
+    std::nth_element(all.begin(), all.begin() + most_candidates, all.end(), is_nearer);
+    all.resize(most_candidates);
   }
-  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.apart < b.apart; });
+  std::sort(all.begin(), all.end(), is_nearer);
   std::vector<Vec3> points;
   for (const Candidate& candidate : all) {
     const bool near = std::any_of(points.begin(), points.end(),

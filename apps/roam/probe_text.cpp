@@ -93,14 +93,15 @@ std::string stopped_by(const ProbeAnswer& answer) {
           "At {} there is a wall on one side and the floor's end on the other: a way leads {} from the wall; {}.",
           at(limit.point), metres(limit.size), missing);
     case Kind::height: {
-      std::string text = fmt::format("It is too high: near {} a body of that radius passes up to a height of {}; {}.",
-                                     at(limit.feet), metres(limit.size), missing);
+      std::string text =
+          fmt::format("The body is too high: near {} one of that radius passes up to a height of {}; {}.",
+                      at(limit.feet), metres(limit.size), missing);
       if (p.found) text += fmt::format(" At its whole height only a radius of {} passes.", metres(p.radius));
       return text;
     }
     case Kind::step:
-      return fmt::format("A step stops it: at {} the floor changes by {} at once, and the body steps {}.",
-                         at(limit.point), metres(limit.size), metres(limit.needed));
+      return fmt::format("A step stops it: at {} the floor {} by {} at once, and the body steps {}.", at(limit.point),
+                         limit.feet.z < limit.point.z ? "rises" : "falls", metres(limit.size), metres(limit.needed));
     case Kind::apart:
       return no_way(answer) + fmt::format("; it breaks off at {}.", at(limit.point));
     case Kind::lintel:

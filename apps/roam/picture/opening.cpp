@@ -243,9 +243,10 @@ class OpeningPainter {
   }
 
   static std::vector<std::string> body_text(const OpeningView& o) {
-    const std::string across = length_text(2.0 * o.radius);
-    if (o.height <= 2.0 * o.radius) return {"body", across + " across"};
-    return {"body", fmt::format("{} across", across), fmt::format("{} high", length_text(o.height))};
+    // To the millimetre, as what it is compared with.
+    const std::string across = fmt::format("{:.3f} m across", 2.0 * o.radius);
+    if (o.height <= 2.0 * o.radius) return {"body", across};
+    return {"body", across, fmt::format("{:.3f} m high", o.height)};
   }
 
   /// A line from side to side with its length beside it; 0: no length.
