@@ -90,6 +90,32 @@ TEST(TrainVerb, RefusesWhatCannotBeMeant) {
   EXPECT_EQ(Train({}, {"-o", "@p.json", "--no-profile"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--picture", "@scene.obj"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--paths", "0"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--height", "0.05"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--height", "500"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--seed", "-1"}).result.status, 2);
+  const Train step({}, {"--height", "1.8", "--step", "1.75"});
+  EXPECT_EQ(step.result.status, 2);
+  EXPECT_TRUE(contains(step.result.err, "above the knee")) << step.result.err;
+  const Train paths({}, {"--paths", "x"});
+  EXPECT_EQ(paths.result.status, 2);
+  EXPECT_TRUE(contains(paths.result.err, "'x' is not a whole number from 1 to 10000")) << paths.result.err;
+}
+
+TEST(TrainVerb, EndsWithThreeForABodyThatStandsNowhereInside) {
+  const Train train({}, {"--height", "3.5", "--json", "--no-profile"});
+  EXPECT_EQ(train.result.status, 3) << train.result.err;
+  EXPECT_TRUE(contains(train.json()["answer"], "stands nowhere inside")) << train.result.out;
+}
+
+TEST(TrainVerb, NamesTheParts) {
+  const Train train({}, {"--height", "1.8", "--json", "--no-profile"});
+  const nlohmann::json parts = train.json()["parts"];
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts[0]["trained"], true);
+  EXPECT_EQ(parts[0]["whole"], true);
+  EXPECT_EQ(parts[0]["why"], "");
+  EXPECT_NEAR(parts[0]["area_m2"], 40.0, 4.0);
+  EXPECT_EQ(parts[0]["place"].size(), 3u);
 }
 
 }  // namespace
