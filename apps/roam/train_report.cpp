@@ -20,8 +20,6 @@ const char* name(Decisive::Kind kind) {
       return "opening";
     case Decisive::Kind::split:
       return "split";
-    case Decisive::Kind::step:
-      return "step";
   }
   return "unknown";
 }
