@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "flight_scenes.h"
 #include "roam/passage.h"
 #include "roam/route.h"
 #include "seeded_gallery.h"
@@ -114,6 +115,33 @@ TEST(Flight, EndsAtAClosedWall) {
   EXPECT_FALSE(p.found);
   ASSERT_TRUE(p.opening);
   EXPECT_LT(std::abs(p.opening->point.x), 0.3);
+}
+
+TEST(Flight, IsHalfOfWhatIsNarrowestAcrossAnObliqueDuct) {
+  // 0.5 m high in the wall, and rising by 3 m on 4: 0.4 m across.
+  const Survey survey = survey_of(flight::joined_by_duct(0.6, 0.5, 4.0, 3.0));
+  const Passage p = roam::widest_way(survey, {-2.5, 0.3, 1.5}, {6.5, 0.2, 4.4}, flying);
+  ASSERT_TRUE(p.found);
+  EXPECT_NEAR(p.radius, 0.2, wanted_error);
+  ASSERT_TRUE(p.opening);
+  EXPECT_NEAR(std::abs(p.opening->direction.z), 0.8, 0.01);
+  EXPECT_GE(p.bound, p.radius);
+}
+
+TEST(Flight, GoesUpAShaft) {
+  const Passage p =
+      roam::widest_way(survey_of(flight::joined_by_shaft(0.7, 4.0)), {1.0, 1.0, 1.0}, {-1.0, 0.5, 8.5}, flying);
+  ASSERT_TRUE(p.found);
+  EXPECT_NEAR(p.radius, 0.35, wanted_error);
+}
+
+TEST(Flight, TakesTheWiderOfADoorAndAWindow) {
+  for (const double window : {0.4, 0.9}) {
+    const Mesh m = flight::joined_by_openings({{0.5, 1.1, 0.0, 2.0}, {2.2, 2.2 + window, 1.0, 1.0 + window}});
+    const Passage p = roam::widest_way(survey_of(m), {-2.5, 0.0, 1.5}, {2.5, 0.0, 1.5}, flying);
+    ASSERT_TRUE(p.found);
+    EXPECT_NEAR(p.radius, 0.5 * std::max(window, 0.6), wanted_error);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "train/open_space.h"
+
 namespace roam::training {
 
 namespace {
@@ -75,7 +77,11 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
     for (Vec3& place : centres) place.z += 0.5 * settings.height;
     centres.front() = start_over(survey, body, way.front(), settings.step);
   }
-  Walker walker(survey.world(), settings, kind.mode, centres.front());
+  // Flying, the way may lead over the scene and beside it.
+  Box box;
+  for (const Vec3& place : centres) box.include(place);
+  const OpenSpace space(survey.world(), kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(space, settings, kind.mode, centres.front());
   Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt});
   const RouteResult& result = route.result();
   const bool fits = !was_put_aside(result, centres.front());
