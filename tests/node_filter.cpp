@@ -125,6 +125,27 @@ void touch_every_child(bool top) {
   EXPECT_GT(left_out, tested / 4) << "whole numbers tell nothing";
 }
 
+TEST(NodeFilter, LosesNoChildOfATinyTileToALargeBodyFarOff) {
+  clutter::Random random(42);
+  Node node{};
+  node.child_count = kWidth;
+  for (int k = 0; k < 3; ++k) {
+    node.shift[k] = 8;
+    for (int i = 0; i < kWidth; ++i) node.upper[k][i] = 255;
+  }
+  const Vec3 origin(-13739.0, 253.0, 182.0);
+  constexpr double finest = 0x1p-19, wide = 65536.0 * finest;
+  for (int q = 0; q < 2000; ++q) {
+    const double radius = random.between(500.0, 1000.0), h = random.between(0.0, 1000.0);
+    // The end of the axis is so near that the tile is deep inside of the body.
+    const double off = (q % 2 == 0 ? 1.0 : -1.0) * random.between(0.0, radius + h - 1.0);
+    const Vec3 start = origin + Vec3(0.5 * wide, 0.5 * wide, off);
+    const lanes::Frame frame(origin, finest, start);
+    const lanes::Swept swept(frame, lanes::Reach(Vec3(0.0, 0.0, q % 3 == 0 ? 1.0 : 0.0), radius, h), 0.0F);
+    ASSERT_EQ(lanes::met_children(node, swept), (1U << kWidth) - 1) << q << ": " << off << " m off";
+  }
+}
+
 TEST(NodeFilter, LosesNoChildOfATile) { touch_every_child(false); }
 
 TEST(NodeFilter, LosesNoChildOfTheTreeOverTiles) { touch_every_child(true); }

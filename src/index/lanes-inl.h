@@ -203,15 +203,17 @@ struct Swept {
   alignas(16) std::int32_t lower[4], upper[4];
 
   HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
-    // Of what is farther off than any plane only the side matters. Planes lie between 0 and 2^29 + 2^19 steps.
-    constexpr float far = 0x1p29F;
-    constexpr std::int32_t far_start = 1 << 30;
+    // Planes lie between 0 and 2^16 steps of a tile, 2^29 + 2^19 of the tree over tiles: of what is farther off only
+    // the side matters. A reach that is cut off still leads from any start, as it is cut off, past all planes of a
+    // tile; in the tree over tiles none is so long. No sum of these and an origin overflows.
+    constexpr std::int32_t farthest = (1 << 30) - (1 << 18), end = 1 << 30;
+    constexpr float longest = 0x1p30F - 0x1p17F;
     const float steps = frame.inverse * (1.0F + kTimeRoundings * kUnit);
     for (int k = 0; k < 4; ++k) {
-      const std::int32_t whole = std::min(std::max(frame.whole[k], -far_start), far_start);
+      const std::int32_t whole = std::min(std::max(frame.whole[k], -farthest), farthest);
       const float low = (reach.lower[k] - more) * steps, high = (reach.upper[k] + more) * steps;
-      lower[k] = whole + static_cast<std::int32_t>(std::max(low, -far)) - 2;
-      upper[k] = whole + static_cast<std::int32_t>(std::min(high, far)) + 2;
+      lower[k] = std::max(whole + static_cast<std::int32_t>(std::max(low, -longest)) - 2, -end);
+      upper[k] = std::min(whole + static_cast<std::int32_t>(std::min(high, longest)) + 2, end);
     }
   }
 };
