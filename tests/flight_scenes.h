@@ -118,15 +118,15 @@ inline Mesh joined_by_openings(const std::vector<Hole>& openings) {
   return m;
 }
 
-/// Open country under the sky, 8 m by 8 m for each of `n` by `n` blocks on it, which are 2 m high and more.
+/// Open country under the sky, 16 m by 16 m for each of `n` by `n` blocks on it, which are 2 m high and more.
 inline Mesh open_country(int n) {
   Mesh m;
-  for (int i = 0; i < 4 * n; ++i) {
-    for (int j = 0; j < 4 * n; ++j) scenes::add_floor(m, 2.0 * i, 2.0 * j, 2.0 * i + 2.0, 2.0 * j + 2.0, 0.0);
+  for (int i = 0; i < 8 * n; ++i) {
+    for (int j = 0; j < 8 * n; ++j) scenes::add_floor(m, 2.0 * i, 2.0 * j, 2.0 * i + 2.0, 2.0 * j + 2.0, 0.0);
   }
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      const Vec3 at(2.5 + 8.0 * i, 2.5 + 8.0 * j, 0.0);
+      const Vec3 at(2.5 + 16.0 * i, 2.5 + 16.0 * j, 0.0);
       scenes::add_box(m, at, at + Vec3(4.0, 3.0, 2.0 + 0.4 * (n * i + j)));
     }
   }

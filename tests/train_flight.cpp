@@ -58,12 +58,12 @@ TEST(TrainFlight, RoomsWithoutAWayBetweenThemAreTwoParts) {
 }
 
 TEST(TrainFlight, UnderTheSkyWhatIsOpenIsTrainedAndNotTheInsideOfBlocks) {
-  const Training t = trained(flight::open_country(3), 0.4);
+  const Training t = trained(flight::open_country(2), 0.4);
   expect_proven(t);
   EXPECT_FALSE(t.largest) << t.answer;
   for (const roam::TrainedPath& path : t.paths) {
     for (const roam::Vec3& place : path.way) {
-      const double x = std::fmod(place.x, 8.0), y = std::fmod(place.y, 8.0);
+      const double x = std::fmod(place.x, 16.0), y = std::fmod(place.y, 16.0);
       EXPECT_FALSE(place.z < 2.0 && x > 2.5 && x < 6.5 && y > 2.5 && y < 5.5) << place.x << " " << place.y;
     }
   }
