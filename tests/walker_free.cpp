@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 
 #include "walker_judged.h"
@@ -54,6 +55,9 @@ class ChangingRoom final : public roam::Space {
   [[nodiscard]] std::string object_name(std::uint64_t triangle) const override { return world_->object_name(triangle); }
   [[nodiscard]] std::uint64_t revision() const override { return revision_; }
   [[nodiscard]] bool tells_changes() const override { return tells_; }
+  [[nodiscard]] double speed_limit() const override { return limit; }
+
+  double limit = std::numeric_limits<double>::infinity();  ///< m/s
 
  private:
   std::unique_ptr<Mesh> mesh_;
@@ -168,6 +172,29 @@ TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
       }
     }
   }
+}
+
+TEST(WalkerFree, WhatComesUponABodyThatIsHeldBackFreesIt) {
+  ChangingRoom room(hall(), true);
+  Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
+  room.limit = 0.0;
+  room.become(walled_hall(0.1));
+  EXPECT_TRUE(w.step({{5.0, 0.0, 0.0}}, frame).has(EventKind::freed));
+  EXPECT_LT(w.position().x, 0.1 - 0.3 + 1e-6);
+}
+
+TEST(WalkerFree, ACeilingThatComesUponAWalkerMakesItCrouch) {
+  Mesh low = floor_mesh();
+  add_box(low, {-19.0, -9.0, 1.375}, {19.0, 9.0, 2.5});  // stored exactly
+  ChangingRoom room(floor_mesh(), true);
+  Walker w(room, {}, Mode::walk, {0.0, 0.0, 1.0});
+  for (int i = 0; i < 30; ++i) w.step({}, frame);
+  room.become(low);
+  const StepReport& r = w.step({{1.4, 0.0, 0.0}}, frame);
+  EXPECT_TRUE(r.has(EventKind::crouched));
+  EXPECT_FALSE(r.has(EventKind::freed));
+  EXPECT_TRUE(w.crouched());
+  EXPECT_NEAR(w.feet().z, 0.0, near_ground);
 }
 
 TEST(WalkerFree, AClearanceThatWasLowGrowsAgain) {
