@@ -160,6 +160,17 @@ TEST(ProfileOfWalk, MakesTheBodySmallerInItsRegions) {
   EXPECT_EQ(parsed(result)["violations"], 0);
 }
 
+TEST(ProfileOfWalk, SaysWhatTheBodyNeedsAsItIsInARegion) {
+  Trained trained;
+  trained.profile.radius = 0.3;
+  trained.profile.regions = {{{{9.0, -2.0, -0.1}, {11.0, 2.0, 3.0}}, 0.28, 0.0, "too wide for the door"}};
+  trained.save();
+  (void)trained.folder.write("p.path", "2 0 0.9\n18 0 0.9\n");
+  const Json report = parsed(trained.walk());
+  EXPECT_EQ(report["outcome"], "blocked");
+  EXPECT_TRUE(contains(report["why"], "the body needs 0.560 m across")) << report["why"];
+}
+
 TEST(ProfileOfView, IsTakenOnItsOwnAndOverruled) {
   const Trained trained;
   const ProgramResult result = trained.view();

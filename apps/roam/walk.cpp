@@ -212,6 +212,7 @@ ExitStatus walk(WalkOptions options) {
   report.triangles = scene.triangles();
   report.mode = mode;
   report.settings = options.settings;
+  report.body = walker.body();
   if (options.profile) report.profile = options.profile->file.string();
   report.waypoints = path.size();
   report.eye = walker.eye();

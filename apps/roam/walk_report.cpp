@@ -30,8 +30,9 @@ std::string explain_blocked(const WalkReport& report) {
   std::string text = fmt::format("at {} by {} (triangle {}), touched at {}", at(result.end), quoted(report.object),
                                  blockage.triangle, at(blockage.point));
   if (blockage.opening) {
+    const Body body = report.body.value_or(Body::capsule(report.settings.radius, report.settings.height));
     text += fmt::format("; the opening there is {:.3f} m, the body needs {:.3f} m across and {:.3f} m in height",
-                        *blockage.opening, 2.0 * report.settings.radius, report.settings.height);
+                        *blockage.opening, 2.0 * body.radius, body.height());
   } else if (report.mode == Mode::walk && blockage.normal.z < 0.5) {
     text += "; there is no opening: lead the path around it";
   }

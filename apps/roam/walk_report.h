@@ -28,6 +28,7 @@ struct WalkReport {
   std::optional<Verification> verified;
   double verify_seconds = 0.0;
   std::optional<PagerStats> paging;  ///< where the scene is a store
+  std::optional<Body> body;          ///< at the end, where it may be other than `settings`: in a region, crouched
 };
 
 /// What a pager held and did, as every report says it.
