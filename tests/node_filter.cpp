@@ -131,7 +131,10 @@ TEST(NodeFilter, LosesNoChildOfATinyTileToALargeBodyFarOff) {
   node.child_count = kWidth;
   for (int k = 0; k < 3; ++k) {
     node.shift[k] = 8;
-    for (int i = 0; i < kWidth; ++i) node.upper[k][i] = 255;
+    for (int i = 0; i < kWidth; ++i) {
+      node.lower[k][i] = 1;
+      node.upper[k][i] = 254;
+    }
   }
   const Vec3 origin(-13739.0, 253.0, 182.0);
   constexpr double finest = 0x1p-19, wide = 65536.0 * finest;
