@@ -185,8 +185,9 @@ Limit steepest(const ProbeSearch& search, const Passage& passage, double most) {
 }  // namespace
 
 Measure ProbeSearch::measure() const {
-  Measure measure{options.mode, options.mode == Mode::fly ? 0.0 : options.height, options.step, options.widest,
-                  options.narrowest};
+  Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
+                  options.step,      options.widest,
+                  options.narrowest, options.support_max};
   // As the widest way begins; a sphere's step comes down to its radius.
   if (measure.mode == Mode::walk && measure.height == 0.0) measure.step = std::min(measure.step, measure.widest);
   return measure;
