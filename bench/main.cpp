@@ -1,8 +1,12 @@
 // The program roam-bench, which `roam bench` starts: it links other people's engines, which roam itself does not.
+#include <string_view>
+
 #include "bench_verbs.h"
 #include "command_line.h"
+#include "row_process.h"
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == roam::bench::row_verb) return roam::bench::row_main(argc, argv);
   // What a user typed was `roam bench ...`, and messages speak of that.
   CLI::App program{"roam bench: roam measured beside other engines.", "roam bench"};
   program.footer(
@@ -11,5 +15,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   roam::app::Run chosen;
   roam::bench::add_engines(program, chosen);
+  roam::bench::add_paper(program, chosen);
+  roam::bench::add_scale(program, chosen);
   return roam::app::run_command_line(program, chosen, argc, argv);
 }

@@ -1,0 +1,112 @@
+// roam bench paper: the paper's two tables. Each row is a process of its own, so that its memory is its own and a crash
+// is one row's.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "bench_verbs.h"
+#include "paper_report.h"
+#include "paper_scene.h"
+#include "report.h"
+#include "roam/error.h"
+#include "row_process.h"
+#include "validators.h"
+
+namespace roam::bench {
+namespace {
+
+using app::Json;
+
+struct Options {
+  PaperOptions paper;
+  std::vector<std::string> rows;
+  std::string picture;
+  bool json = false;
+};
+
+std::vector<std::string> row_names() {
+  std::vector<std::string> names;
+  for (const PaperRow& row : paper_rows()) names.push_back(row.name);
+  return names;
+}
+
+PaperFindings find(const Options& options) {
+  PaperFindings findings;
+  const ScratchFolder scratch(options.paper.scratch);
+  const LaidOut laid = lay_out(options.paper, scratch.path());
+  findings.scene = laid.title;
+  findings.triangles = laid.triangles;
+  findings.prepared = laid.prepared;
+  findings.ways = paper_ways(options.paper.radius, options.paper.split_radius);
+  for (const PaperRow& row : paper_rows()) {
+    const auto& wanted = options.rows;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), row.name) == wanted.end()) continue;
+    RowFindings& found = findings.rows.emplace_back();
+    found.row = &row;
+    if (!row.load) continue;
+    fmt::print(stderr, "{}\n", row.title);
+    found.result = run_row(row.name, laid.scene, options.paper);
+    for (std::size_t i = 0; found.result.failure.empty() && i < findings.ways.size(); ++i) {
+      found.judged.push_back(judge(findings.ways[i], found.result.ways[i], *laid.near));
+    }
+  }
+  return findings;
+}
+
+app::ExitStatus run(const Options& options) {
+  const PaperFindings findings = find(options);
+  if (options.json) {
+    app::print(paper_json(findings));
+  } else {
+    app::print(paper_tables(findings));
+  }
+  if (!options.picture.empty()) draw_paper(options.picture, findings);
+  for (const RowFindings& row : findings.rows) {
+    for (const Judgement& judged : row.judged) {
+      if (row.row->name.starts_with("roam") && judged.in_walls > 0) return app::answer_no;
+    }
+  }
+  return app::done;
+}
+
+constexpr const char* help =
+    "The scene is laid out in a scratch folder: as a file and a store for roam, as osgb files for the others. Each "
+    "row\n"
+    "then runs in a process of its own. Rows that cannot be run are named.\n"
+    "docs/paper.md explains the cells, and sets them beside the printed ones.\n\n"
+    "Exit status 3: roam itself was in a wall.\n\n"
+    "Examples:\n"
+    "  roam bench paper\n"
+    "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB\n"
+    "  roam bench paper --scene your/own/gallery.ive --json\n";
+
+}  // namespace
+
+void add_paper(CLI::App& program, app::Run& run) {
+  CLI::App* verb = program.add_subcommand("paper", "Tables 1 and 2 of Xie and Niu (2020), measured here");
+  verb->footer(help);
+  const auto options = std::make_shared<Options>();
+  PaperOptions& paper = options->paper;
+  verb->add_option("--scene", paper.scene, "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
+      ->type_name("FILE");
+  verb->add_option("--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB (default: 2M)")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}}))
+      ->type_name("N");
+  verb->add_option("--rows", options->rows, "Which rows, separated by commas (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(row_names()));
+  verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(app::positive);
+  verb->add_option("--split-radius", paper.split_radius, "Of the sphere that is to cross the split, metres")
+      ->capture_default_str()
+      ->check(app::positive);
+  verb->add_option("--patience", paper.patience, "Seconds: a way that takes longer is ended")
+      ->capture_default_str()
+      ->check(app::positive);
+  verb->add_option("--scratch", paper.scratch, "Where the scene is laid out (default: the system's temporary folder)")
+      ->type_name("DIR");
+  verb->add_option("--picture", options->picture, "Draw the steps' times as bars, to an SVG file")->type_name("FILE");
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return bench::run(*options); }; });
+}
+
+}  // namespace roam::bench

@@ -1,0 +1,190 @@
+#include "paper_movers.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "roam/import.h"
+#include "roam/pager.h"
+#include "roam/size_learner.h"
+#include "roam/store.h"
+#include "roam/walker.h"
+#include "roam/world.h"
+
+namespace roam::bench {
+namespace {
+
+constexpr double dt = 1.0 / paper_rate;
+constexpr double skin = 1e-3;     // m: how far from a wall a sweep stops
+constexpr double gravity = 9.81;  // m/s2
+constexpr int most_slides = 4;
+
+/// A walker, and what it walks in.
+struct Walk {
+  std::shared_ptr<const Space> space;
+  std::shared_ptr<Pager> pager;  // null for a world
+  std::optional<Walker> walker;
+  std::optional<SizeLearner> learner;  // on ways that are adapting
+};
+
+Mover mover_of(const std::shared_ptr<Walk>& walk) {
+  Mover mover;
+  mover.place = [walk](const Way& way) {
+    constexpr double longest_wait = 60.0;  // s, for what is around the start
+    if (walk->pager) (void)walk->pager->wait({.radius = way.radius}, way.from, Vec3(0.0), longest_wait);
+    walk->walker.emplace(*walk->space, WalkerSettings::sphere(way.radius), way.walking ? Mode::walk : Mode::fly,
+                         way.from);
+    walk->learner.reset();
+    if (!way.adapting) return;
+    Profile profile;
+    profile.radius = way.radius;
+    profile.height = 2.0 * way.radius;
+    walk->learner.emplace(profile);
+  };
+  mover.step = [walk](const Vec3& velocity) {
+    walk->walker->step({.velocity = velocity}, dt);
+    if (walk->learner) {
+      if (const auto lesson = walk->learner->watch(*walk->walker, velocity, dt)) {
+        walk->learner->take(*walk->walker, *lesson);
+      }
+    }
+    return walk->walker->position();
+  };
+  mover.radius = [walk] { return walk->walker->body().radius; };
+  if (walk->pager) {
+    mover.rest = [walk](double seconds) {
+      const Walker& walker = *walk->walker;
+      (void)walk->pager->wait(walker.body(), walker.position(), walker.velocity(), seconds);
+    };
+  }
+  return mover;
+}
+
+}  // namespace
+
+Mover roam_in_memory(const PaperScene& scene) {
+  const auto walk = std::make_shared<Walk>();
+  walk->space = std::make_shared<World>(World::build(import_scene(scene.scene).meshes));
+  return mover_of(walk);
+}
+
+Mover roam_in_store(const PaperScene& scene) {
+  const auto walk = std::make_shared<Walk>();
+  walk->pager = std::make_shared<Pager>(Store::open(scene.store), PagerOptions{.memory = scene.memory});
+  walk->space = walk->pager;
+  return mover_of(walk);
+}
+
+Mover collide_and_slide(Sweep sweep, const Vec3& shift) {
+  struct State {
+    Way way;
+    Vec3 place{0.0};
+    double falling = 0.0;  // m/s
+  };
+  const auto state = std::make_shared<State>();
+  // As far as the sweep says, less the skin.
+  const auto advance = [sweep = std::move(sweep)](double radius, Vec3& place, const Vec3& motion) {
+    const double length = glm::length(motion);
+    std::optional<Touch> touch;
+    if (length > 0.0) touch = sweep(radius, place, motion);
+    place += (touch ? std::max(0.0, touch->time - skin / length) : 1.0) * motion;
+    return touch;
+  };
+  Mover mover;
+  mover.place = [state, shift](const Way& way) { *state = {way, way.from + shift, 0.0}; };
+  mover.step = [state, shift, advance](const Vec3& velocity) {
+    Vec3 rest = velocity * dt;
+    for (int i = 0; i < most_slides && glm::length(rest) > 1e-9; ++i) {
+      const Vec3 before = state->place;
+      const auto touch = advance(state->way.radius, state->place, rest);
+      if (!touch) break;
+      rest -= state->place - before;
+      rest -= std::min(0.0, glm::dot(rest, touch->normal)) * touch->normal;
+      if (glm::dot(rest, velocity) <= 0.0) break;
+    }
+    if (state->way.walking) {
+      state->falling += gravity * dt;
+      if (advance(state->way.radius, state->place, {0.0, 0.0, -state->falling * dt})) state->falling = 0.0;
+    }
+    return state->place - shift;
+  };
+  return mover;
+}
+
+Mover go_or_stay(Blocked blocked, const Vec3& shift) {
+  struct State {
+    Way way;
+    Vec3 place{0.0};
+    double falling = 0.0;  // m/s
+  };
+  const auto state = std::make_shared<State>();
+  Mover mover;
+  mover.place = [state, shift](const Way& way) { *state = {way, way.from + shift, 0.0}; };
+  mover.step = [state, shift, blocked = std::move(blocked)](const Vec3& velocity) {
+    const Vec3 motion = velocity * dt;
+    if (!blocked(state->way.radius, state->place, motion)) state->place += motion;
+    if (state->way.walking) {
+      state->falling += gravity * dt;
+      const Vec3 down{0.0, 0.0, -state->falling * dt};
+      if (blocked(state->way.radius, state->place, down)) {
+        state->falling = 0.0;
+      } else {
+        state->place += down;
+      }
+    }
+    return state->place - shift;
+  };
+  return mover;
+}
+
+const std::vector<PaperRow>& paper_rows() {
+  static const std::vector<PaperRow> rows{
+      {"roam", "roam", "Walker in a World, all in memory", {}, roam_in_memory},
+      {"roam-store", "roam, from a store", "Walker in a Pager over a store", {}, roam_in_store},
+      {"paper",
+       "the paper's method",
+       "box intersector, equations (1)-(6), slide; OpenSceneGraph, all in memory",
+       {},
+       [](const PaperScene& scene) { return paper_method(scene, Graph::loaded); }},
+      {"paper-kdtree",
+       "the paper's method, KdTree",
+       "the same with a KdTree a geometry",
+       {},
+       [](const PaperScene& scene) { return paper_method(scene, Graph::with_kd_trees); }},
+      {"paper-paged",
+       "the paper's method, paged",
+       "the same over PagedLOD, pages read when they are met",
+       {},
+       [](const PaperScene& scene) { return paper_method(scene, Graph::paged); }},
+      {"polytope",
+       "polytope",
+       "osgUtil::PolytopeIntersector, go or stay; all in memory",
+       {},
+       [](const PaperScene& scene) { return polytope_method(scene, Graph::loaded); }},
+      {"polytope-kdtree",
+       "polytope, KdTree",
+       "the same with a KdTree a geometry",
+       {},
+       [](const PaperScene& scene) { return polytope_method(scene, Graph::with_kd_trees); }},
+#ifdef ROAM_BENCH_BULLET
+      {"osg-bullet",
+       "OSG + Bullet",
+       "read by OpenSceneGraph; sweep of a sphere in Bullet, slide; all in memory",
+       {},
+       osg_bullet},
+#else
+      {"osg-bullet", "OSG + Bullet", {}, "install libbullet-dev and build again", {}},
+#endif
+      {"ogre-bullet", "OGRE + Bullet", {}, "this program drives no OGRE", {}},
+      {"physx",
+       "PhysX character controller",
+       {},
+       "this program drives no controller of PhysX; `roam bench engines "
+       "--wasm-engines DIR` measures its sweeps",
+       {}},
+      {"unity", "Unity3D", {}, "it cannot be run without its maker's leave", {}},
+  };
+  return rows;
+}
+
+}  // namespace roam::bench

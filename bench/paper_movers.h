@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// The rows of the paper's tables: programs that move a sphere, each with the means of one engine.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "paper_ways.h"
+#include "roam/mesh.h"
+
+namespace roam::bench {
+
+/// Added to Table 1's coordinates for engines that compute in floats: 13.7 km from the origin these are 1 mm apart.
+inline const Vec3 paper_shift{13121.5, -909.5, -182.0};
+
+/// The scene, as the command lays it out for its rows.
+struct PaperScene {
+  std::string scene;           ///< what roam reads: a file
+  std::string store;           ///< the same as a store
+  std::string tiles;           ///< a folder of osgb files, shifted: one a mesh, and paged.osgb, which pages them
+  std::size_t tile_count = 0;  ///< 0.osgb, 1.osgb, ...
+  std::uint64_t memory = 0;    ///< bytes that pagers may take
+};
+
+struct PaperRow {
+  std::string name;     ///< as --rows takes it
+  std::string title;    ///< of the tables
+  std::string how;      ///< what moves the sphere, and where the scene is
+  std::string missing;  ///< empty, or what to install
+  std::function<Mover(const PaperScene&)> load{};
+};
+[[nodiscard]] const std::vector<PaperRow>& paper_rows();
+
+[[nodiscard]] Mover roam_in_memory(const PaperScene& scene);
+[[nodiscard]] Mover roam_in_store(const PaperScene& scene);
+/// The paper's box intersector and equations, or osgUtil::PolytopeIntersector, over a graph that is in memory, with
+/// KdTrees or without, or that is paged.
+enum class Graph { loaded, with_kd_trees, paged };
+[[nodiscard]] Mover paper_method(const PaperScene& scene, Graph graph);
+[[nodiscard]] Mover polytope_method(const PaperScene& scene, Graph graph);
+/// Triangles from an OpenSceneGraph scene in Bullet's btBvhTriangleMeshShape.
+[[nodiscard]] Mover osg_bullet(const PaperScene& scene);
+
+/// The triangles of the tiles, as floats, for an engine that OpenSceneGraph only reads for.
+void read_tiles(const PaperScene& scene, std::vector<float>& vertices, std::vector<std::uint32_t>& indices);
+
+/// Writes the folder of PaperScene::tiles mesh by mesh; returns how many there are.
+class TileWriter {
+ public:
+  explicit TileWriter(std::string folder);
+  ~TileWriter();
+  void add(const Mesh& mesh);
+  /// Writes paged.osgb.
+  std::size_t finish();
+
+ private:
+  struct State;
+  State* state_;
+};
+
+/// First touch of a sphere, and the way out.
+struct Touch {
+  double time = 1.0;
+  Vec3 normal{0.0};
+};
+using Sweep = std::function<std::optional<Touch>(double radius, const Vec3& from, const Vec3& motion)>;
+/// What a program does that has a sweep and nothing else: go until `skin` before the touch, slide along its plane, four
+/// times at most; who walks also falls, and stops falling where it touches. `shift` is added to all places.
+[[nodiscard]] Mover collide_and_slide(Sweep sweep, const Vec3& shift);
+/// What a program does that is told only whether a place is free: go there, or stay.
+using Blocked = std::function<bool(double radius, const Vec3& from, const Vec3& motion)>;
+[[nodiscard]] Mover go_or_stay(Blocked blocked, const Vec3& shift);
+
+}  // namespace roam::bench

@@ -1,0 +1,190 @@
+#include "paper_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "bars.h"
+
+namespace roam::bench {
+namespace {
+
+using app::Json;
+
+// Of paper_ways.
+constexpr std::size_t straight = 0, corner = 1, split = 2, room = 4, adapted = 5, table_1_ways = 3;
+
+/// Of some steps, microseconds.
+struct Steps {
+  std::size_t count = 0, jams = 0;
+  double p50 = 0.0, p99 = 0.0, most = 0.0, sum = 0.0;
+};
+
+Steps steps_of(const RowFindings& row, const std::vector<std::size_t>& ways) {
+  std::vector<double> all;
+  for (const std::size_t way : ways) {
+    const auto& times = row.result.ways[way].nanoseconds;
+    all.insert(all.end(), times.begin(), times.end());
+  }
+  if (all.empty()) return {};
+  std::sort(all.begin(), all.end());
+  const auto at = [&](double part) {
+    return 1e-3 * all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
+  };
+  Steps steps{all.size(), 0, at(0.5), at(0.99), at(1.0), 1e-3 * std::accumulate(all.begin(), all.end(), 0.0)};
+  steps.jams =
+      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](double ns) { return ns > 1e9 * jam; }));
+  return steps;
+}
+
+/// Seconds, as the paper seems to count: what the steps take comes on top of the way at its speed.
+double time_of_way(const Steps& steps) { return static_cast<double>(steps.count) / paper_rate + 1e-6 * steps.sum; }
+
+/// One way of one row.
+struct Cell1 {
+  const RowFindings& row;
+  std::size_t way;
+  [[nodiscard]] const Judgement& judged() const { return row.judged[way]; }
+  [[nodiscard]] Steps steps() const { return steps_of(row, {way}); }
+};
+
+/// One row of Table 2.
+struct Cells2 {
+  double load_s = 0.0, peak_mib = 0.0;
+  Steps steps;
+  int flew_off = 0;  // of Table 1's three ways
+  bool room_entered = false, massive = false, radius_adapts = false;
+};
+
+Cells2 cells_2(const RowFindings& row) {
+  Cells2 cells{row.result.load_seconds, static_cast<double>(row.result.peak_bytes) / (1 << 20),
+               steps_of(row, {straight, corner})};
+  for (std::size_t way = 0; way < table_1_ways; ++way) {
+    const Ending ending = row.judged[way].ending;
+    cells.flew_off += ending == Ending::fell || ending == Ending::through ? 1 : 0;
+  }
+  cells.room_entered = row.judged[room].ending == Ending::reached;
+  cells.massive = row.result.peak_bytes <= massive_limit;
+  cells.radius_adapts = row.result.adapts && row.judged[adapted].ending == Ending::reached;
+  return cells;
+}
+
+const char* yes(bool is) { return is ? "yes" : "no"; }
+
+std::string table_1(const PaperFindings& findings) {
+  std::string out =
+      fmt::format("{:<18} {:>6} {:<26} {:<15} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "way", "r, m", "row",
+                  "outcome", "time, s", "steps", "p50, us", "p99, us", "max, us", "in walls", "deepest");
+  for (std::size_t way = 0; way < findings.ways.size(); ++way) {
+    for (const RowFindings& row : findings.rows) {
+      if (row.judged.empty()) continue;
+      const Cell1 cell{row, way};
+      const Steps s = cell.steps();
+      const Judgement& j = cell.judged();
+      out += fmt::format("{:<18} {:>6.3g} {:<26} {:<15} {:>9.4g} {:>7} {:>9.3g} {:>9.3g} {:>9.3g} {:>9} {:>7.3g} mm\n",
+                         findings.ways[way].name, row.result.ways[way].radius, row.row->title, name(j.ending),
+                         time_of_way(s), s.count, s.p50, s.p99, s.most, j.in_walls, 1e3 * j.deepest);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string table_2(const PaperFindings& findings) {
+  std::string out =
+      fmt::format("{:<26} {:>8} {:>9} {:>9} {:>9} {:>6} {:>9} {:>11} {:>13} {:>14}\n", "row", "load, s", "peak, MiB",
+                  "p50, us", "p99, us", "jams", "flew off", "small room", "within 1 GiB", "radius adapts");
+  for (const RowFindings& row : findings.rows) {
+    if (row.judged.empty()) {
+      out += fmt::format("{:<26} {}\n", row.row->title,
+                         row.row->load ? "failed: " + row.result.failure : "not here: " + row.row->missing);
+      continue;
+    }
+    const Cells2 c = cells_2(row);
+    out += fmt::format("{:<26} {:>8.3g} {:>9.1f} {:>9.3g} {:>9.3g} {:>6} {:>7}/3 {:>11} {:>13} {:>14}\n",
+                       row.row->title, c.load_s, c.peak_mib, c.steps.p50, c.steps.p99, c.steps.jams, c.flew_off,
+                       yes(c.room_entered), yes(c.massive), yes(c.radius_adapts));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string paper_tables(const PaperFindings& findings) {
+  std::string out = fmt::format("{}, laid out in {:.1f} s; us of the thread's own time a step\n\n", findings.scene,
+                                findings.prepared);
+  out += "Table 1: the ways. Time: the way at its speed and the time of its steps.\n" + table_1(findings);
+  out +=
+      "Table 2: the rows. Steps of ways 1 and 2; a jam is a step of over 16 ms; flew off: fell, or went through a "
+      "wall.\n" +
+      table_2(findings);
+  out += "\n";
+  for (const RowFindings& row : findings.rows) {
+    if (row.row->load) out += fmt::format("{:<26} {}\n", row.row->title, row.row->how);
+  }
+  return out;
+}
+
+Json paper_json(const PaperFindings& findings) {
+  Json table_1 = Json::array(), table_2 = Json::array(), absent = Json::array();
+  for (const RowFindings& row : findings.rows) {
+    if (row.judged.empty()) {
+      absent.push_back({{"row", row.row->name},
+                        {"title", row.row->title},
+                        {"why", row.row->load ? row.result.failure : row.row->missing}});
+      continue;
+    }
+    for (std::size_t way = 0; way < findings.ways.size(); ++way) {
+      const Cell1 cell{row, way};
+      const Steps s = cell.steps();
+      table_1.push_back({{"way", findings.ways[way].name},
+                         {"row", row.row->name},
+                         {"radius_m", row.result.ways[way].radius},
+                         {"outcome", name(cell.judged().ending)},
+                         {"time_s", time_of_way(s)},
+                         {"steps", s.count},
+                         {"p50_us", s.p50},
+                         {"p99_us", s.p99},
+                         {"max_us", s.most},
+                         {"steps_in_walls", cell.judged().in_walls},
+                         {"deepest_m", cell.judged().deepest}});
+    }
+    const Cells2 c = cells_2(row);
+    table_2.push_back({{"row", row.row->name},
+                       {"title", row.row->title},
+                       {"how", row.row->how},
+                       {"load_s", c.load_s},
+                       {"peak_mib", c.peak_mib},
+                       {"p50_us", c.steps.p50},
+                       {"p99_us", c.steps.p99},
+                       {"jams", c.steps.jams},
+                       {"flew_off", c.flew_off},
+                       {"small_room", c.room_entered},
+                       {"within_1_gib", c.massive},
+                       {"radius_adapts", c.radius_adapts}});
+  }
+  return {{"scene", findings.scene},       {"triangles", findings.triangles}, {"laid_out_s", findings.prepared},
+          {"table_1", std::move(table_1)}, {"table_2", std::move(table_2)},   {"absent", std::move(absent)}};
+}
+
+void draw_paper(const std::string& file, const PaperFindings& findings) {
+  std::vector<BarGroup> groups;
+  for (std::size_t way = 0; way < table_1_ways; ++way) {
+    BarGroup& group = groups.emplace_back();
+    group.title = "way " + findings.ways[way].name;
+    for (const RowFindings& row : findings.rows) {
+      if (row.judged.empty()) continue;
+      const Cell1 cell{row, way};
+      const Steps s = cell.steps();
+      group.bars.push_back({.name = row.row->title,
+                            .p50 = s.p50,
+                            .p99 = s.p99,
+                            .note = name(cell.judged().ending),
+                            .stressed = row.row->name.starts_with("roam")});
+    }
+  }
+  write_bars(file, "A step, " + findings.scene, groups);
+}
+
+}  // namespace roam::bench

@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// The scene of the paper's experiments, laid out for those who are to move in it.
+
+#include <memory>
+
+#include "paper_movers.h"
+#include "reference.h"
+
+namespace roam::bench {
+
+struct PaperOptions {
+  std::string scene;                    ///< a file; empty: the made gallery
+  std::uint64_t triangles = 2'000'000;  ///< of the made gallery
+  double radius = 0.5;                  ///< metres
+  double split_radius = 0.7;            ///< metres: over a split of 1.25 m
+  double patience = 60.0;               ///< seconds a way may take
+  std::string scratch;                  ///< folder; empty: the system's temporary one
+};
+
+/// A folder that is gone with it.
+class ScratchFolder {
+ public:
+  /// In `parent`, or in the system's temporary folder when that is empty. Throws roam::Error.
+  explicit ScratchFolder(const std::string& parent);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+struct LaidOut {
+  std::string title;
+  std::uint64_t triangles = 0;
+  double prepared = 0.0;  ///< seconds that writing files and store took
+  PaperScene scene;
+  std::shared_ptr<const Reference> near;  ///< all triangles within paper_reach of the ways
+};
+
+/// Writes the files into `folder`. Throws roam::Error.
+[[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::string& folder);
+
+}  // namespace roam::bench

@@ -1,0 +1,134 @@
+#include "paper_ways.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+
+#include "judge.h"
+#include "roam/generate.h"
+
+namespace roam::bench {
+namespace {
+
+constexpr double walking_speed = 1.5;  // m/s, over the split: at 50 m/s anything flies across
+constexpr double room_radius = 0.3;    // m: a door of 0.75 m lets it in
+constexpr double near_enough = 0.3;    // m from the end
+constexpr double fallen = 2.0;         // m below the way
+constexpr int window = 60;             // steps in which a body that is not stuck gets on
+constexpr double least_progress = 0.05;
+
+/// Nanoseconds that this thread has been running: what other programs do does not count.
+double thread_time() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+/// What two readings of that clock take.
+double cost_of_reading() {
+  double least = 1e9;
+  for (int i = 0; i < 1000; ++i) {
+    const double begin = thread_time();
+    least = std::min(least, thread_time() - begin);
+  }
+  return least;
+}
+
+/// How far the end is; for who walks, seen from above.
+double left(const Way& way, const Vec3& place) {
+  Vec3 rest = way.to - place;
+  if (way.walking) rest.z = 0.0;
+  return glm::length(rest);
+}
+
+/// How far a place is below the way.
+double below(const Way& way, const Vec3& place) { return std::min(way.from.z, way.to.z) - place.z; }
+
+bool arrived(const Way& way, const Vec3& place) { return left(way, place) <= near_enough; }
+
+}  // namespace
+
+std::vector<Way> paper_ways(double radius, double split_radius) {
+  const auto& paths = generate::gallery_paths;
+  return {{"1 straight", paths[0].from, paths[0].to, radius},
+          {"2 corner", paths[1].from, paths[1].to, radius},
+          {"3 split", paths[2].from, paths[2].to, split_radius, walking_speed, true},
+          {"3 split, smaller", paths[2].from, paths[2].to, radius, walking_speed, true},
+          {"grotto", {-12530.66, 1538.14, 182.0}, {-12532.52, 1539.93, 182.0}, room_radius, walking_speed},
+          {"grotto, adapted",
+           {-12530.66, 1538.14, 182.0},
+           {-12532.52, 1539.93, 182.0},
+           radius,
+           walking_speed,
+           false,
+           true}};
+}
+
+Walked walk(const Mover& mover, const Way& way, double longest) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest);
+  const double reading = cost_of_reading();
+  Walked walked;
+  Vec3 place = way.from;
+  walked.places.push_back(place);
+  walked.radius = way.radius;
+  mover.place(way);
+  double before = left(way, place);
+  while (!arrived(way, place) && below(way, place) < fallen && std::chrono::steady_clock::now() < end) {
+    Vec3 ahead = way.to - place;
+    if (way.walking) ahead.z = 0.0;
+    const double rest = glm::length(ahead);
+    const Vec3 velocity = ahead * (std::min(way.speed, rest * paper_rate) / rest);
+    const double begin = thread_time();
+    place = mover.step(velocity);
+    walked.nanoseconds.push_back(std::max(0.0, thread_time() - begin - reading));
+    walked.places.push_back(place);
+    if (mover.radius) walked.radius = std::min(walked.radius, mover.radius());
+    if (mover.rest) mover.rest(1.0 / paper_rate);
+    if (walked.nanoseconds.size() % window != 0) continue;
+    const double progress = before - left(way, place);
+    // Who falls does not get on, and is not stuck.
+    const bool falls = below(way, place) > below(way, walked.places[walked.places.size() - window]) + 0.1;
+    if (progress < least_progress * way.speed * window / paper_rate && !falls) break;
+    before = left(way, place);
+  }
+  return walked;
+}
+
+Judgement judge(const Way& way, const Walked& walked, const Reference& near) {
+  Judgement judgement;
+  const double radius = walked.radius;
+  const Body body{.radius = radius};
+  for (std::size_t i = 0; i + 1 < walked.places.size(); ++i) {
+    const Query step{body, walked.places[i], walked.places[i + 1] - walked.places[i]};
+    const double depth = radius - near.smallest_clearance(step, 1.0, radius);
+    if (depth > depth_allowed) {
+      ++judgement.in_walls;
+      judgement.deepest = std::max(judgement.deepest, depth);
+    }
+    if (depth < radius - 1e-3 || glm::length(step.motion) == 0.0) continue;
+    if (near.sweep({.body = {.radius = 0.0}, .from = step.from, .motion = step.motion}).hit) {
+      judgement.ending = Ending::through;
+      return judgement;
+    }
+  }
+  const Vec3& last = walked.places.back();
+  judgement.ending = below(way, last) >= fallen ? Ending::fell : arrived(way, last) ? Ending::reached : Ending::stuck;
+  return judgement;
+}
+
+const char* name(Ending ending) {
+  switch (ending) {
+    case Ending::reached:
+      return "completed";
+    case Ending::stuck:
+      return "stuck";
+    case Ending::fell:
+      return "fell";
+    default:
+      return "through a wall";
+  }
+}
+
+}  // namespace roam::bench

@@ -1,0 +1,147 @@
+#include "row_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "roam/error.h"
+
+extern char** environ;
+
+namespace roam::bench {
+namespace {
+
+using nlohmann::json;
+
+constexpr int result_end = 3;  // the descriptor that a row writes to
+
+/// The largest resident memory of this process so far.
+std::uint64_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return 1024 * std::stoull(line.substr(6));
+  }
+  return 0;
+}
+
+/// Numbers as text lose nothing here: they are printed with all their digits.
+json to_json(const Walked& walked) {
+  json places = json::array();
+  for (const Vec3& p : walked.places) places.push_back({p.x, p.y, p.z});
+  return {{"radius", walked.radius}, {"ns", walked.nanoseconds}, {"places", places}};
+}
+
+RowResult parse(const std::string& text) {
+  const json report = json::parse(text);
+  RowResult result;
+  result.load_seconds = report.at("load_s");
+  result.peak_bytes = report.at("peak_bytes");
+  result.adapts = report.at("adapts");
+  for (const json& way : report.at("ways")) {
+    Walked& walked = result.ways.emplace_back();
+    walked.radius = way.at("radius");
+    walked.nanoseconds = way.at("ns").get<std::vector<double>>();
+    for (const json& p : way.at("places")) walked.places.emplace_back(p[0], p[1], p[2]);
+  }
+  return result;
+}
+
+json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const Mover mover = row.load(scene);
+  const double loaded = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  json ways = json::array();
+  for (const Way& way : paper_ways(options.radius, options.split_radius)) {
+    ways.push_back(to_json(walk(mover, way, options.patience)));
+  }
+  const json report{{"load_s", loaded},
+                    {"peak_bytes", peak_bytes()},
+                    {"adapts", static_cast<bool>(mover.radius)},
+                    {"ways", std::move(ways)}};
+  return report;
+}
+
+}  // namespace
+
+RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options) {
+  std::vector<std::string> arguments{"roam-bench",
+                                     row_verb,
+                                     name,
+                                     scene.scene,
+                                     scene.store,
+                                     scene.tiles,
+                                     std::to_string(scene.tile_count),
+                                     std::to_string(scene.memory),
+                                     fmt::format("{}", options.radius),
+                                     fmt::format("{}", options.split_radius),
+                                     fmt::format("{}", options.patience)};
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], result_end);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  std::string text;
+  std::array<char, 65536> buffer{};
+  for (ssize_t got = 0; failed == 0 && (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
+    if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  ::close(ends[0]);
+  if (failed != 0) throw Error(std::string("cannot start a row: ") + ::strerror(failed));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  RowResult broken;
+  if (WIFSIGNALED(status)) {
+    broken.failure = fmt::format("ended by signal {}", ::strsignal(WTERMSIG(status)));
+    return broken;
+  }
+  if (WEXITSTATUS(status) != 0) {
+    broken.failure = text.empty() ? "ended early" : text;
+    return broken;
+  }
+  return parse(text);
+}
+
+int row_main(int argc, char** argv) {
+  constexpr int expected = 11;
+  std::string text;
+  int status = 1;
+  try {
+    if (argc != expected) throw Error("a row of the paper is started by `roam bench paper` only");
+    const PaperScene scene{argv[3], argv[4], argv[5], std::stoul(argv[6]), std::stoull(argv[7])};
+    PaperOptions options;
+    options.radius = std::stod(argv[8]);
+    options.split_radius = std::stod(argv[9]);
+    options.patience = std::stod(argv[10]);
+    for (const PaperRow& row : paper_rows()) {
+      if (row.name == argv[2] && row.load) text = run(row, scene, options).dump();
+    }
+    status = text.empty() ? 1 : 0;
+  } catch (const std::exception& error) {
+    text = error.what();
+  }
+  std::FILE* out = ::fdopen(result_end, "w");
+  if (out == nullptr) return 1;
+  std::fwrite(text.data(), 1, text.size(), out);
+  return std::fclose(out) == 0 ? status : 1;
+}
+
+}  // namespace roam::bench

@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// One row of the paper's tables, run by a process of its own.
+
+#include "paper_scene.h"
+
+namespace roam::bench {
+
+struct RowResult {
+  std::string failure;           ///< empty, or how it ended before it was done
+  bool adapts = false;           ///< it can change the radius on the way
+  double load_seconds = 0.0;     ///< from the start until a body can move
+  std::uint64_t peak_bytes = 0;  ///< resident, the largest
+  std::vector<Walked> ways;      ///< as paper_ways
+};
+
+/// Starts this program again with the row's name, and waits.
+[[nodiscard]] RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options);
+
+/// What the child does: walks all ways and writes the result to the descriptor `out`. `argv` as run_row passes it.
+[[nodiscard]] int row_main(int argc, char** argv);
+/// The first argument of such a child.
+inline constexpr const char* row_verb = "--row-of-the-paper";
+
+}  // namespace roam::bench

@@ -1,0 +1,253 @@
+// roam bench scale: what a sweep, a clearance and a step take in the same gallery, ever finer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "bench_verbs.h"
+#include "paper_scene.h"
+#include "report.h"
+#include "roam/error.h"
+#include "roam/generate.h"
+#include "roam/pager.h"
+#include "roam/route.h"
+#include "roam/store_build.h"
+#include "roam/world.h"
+#include "steps_picture.h"
+#include "timing.h"
+#include "validators.h"
+
+namespace roam::bench {
+namespace {
+
+using app::Json;
+
+struct Options {
+  std::uint64_t triangles = 1'000'000;
+  std::uint64_t least = 100'000;
+  double memory_gib = 4.0;
+  std::uint64_t pager_mib = 64;
+  double speed = 50.0;
+  int rounds = 3;
+  std::string scratch, picture;
+  bool json = false;
+};
+
+// While a world is built there are the meshes and the index: docs/stores.md.
+constexpr double building_bytes = 60.0;  // a triangle
+constexpr double radius = 0.3;           // m
+
+/// One size of the scene.
+struct Size {
+  std::uint64_t triangles = 0;
+  std::shared_ptr<const Space> space;
+  std::shared_ptr<Pager> pager;  // null for what is all in memory
+  double build_s = 0.0;
+  std::uint64_t bytes = 0;  // that queries need
+};
+
+/// What is timed of each step of a flight.
+enum class What : std::uint8_t { sweep, clearance, step };
+constexpr std::array<What, 3> all_of_it{What::sweep, What::clearance, What::step};
+constexpr const char* name(What what) {
+  return what == What::sweep ? "sweep" : what == What::clearance ? "clearance" : "step";
+}
+
+/// Medians over the rounds, microseconds.
+struct Times {
+  double p50 = 0.0, p99 = 0.0;
+};
+struct Row {
+  const Size* size = nullptr;
+  std::size_t steps = 0;
+  std::array<Times, all_of_it.size()> times;
+};
+
+Size make_size(std::uint64_t triangles, const Options& options, const std::string& folder) {
+  const generate::Scene gallery = generate::gallery({.triangles = triangles});
+  Size size{.triangles = gallery.triangles(), .space = {}, .pager = {}};
+  const auto start = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  fmt::print(stderr, "making {} triangles\n", size.triangles);
+  if (static_cast<double>(size.triangles) * building_bytes <= options.memory_gib * (1 << 30)) {
+    const std::vector<Mesh> meshes = generate::collect(gallery);
+    const double made = passed();
+    const auto world = std::make_shared<World>(World::build(meshes));
+    size.build_s = passed() - made;
+    size.bytes = world->stats().bytes;
+    size.space = world;
+    return size;
+  }
+  const std::string file = fmt::format("{}/{}.ply", folder, triangles);
+  generate::write_scene(gallery, file);
+  StoreBuildOptions build;
+  build.scene = {file};
+  build.output = fmt::format("{}/{}.roam", folder, triangles);
+  const double made = passed();
+  build_store(build);
+  size.build_s = passed() - made;
+  std::filesystem::remove(file);
+  size.pager = std::make_shared<Pager>(Store::open(build.output), PagerOptions{.memory = options.pager_mib << 20});
+  size.bytes = size.pager->stats().memory;
+  size.space = size.pager;
+  return size;
+}
+
+/// One flight along the paper's first path; nanoseconds of each step.
+std::vector<double> fly(const Size& size, What what, double speed) {
+  const generate::Path& path = generate::gallery_paths[0];
+  const WalkerSettings settings = WalkerSettings::sphere(radius);
+  const Body body{.radius = radius};
+  constexpr double longest_wait = 60.0;  // s, for what is around the start
+  if (size.pager) (void)size.pager->wait(body, path.from, Vec3(0.0), longest_wait);
+  Walker walker(*size.space, settings, Mode::fly, path.from);
+  const std::vector<Vec3> way{path.from, path.to};
+  Route route(walker, way, {.speed = speed});
+  const Vec3 motion = glm::normalize(path.to - path.from) * speed / 60.0;
+  std::vector<double> times;
+  double unused = 0.0;
+  while (!route.done()) {
+    const Vec3 place = walker.position();
+    const std::uint64_t before = clock_before();
+    if (what == What::sweep) unused += size.space->sweep(body, place, motion).time;
+    if (what == What::clearance) unused += size.space->clearance(body, place, motion, 1.0).distance;
+    if (what == What::step) route.advance();
+    times.push_back(static_cast<double>(clock_after() - before));
+    if (what != What::step) route.advance();
+    const double rest = walker.report().elapsed;
+    if (size.pager) (void)size.pager->wait(walker.body(), walker.position(), walker.velocity(), rest);
+  }
+  if (route.result().outcome != Outcome::reached || !std::isfinite(unused)) {
+    throw Error("the flight along path 1 did not reach its end");
+  }
+  to_nanoseconds(times);
+  return times;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+std::vector<Row> measure(const std::vector<Size>& sizes, const Options& options) {
+  std::vector<Row> rows;
+  for (const Size& size : sizes) rows.push_back({.size = &size, .steps = 0, .times = {}});
+  for (std::size_t w = 0; w < all_of_it.size(); ++w) {
+    std::vector<std::vector<Times>> rounds(sizes.size());
+    for (int round = 0; round < options.rounds; ++round) {
+      for (std::size_t i = 0; i < sizes.size(); ++i) {
+        std::vector<double> times = fly(sizes[i], all_of_it[w], options.speed);
+        std::sort(times.begin(), times.end());
+        const auto at = [&](double part) {
+          return 1e-3 * times[static_cast<std::size_t>(part * static_cast<double>(times.size() - 1))];
+        };
+        rounds[i].push_back({at(0.5), at(0.99)});
+        rows[i].steps = times.size();
+      }
+    }
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      std::vector<double> p50, p99;
+      for (const Times& t : rounds[i]) {
+        p50.push_back(t.p50);
+        p99.push_back(t.p99);
+      }
+      rows[i].times[w] = {median(p50), median(p99)};
+    }
+  }
+  return rows;
+}
+
+std::string table(const std::vector<Row>& rows) {
+  std::string out = fmt::format("{:>12} {:<7} {:>9} {:>10} {:>11} {:>7}", "triangles", "where", "build, s", "MiB",
+                                "B/triangle", "steps");
+  for (const What what : all_of_it) out += fmt::format(" {:>21}", fmt::format("{} p50 / p99", name(what)));
+  out += "\n";
+  for (const Row& row : rows) {
+    const Size& size = *row.size;
+    const double bytes = static_cast<double>(size.bytes);
+    out +=
+        fmt::format("{:>12} {:<7} {:>9.3g} {:>10.1f} {:>11.2f} {:>7}", size.triangles, size.pager ? "store" : "memory",
+                    size.build_s, bytes / (1 << 20), bytes / static_cast<double>(size.triangles), row.steps);
+    for (const Times& t : row.times) out += fmt::format(" {:>21}", fmt::format("{:.3g} / {:.3g}", t.p50, t.p99));
+    out += "\n";
+  }
+  out += "\nfrom the first to the last, p50:";
+  for (std::size_t w = 0; w < all_of_it.size(); ++w) {
+    out += fmt::format(" {} x{:.2f}", name(all_of_it[w]), rows.back().times[w].p50 / rows.front().times[w].p50);
+  }
+  return out + "\n";
+}
+
+Json to_json(const std::vector<Row>& rows, const Options& options) {
+  Json sizes = Json::array();
+  for (const Row& row : rows) {
+    Json one{{"triangles", row.size->triangles},
+             {"in_memory", row.size->pager == nullptr},
+             {"build_s", row.size->build_s},
+             {"bytes", row.size->bytes},
+             {"steps", row.steps}};
+    for (std::size_t w = 0; w < all_of_it.size(); ++w) {
+      one[name(all_of_it[w])] = {{"p50_us", row.times[w].p50}, {"p99_us", row.times[w].p99}};
+    }
+    sizes.push_back(std::move(one));
+  }
+  return {{"rounds", options.rounds}, {"speed", options.speed}, {"radius", radius}, {"sizes", sizes}};
+}
+
+app::ExitStatus run(const Options& options) {
+  if (options.least > options.triangles) throw app::UsageError("--least is larger than --triangles");
+  const ScratchFolder scratch(options.scratch);
+  std::vector<Size> sizes;
+  for (std::uint64_t n = options.least; n < options.triangles; n *= 10) {
+    sizes.push_back(make_size(n, options, scratch.path()));
+  }
+  sizes.push_back(make_size(options.triangles, options, scratch.path()));
+  const std::vector<Row> rows = measure(sizes, options);
+  app::print(options.json ? to_json(rows, options).dump(2) + "\n" : table(rows));
+  if (!options.picture.empty()) {
+    std::vector<StepTimes> curve;
+    for (const Row& row : rows) curve.push_back({row.size->triangles, row.times[2].p50, row.times[2].p99});
+    write_picture(options.picture, curve);
+  }
+  return app::done;
+}
+
+constexpr const char* help =
+    "The sizes are powers of ten from --least, and --triangles. A size that --memory holds while it is built is a\n"
+    "world in memory; a larger one becomes a store in the scratch folder, and is paged.\n"
+    "A sphere of 0.3 m flies along the gallery's first path; once for each of sweep, clearance and step, in turns.\n\n"
+    "Examples:\n"
+    "  roam bench scale --triangles 10M\n"
+    "  roam bench scale --triangles 100M --memory 8 --scratch /big/disk --picture scale.svg\n";
+
+}  // namespace
+
+void add_scale(CLI::App& program, app::Run& run) {
+  CLI::App* verb = program.add_subcommand("scale", "The time of a sweep and of a step by the size of the scene");
+  verb->footer(help);
+  const auto options = std::make_shared<Options>();
+  const CLI::AsNumberWithUnit number(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}});
+  verb->add_option("--triangles", options->triangles, "Of the largest scene (default: 1M)")
+      ->transform(number)
+      ->type_name("N");
+  verb->add_option("--least", options->least, "Of the smallest (default: 100k)")->transform(number)->type_name("N");
+  verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
+      ->capture_default_str()
+      ->check(app::positive);
+  verb->add_option("--pager", options->pager_mib, "MiB of each pager")->capture_default_str();
+  verb->add_option("--speed", options->speed, "Metres per second")->capture_default_str()->check(app::positive);
+  verb->add_option("--rounds", options->rounds, "Flights of each kind through each scene; medians over them")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--scratch", options->scratch, "Where stores are made (default: the system's temporary folder)")
+      ->type_name("DIR");
+  verb->add_option("--picture", options->picture, "Draw the steps' times by size, to an SVG file")->type_name("FILE");
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->callback([options, &run] { run = [options] { return bench::run(*options); }; });
+}
+
+}  // namespace roam::bench
