@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -110,6 +111,68 @@ TEST(BenchEngines, RefusesWhatItDoesNotKnow) {
   const ProgramResult missing = bench({"engines", "--scene", "/no/such/scene.ply"});
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(says(missing.err, "/no/such/scene.ply")) << missing.err;
+}
+
+nlohmann::json row_of(const nlohmann::json& rows, const std::string& name) {
+  for (const auto& row : rows) {
+    if (row["row"] == name) return row;
+  }
+  return {};
+}
+
+TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
+  const ProgramResult result =
+      bench({"paper", "--triangles", "50k", "--rows", "roam,polytope-kdtree,ogre-bullet", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report = json(result);
+  ASSERT_EQ(report["table_1"].size(), 12U) << "two rows, six ways";
+  std::map<std::string, std::string> roam, polytope;
+  for (const auto& cell : report["table_1"]) {
+    EXPECT_GT(cell["steps"], 0);
+    EXPECT_GE(cell["time_s"].get<double>(), cell["steps"].get<double>() / 60.0);
+    if (cell["row"] == "roam") EXPECT_EQ(cell["steps_in_walls"], 0) << cell;
+    (cell["row"] == "roam" ? roam : polytope)[cell["way"]] = cell["outcome"];
+  }
+  for (const char* way : {"1 straight", "2 corner", "3 split", "grotto", "grotto, adapted"}) {
+    EXPECT_EQ(roam[way], "completed") << way;
+  }
+  EXPECT_EQ(roam["3 split, smaller"], "fell");
+  EXPECT_EQ(polytope["2 corner"], "stuck") << "as the paper prints it";
+  EXPECT_EQ(polytope["grotto, adapted"], "stuck");
+  const nlohmann::json two = row_of(report["table_2"], "roam");
+  EXPECT_GT(two["load_s"], 0.0);
+  EXPECT_GT(two["peak_mib"], 1.0);
+  EXPECT_EQ(two["flew_off"], 0);
+  EXPECT_TRUE(two["small_room"]);
+  EXPECT_TRUE(two["radius_adapts"]);
+  EXPECT_FALSE(row_of(report["table_2"], "polytope-kdtree")["radius_adapts"]);
+  EXPECT_FALSE(row_of(report["absent"], "ogre-bullet")["why"].get<std::string>().empty());
+}
+
+TEST(BenchPaper, RefusesASceneThatIsNotAtThePlaceOfTable1) {
+  const TestFolder folder;
+  const std::string elsewhere = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramResult result = bench({"paper", "--scene", elsewhere});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(says(result.err, "Table 1")) << result.err;
+  EXPECT_EQ(bench({"paper", "--rows", "unreal"}).status, 2);
+}
+
+TEST(BenchScale, GoesFromMemoryToAStoreAndDrawsIt) {
+  const TestFolder folder;
+  const ProgramResult result = bench({"scale", "--least", "10k", "--triangles", "50k", "--memory", "0.001", "--rounds",
+                                      "1", "--json", "--picture", folder.file("scale.svg")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json sizes = json(result)["sizes"];
+  ASSERT_EQ(sizes.size(), 2U);
+  EXPECT_TRUE(sizes[0]["in_memory"]);
+  EXPECT_FALSE(sizes[1]["in_memory"]);
+  for (const auto& size : sizes) {
+    EXPECT_GT(size["bytes"], 0);
+    for (const char* what : {"sweep", "clearance", "step"}) EXPECT_GE(size[what]["p99_us"], size[what]["p50_us"]);
+  }
+  EXPECT_TRUE(folder.read("scale.svg").starts_with("<svg"));
+  EXPECT_EQ(bench({"scale", "--least", "2M", "--triangles", "1M"}).status, 2);
 }
 
 #endif
