@@ -273,11 +273,14 @@ TEST(Cracks, ThatWereFoundWhenToldToEndAreAnswered) {
     });
     EXPECT_EQ(asked_again, 0) << until;
     EXPECT_EQ(while_measuring, until > 0.8) << until;
-    ASSERT_EQ(found.size(), 1u) << until;
-    EXPECT_EQ(found.front().kind, Crack::Kind::crack);
-    EXPECT_NEAR(found.front().radius, 0.25, 5e-3) << until;
-    EXPECT_LE(found.front().radius, 0.25 + 2e-5) << until;
-    EXPECT_FALSE(found.front().rim.empty());
+    // What was not flooded any more may be told apart from what was.
+    ASSERT_GE(found.size(), 1u) << until;
+    for (const FoundCrack& crack : found) {
+      EXPECT_EQ(crack.kind, Crack::Kind::crack);
+      EXPECT_NEAR(crack.radius, 0.25, 5e-3) << until;
+      EXPECT_LE(crack.radius, 0.25 + 2e-5) << until;
+      EXPECT_FALSE(crack.rim.empty());
+    }
   }
 }
 

@@ -53,6 +53,13 @@ class Floods {
     rims_[*flood].push_back(place.rim);
   }
 
+  /// Whether a place lies in what was flooded already; then it belongs to that.
+  bool add_to_known(const RimPlace& place) {
+    const std::optional<std::uint32_t> flood = flood_at(place.outside);
+    if (flood) rims_[*flood].push_back(place.rim);
+    return flood.has_value();
+  }
+
   std::vector<MeasuredVoid> measured() {
     std::map<std::uint32_t, MeasuredVoid> voids;
     for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
@@ -349,10 +356,10 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
     Floods floods(options, probe, drops, ended);
     for (const RimPlace& place : parts[i]) {
       asked();
-      if (ended)
-        left[i].push_back(place);
-      else
+      if (!ended)
         floods.add(place);
+      else if (!floods.add_to_known(place))
+        left[i].push_back(place);
     }
     measured[i] = floods.measured();
   });
