@@ -31,30 +31,14 @@
 #include "roam/math.h"
 #include "roam/size_region.h"
 #include "roam/space.h"
+#include "roam/stance.h"
 
 namespace roam {
 
 namespace walking {
 class Move;
 struct Sizes;
-
-/// What a body measures, metres.
-struct Size {
-  double radius = 0.0;
-  double support_radius = 0.0;
-
-  friend bool operator==(const Size&, const Size&) = default;
-};
 enum class Ending : std::uint8_t;
-
-/// What is known to be free around a place: a body of this size has a gap of at least `gap`, less what it is away from
-/// the centre, as long as the space stays as it is.
-struct FreeBall {
-  Vec3 centre{0.0};     ///< of the body, metres
-  double gap = 0.0;     ///< metres; 0: nothing is known
-  double radius = 0.0;  ///< of the body, metres
-  double height = 0.0;
-};
 }  // namespace walking
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision at all.
@@ -113,8 +97,8 @@ struct WalkerSettings {
 /// Throws roam::Error, naming the setting, its value and its range, when a setting is out of range or not a number.
 void check(const WalkerSettings& settings);
 
-/// Throws roam::Error, naming the region by its number from 1 and its `why`, for bounds that are empty or not finite, and
-/// for a size that a body with these settings may not have: see Walker::set_regions.
+/// Throws roam::Error, naming the region by its number from 1 and its `why`, for bounds that are empty or not finite,
+/// and for a size that a body with these settings may not have: see Walker::set_regions.
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 
 /// The velocity of a person who pushes in `direction` (length at most 1 counts; longer is shortened to 1): m/s.
@@ -243,43 +227,6 @@ struct StepReport {
       if (e.kind == kind) return true;
     return false;
   }
-};
-
-/// What was found out about a foot: asked again only when something of it has changed.
-struct FootAnswer {
-  Vec3 place{0.0};  ///< of the body's centre, metres
-  double height = 0.0;
-  walking::Size size;
-  Vec3 floor_point{0.0};  ///< the plane over which it was asked
-  Vec3 floor_normal{0.0, 0.0, 1.0};
-  std::uint64_t revision = 0;  ///< of the space
-  bool known = false;          ///< it was asked, in a space that tells its changes
-  bool carries = false;
-  bool unknown = false;  ///< by what is not known yet
-
-  /// Whether the question is the same.
-  [[nodiscard]] bool same_question(const FootAnswer& other) const {
-    return place == other.place && height == other.height && size == other.size && floor_point == other.floor_point &&
-           floor_normal == other.floor_normal && revision == other.revision;
-  }
-};
-
-/// What walking remembers from one step to the next.
-struct Stance {
-  Vec3 ground{0.0, 0.0, 1.0};  ///< normal of the ground stood on
-  double level = 0.0;          ///< z of the point last stood on, metres; means nothing before `stood`
-  double rise_speed = 0.0;     ///< upward, m/s; 0 on the ground
-  bool grounded = false;
-  bool firm = false;     ///< grounded within the slope limit: not on a rim, not wedged between slopes
-  bool carried = false;  ///< grounded by its foot alone, over a crack
-  bool unknown = false;  ///< grounded on what is not known yet
-  bool stood = false;    ///< has stood on ground since it was placed
-  bool fallen = false;   ///< the present fall has been reported
-  /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
-  Vec3 floor_point{0.0};
-  Vec3 floor_normal{0.0, 0.0, 1.0};
-  bool floor_seen = false;
-  FootAnswer foot;  ///< where it was asked last
 };
 
 class Walker {
