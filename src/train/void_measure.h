@@ -34,7 +34,7 @@ struct MeasuredVoid {
 /// The voids of rim places whose climbs ended below probe.open(), and those that turned out to be as large after all.
 /// Places that `drops` cover belong to them and are left out. `goes_on` is asked from several threads, one at a time,
 /// with the fraction done; when it says so, or `ended` is set before, what is not measured yet is as wide as its best
-/// climb, which is at most as wide as it is.
+/// climb, to some millimetres.
 [[nodiscard]] std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe,
                                                       const OpenDrops& drops, const std::vector<RimPlace>& places,
                                                       const std::function<bool(double)>& goes_on,
