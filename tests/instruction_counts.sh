@@ -57,12 +57,18 @@ awk -v band=$band '
   FNR == NR { expected[$1] = $2; next }
   FNR == 1 { printf "%-20s %14s %14s %9s %12s\n", "row", "instructions", "baseline", "change", "each" }
   {
+    seen[$1]
     change = expected[$1] ? 100 * ($2 / expected[$1] - 1) : 100
     out = change > band || change < -band
     bad += out
     printf "%-20s %14d %14d %8.2f%% %12.1f%s\n", $1, $2, expected[$1], change, $2 / $3, out ? "  <-- out of the band" : ""
   }
-  END { exit bad > 0 }' "$work/expected" "$work/counts" || {
+  END {
+    for (row in expected) {
+      if (!(row in seen)) { printf "%-20s is in the baseline and was not counted\n", row; ++bad }
+    }
+    exit bad > 0
+  }' "$work/expected" "$work/counts" || {
   echo "More than $band % from the baseline. More: find out why, and mend it. Fewer, or more for a good reason:"
   echo "  $renew"
   exit 1

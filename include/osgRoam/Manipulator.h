@@ -79,8 +79,8 @@ class Manipulator : public osgGA::CameraManipulator {
   /// explains, and for an origin that is not finite.
   explicit Manipulator(osg::Node* scene, const roam::WalkerSettings& settings = {}, roam::Mode mode = roam::Mode::fly,
                        const osg::Vec3d& origin = osg::Vec3d());
-  /// Settings, regions, controls, the space and its update, pose and home; not the other callbacks, the pilot, keys that are
-  /// down, a world that is being built.
+  /// Settings, regions, controls, the space and its update, pose and home; not the other callbacks, the pilot, keys
+  /// that are down, a world that is being built.
   Manipulator(const Manipulator& other, const osg::CopyOp& copy = osg::CopyOp::SHALLOW_COPY);
   META_Object(osgRoam, Manipulator);
 

@@ -15,8 +15,8 @@
 /// Two things are learned, the two of the paper's figure 6 where they are met and no earlier: *cannot enter*, so the
 /// body becomes smaller at that opening and nowhere else; *flies off*, so the foot becomes larger, everywhere. A lesson
 /// is only offered when it has been tried: the smaller body has a certified way through the opening, and a Walker with
-/// the larger foot has gone to where the body lost the ground, and is carried there. Nothing that is learned lets a body violate what Walker
-/// promises.
+/// the larger foot has gone to where the body lost the ground, and is carried there. Nothing that is learned lets a
+/// body violate what Walker promises.
 ///
 /// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson.
 

@@ -303,6 +303,7 @@ class Builder {
 
   std::span<const StepBox> boxes_;
   const BinaryTreeOptions& options_;
+  /// items_per_test is a power of two.
   const int tests_shift_ = std::countr_zero(options_.items_per_test);
   BinaryTree tree_;
 };

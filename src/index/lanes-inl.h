@@ -222,11 +222,14 @@ struct Swept {
 HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 #if HWY_TARGET == HWY_SCALAR
   std::uint32_t mask = 0;
+  // As the conversion to bytes saturates below: the answer is the same to the bit.
+  const auto on_grid = [&](const std::int32_t* plane, int k) {
+    return std::clamp((plane[k] - node.origin[k]) >> node.shift[k], 0, 255);
+  };
   for (int i = 0; i < node.child_count; ++i) {
     bool met = true;
     for (int k = 0; k < 3; ++k) {
-      met = met && node.lower[k][i] <= (swept.upper[k] - node.origin[k]) >> node.shift[k] &&
-            node.upper[k][i] >= (swept.lower[k] - node.origin[k]) >> node.shift[k];
+      met = met && node.lower[k][i] <= on_grid(swept.upper, k) && node.upper[k][i] >= on_grid(swept.lower, k);
     }
     mask |= std::uint32_t{met} << i;
   }
