@@ -134,8 +134,8 @@ class Space {
   [[nodiscard]] virtual double largest_error() const = 0;
   /// The name of the object that a triangle belongs to; may be empty. `triangle` must come from this space.
   [[nodiscard]] virtual std::string object_name(TriangleId triangle) const = 0;
-  /// Grows whenever something came or went: a body that is held then looks for a way out again. Always 0 in a space
-  /// that never changes, and in one that does not know.
+  /// Becomes another number whenever something came or went: a body that is held then looks for a way out again. Stays
+  /// what it is in a space that never changes, and in one that does not know.
   [[nodiscard]] virtual std::uint64_t revision() const { return 0; }
   /// Whether revision() tells of every change, so that what was answered once is answered again while it stays.
   [[nodiscard]] virtual bool tells_changes() const { return false; }

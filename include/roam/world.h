@@ -78,6 +78,9 @@ class World final : public Space {
   [[nodiscard]] Box bounds() const override;
   [[nodiscard]] double largest_error() const override { return stats().largest_error_m; }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  /// No two worlds of a process that were built have the same, so that one which another is assigned to is known to
+  /// have changed. The number itself means nothing.
+  [[nodiscard]] std::uint64_t revision() const override;
   [[nodiscard]] bool tells_changes() const override { return true; }
 
   [[nodiscard]] const WorldStats& stats() const;

@@ -25,14 +25,18 @@ struct Arena {
   [[nodiscard]] std::size_t bytes() const { return size * sizeof(T); }
 };
 
+/// Another number at each call, from any thread; never 0.
+[[nodiscard]] std::uint64_t next_revision();
+
 struct WorldData {
-  Arena<index::Block> blocks;  ///< the tree over the tiles, then each tile's nodes and leaves
+  std::uint64_t revision = next_revision();  ///< as World::revision() says
+  Arena<index::Block> blocks;                ///< the tree over the tiles, then each tile's nodes and leaves
   Arena<index::Tile> tiles;
   Arena<index::FineLeaf> fine;
   Arena<std::uint8_t> ids;
-  index::Grid grid;  ///< of the tree over the tiles
-  Box bounds;        ///< of the source triangles
-  Box reach;         ///< bounds, grown by what stored vertices may lie off
+  index::Grid grid;       ///< of the tree over the tiles
+  Box bounds;             ///< of the source triangles
+  Box reach;              ///< bounds, grown by what stored vertices may lie off
   bool lossless = false;  ///< as BuildOptions says
   WorldStats stats;
   std::vector<std::uint64_t> first;  ///< the number of the first triangle of each mesh, and the count of all

@@ -1,10 +1,16 @@
 #include "roam/world.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "world/data.h"
 
 namespace roam {
+
+std::uint64_t next_revision() {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
 
 World::World() {
   auto data = std::make_unique<WorldData>();
@@ -14,6 +20,8 @@ World::World() {
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
+
+std::uint64_t World::revision() const { return data_->revision; }
 
 Box World::bounds() const { return data_->bounds; }
 
