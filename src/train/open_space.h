@@ -23,6 +23,9 @@ class OpenSpace final : public Space {
                                     double reach) const override {
     return world_.clearance(body, from, motion, reach);
   }
+  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
+    return world_.gap(body, from, motion, reach);
+  }
   using Space::floor_clearance;
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
                                           const Floor& floor) const override {
@@ -31,6 +34,7 @@ class OpenSpace final : public Space {
   [[nodiscard]] Box bounds() const override { return bounds_; }
   [[nodiscard]] double largest_error() const override { return world_.largest_error(); }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override { return world_.object_name(triangle); }
+  [[nodiscard]] std::uint64_t revision() const override { return world_.revision(); }
   [[nodiscard]] bool tells_changes() const override { return true; }
 
  private:
