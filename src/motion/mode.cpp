@@ -22,6 +22,8 @@ const StepReport& Walker::set_mode(Mode mode) {
     put({position_.x, position_.y, lowest + 0.5 * height_}, 0.0);
   }
   if (before == Mode::ghost && mode != Mode::ghost && !walking::fits(*space_, body(), position_)) come_back();
+  // Something may have come where it is, of which no step has told yet.
+  if (before != Mode::ghost && mode != Mode::ghost) look_again();
   if (mode != before) settle();
   if (held_ && !report_.held) hold();
   finish();
