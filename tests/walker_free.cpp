@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -208,6 +209,179 @@ TEST(WalkerFree, AClearanceThatWasLowGrowsAgain) {
   EXPECT_LT(least, 0.4);
   EXPECT_GE(least, 0.3 + 0.1 * 3.0 / 4.0 - 0.004);
   EXPECT_EQ(w.report().clearance, 1.3);
+}
+
+TEST(WalkerFree, AWorldThatIsAssignedIsAnotherWorld) {
+  for (const double speed : {0.0, 0.3, 3.0}) {
+    SCOPED_TRACE(testing::Message() << speed << " m/s");
+    Mesh mesh = hall();
+    World w = build(mesh);
+    const std::uint64_t before = w.revision();
+    Walker walker(w, ball(0.3), Mode::fly, {-2.0, 0.0, 0.0});
+    for (int i = 0; i < 5; ++i) walker.step({{0.3, 0.0, 0.0}}, frame);
+    mesh = walled_hall(walker.position().x + 0.302);
+    w = build(mesh);
+    EXPECT_NE(w.revision(), before);
+    const Judge judge(mesh);
+    for (int i = 0; i < 30; ++i) ASSERT_GE(margin(judge, walker.step({{speed, 0.0, 0.0}}, frame), 0.3), 0.0) << i;
+  }
+}
+
+TEST(WalkerFree, ChangingTheModeInAChangedSpaceFreesTheBody) {
+  for (const bool tells : {true, false}) {
+    for (const double ahead : {-0.1, 0.0, 0.1, 0.25}) {
+      SCOPED_TRACE(testing::Message() << "tells: " << tells << ", a wall " << ahead << " m ahead");
+      ChangingRoom room(hall(), tells);
+      Walker w(room, {}, Mode::fly, {0.0, 0.0, -3.5});
+      w.step({{0.3, 0.0, 0.0}}, frame);
+      room.become(walled_hall(w.position().x + ahead));
+      const StepReport& r = w.set_mode(Mode::walk);
+      EXPECT_NE(r.has(EventKind::freed), r.has(EventKind::held));
+      EXPECT_EQ(r.clearance > 0.0, !w.held());
+      if (!w.held()) {
+        EXPECT_GE(margin(room.judge(), r), 0.0);
+      }
+    }
+  }
+}
+
+/// What was told of the body where it is, and of the piece that ends there, is true.
+void expect_true_or_none(const ChangingRoom& room, const Walker& w) {
+  const StepReport& r = w.report();
+  EXPECT_LE(r.clearance, room.judge().distance(w.body(), w.position(), 2.0) + 1e-6);
+  for (const roam::Corner& c : r.corners) {
+    EXPECT_LE(c.clearance, room.judge().distance(Body::capsule(c.radius, c.height), c.position, 2.0) + 1e-6);
+  }
+}
+
+TEST(WalkerFree, TellsNoClearanceThatWasTrueOfTheSpaceBefore) {
+  for (const bool tells : {true, false}) {
+    for (const double ahead : {0.05, 0.2, 0.5}) {
+      for (const double radius : {0.1, 0.3, 0.4}) {
+        SCOPED_TRACE(testing::Message() << "tells: " << tells << ", a wall " << ahead << " m ahead, " << radius);
+        ChangingRoom room(hall(), tells);
+        Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
+        w.step({}, frame);
+        room.become(walled_hall(ahead));
+        w.resize(radius, 0.0);
+        expect_true_or_none(room, w);
+        w.set_mode(Mode::fly);
+        expect_true_or_none(room, w);
+        w.step({}, frame);
+        expect_true_or_none(room, w);
+        w.step({{-0.1, 0.0, 0.0}}, frame);
+        EXPECT_GE(room.judge().distance(w.body(), w.position(), 2.0), w.body().radius - 1e-6);
+      }
+    }
+  }
+}
+
+TEST(WalkerFree, ALowBodyIsMeasuredInTheSpaceAsItIs) {
+  for (const bool tells : {true, false}) {
+    SCOPED_TRACE(tells);
+    ChangingRoom room(floor_mesh(), tells);
+    Walker w(room, {}, Mode::walk, {0.0, 0.0, 1.0});
+    for (int i = 0; i < 30; ++i) w.step({}, frame);
+    Mesh beside = floor_mesh();
+    add_wall(beside, 0.3005, -5.0, 0.3005, 5.0, -1.0, 3.0);
+    room.become(beside);
+    w.step({.velocity = Vec3(0.0), .crouch = true}, frame);
+    ASSERT_TRUE(w.crouched());
+    expect_true_or_none(room, w);
+    EXPECT_GE(w.report().least_clearance, 0.3 - 1e-6);
+  }
+}
+
+/// How much less than the truth may be told of a free way or place whose axis is so far from everything.
+double least_told(double true_clearance, const WalkerSettings& s, double skin) {
+  const double gap = std::min(true_clearance - s.radius, s.clearance_reach);
+  return s.radius + 0.75 * gap - 2.0 * skin - 0.002;
+}
+
+TEST(WalkerFree, ToldClearancesAreAsNearTheTruthAsIsSaid) {
+  Mesh m = hall();
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 at(random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-4.0, 4.0));
+    add_box(m, at, at + Vec3(random.between(0.05, 1.0), random.between(0.05, 1.0), random.between(0.05, 1.0)));
+  }
+  const Judge judge(m);
+  const World world = build(m);
+  const WalkerSettings settings = WalkerSettings::sphere(0.1);
+  Walker w(world, settings, Mode::fly, {0.0, 0.0, 4.5});
+  int judged = 0;
+  for (int flight = 0; flight < 150; ++flight) {
+    const double speed = std::exp(random.between(-2.0, 4.5));
+    const Vec3 to(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+    const Vec3 wish = to / std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z + 1e-9) * speed;
+    for (int i = 0; i < 12; ++i) {
+      const StepReport& r = w.step({i % 4 == 3 ? Vec3(0.0) : wish}, frame);
+      ASSERT_GE(margin(judge, r, 0.1), 0.0);
+      if (!r.contacts.empty() || r.corners.size() > 1) continue;
+      const double truth = judge.over(w.body(), r.from, r.to - r.from, 2.0);
+      ASSERT_GE(r.clearance, least_told(truth, settings, w.skin())) << flight << " " << i << " " << truth;
+      ++judged;
+    }
+  }
+  EXPECT_GT(judged, 1000);
+}
+
+TEST(WalkerFree, WhoRestsIsToldTheClearanceOfThePlace) {
+  Mesh m = hall();
+  add_box(m, {-0.05, 0.5, -5.0}, {0.05, 0.6, 5.0});  // a post
+  ChangingRoom room(m, true);
+  Walker w(room, ball(0.3), Mode::fly, {-1.5, 0.0, 0.0});
+  const double passing = w.step({{180.0, 0.0, 0.0}}, frame).clearance;
+  EXPECT_LE(passing, 0.5);
+  EXPECT_GE(passing, least_told(0.5, w.settings(), w.skin()));
+  EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+  const int before = room.asked();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+  EXPECT_EQ(room.asked(), before);
+}
+
+TEST(WalkerFree, LooksFarEnoughAfterALongStepThatEndedInTheOpen) {
+  Mesh m = hall();
+  add_box(m, {-0.05, 0.5, -5.0}, {0.05, 0.6, 5.0});
+  ChangingRoom room(m, true);
+  Walker w(room, ball(0.3), Mode::fly, {-0.1, 0.0, 0.0});
+  // The look reaches a little farther than the way, to where it is nearest.
+  w.step({{-120.0, 0.0, 0.0}}, frame);
+  EXPECT_EQ(w.step({{-0.1, 0.0, 0.0}}, frame).clearance, 1.3);
+}
+
+TEST(WalkerFree, RemembersAsWellFarFromTheOrigin) {
+  Mesh m = hall();
+  const Vec3 far(6.4e6, -6.4e6, 3000.0);
+  shift(m, far);
+  ChangingRoom room(m, true);
+  const Judge judge = room.judge();
+  Walker w(room, ball(0.3), Mode::fly, far + Vec3(-6.0, 0.0, 0.0));
+  const int before = room.asked();
+  for (int i = 0; i < 400; ++i) ASSERT_GE(margin(judge, w.step({{1.8, 0.0, 0.0}}, frame), 0.3), 0.0);
+  EXPECT_NEAR(w.position().x - far.x, 6.0, 1e-6);
+  EXPECT_LT(room.asked() - before, 60);
+  for (int i = 0; i < 300; ++i) ASSERT_GE(margin(judge, w.step({{1.8, 0.3, 0.0}}, frame), 0.3), 0.0);
+  EXPECT_NEAR(w.position().x - far.x, 10.0 - 0.3, 0.005);
+}
+
+TEST(WalkerFree, WhatIsFreeForALowBodyIsNotForATallOne) {
+  Mesh m = floor_mesh();
+  add_box(m, {1.0, -8.0, 1.3}, {1.1, 8.0, 3.0});  // a lintel
+  ChangingRoom room(m, true);
+  const Judge judge = room.judge();
+  for (const double speed : {0.2, 1.4, 20.0}) {
+    SCOPED_TRACE(speed);
+    Walker w(room, {}, Mode::walk, {-1.0, 0.0, 1.0});
+    bool low = false;
+    for (int i = 0; i < static_cast<int>(4.0 / speed / frame); ++i) {
+      ASSERT_GE(margin(judge, w.step({{speed, 0.0, 0.0}}, frame), 0.3), 0.0) << i;
+      low |= w.crouched();
+    }
+    EXPECT_TRUE(low);
+    EXPECT_FALSE(w.crouched());
+    EXPECT_GT(w.position().x, 1.4);
+  }
 }
 
 }  // namespace

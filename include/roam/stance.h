@@ -3,6 +3,7 @@
 /// What a Walker remembers from one step to the next: whether and where it stands, and what it need not ask again.
 
 #include <cstdint>
+#include <limits>
 
 #include "roam/math.h"
 
@@ -23,8 +24,34 @@ struct Size {
 struct FreeBall {
   Vec3 centre{0.0};     ///< of the body, metres
   double gap = 0.0;     ///< metres; 0: nothing is known
+  double way = 0.0;     ///< metres: `gap` is the least over a way of this length that ends at the centre
   double radius = 0.0;  ///< of the body, metres
   double height = 0.0;
+};
+
+/// What is known of the space around a body.
+struct Known {
+  double clearance = 0.0;  ///< certified at the place when the body came there, metres; 0: not known
+  /// An upper bound of the gap at the place, metres: to look for the nearest triangle farther off is in vain.
+  double nearest = std::numeric_limits<double>::infinity();
+  FreeBall ball;
+  bool fresh = false;      ///< `clearance` was measured of this body, in the space as it is
+  bool over_way = false;   ///< over the way that it came, so that it may be far below that of the place
+  bool touching = false;   ///< it was in touch when it was last seen: a look ahead is likely to find that in the way
+  bool unproven = false;   ///< the space has changed, and whether the body still fits is not known yet
+  bool came_upon = false;  ///< it does not
+
+  /// The body is elsewhere, or another.
+  void forget_place() {
+    clearance = 0.0;
+    nearest = std::numeric_limits<double>::infinity();
+    fresh = over_way = false;
+  }
+  /// The space has changed.
+  void forget() {
+    forget_place();
+    ball = {};
+  }
 };
 
 /// What was found out about a foot: asked again only when something of it has changed.

@@ -326,7 +326,6 @@ class Walker {
   void release();
   [[nodiscard]] bool embedded() const;
   [[nodiscard]] bool in_unknown() const;
-  void forget();
   void come_to(const walking::Move& move);
   void look_again();
   void remember_safe();
@@ -345,20 +344,14 @@ class Walker {
   walking::Size safe_size_;   ///< there
   double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
   double height_ = 0.0;
-  double clearance_ = 0.0;  ///< certified at position_ when it came there, metres
-  double nearest_ = 0.0;    ///< upper bound of the gap at position_, metres: see walking::Move
-  walking::FreeBall ball_;
+  walking::Known known_;  ///< at position_
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
   bool held_ = false;
   bool waits_ = false;           ///< held by what is not known yet
-  bool fresh_ = false;           ///< clearance_ is of position_ in the space as it is
-  bool touching_ = false;        ///< the last step met something
-  bool unproven_ = false;        ///< the space has changed, and whether the body still fits is not known yet
-  bool came_upon_ = false;       ///< it does not
   bool resized_ = false;         ///< another size may be wanted than when the body was held
-  std::uint64_t known_at_ = 0;   ///< the revision of the space of which nearest_, ball_ and fresh_ are
+  std::uint64_t known_at_ = 0;   ///< the revision of the space of which known_ is
   std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
 };
 

@@ -38,7 +38,7 @@ bool stand_up(Move& move) {
   if (up.fraction < 1.0) return false;
   const double certified = move.clearance_over(Vec3(0.0, 0.0, missing));
   move.go(Vec3(0.0, 0.0, 0.5 * missing));
-  move.clearance = certified;
+  move.known.clearance = certified;
   move.resize(tall, move.place);
   move.note(EventKind::stood);
   return true;

@@ -64,6 +64,12 @@ bool carried_by(const Move& m, const PlaneSet& planes) {
   return -down.z <= 1.0 - m.slope_cosine * m.slope_cosine + cosine_rounding;
 }
 
+/// How far down a body is a skin from the plane that it meets after `to_ground` metres. A plane that is steeper than
+/// any rim that carries does not lift it farther than such a rim, and one that it does not come down onto not at all.
+double to_skin(const Move& m, const Impact& met, double to_ground) {
+  return met.normal.z > 0.0 ? std::max(to_ground - m.skin / met.normal.z, -m.skin / rim_cosine) : 0.0;
+}
+
 /// What is met first on the way down by `reach`, the time made metres. Mostly it is just below: a short look has few
 /// candidates, of which a long one cannot tell which comes first.
 struct Below {
@@ -161,11 +167,11 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
   if (s.hit && !ground) {
     // What is met first is too steep, but what carries may be a hair behind it.
     Move lowered = move;
-    lowered.place.z -= std::max(0.0, to_ground - move.skin / s.normal.z);
+    lowered.place.z -= std::max(0.0, to_skin(move, s, to_ground));
     ground = footing_here(lowered, stance);
   }
   if (look_for_foot) {
-    const double drop = ground ? to_ground - move.skin / s.normal.z : std::numeric_limits<double>::infinity();
+    const double drop = ground ? to_skin(move, s, to_ground) : std::numeric_limits<double>::infinity();
     if (carry(move, stance, drop, reach)) return;
   }
   if (!ground) {
@@ -174,13 +180,13 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     stance.grounded = stance.firm = stance.carried = false;
     return;
   }
-  move.nearest = to_ground + hit_tolerance;
-  const double drop = to_ground - move.skin / s.normal.z;
+  move.known.nearest = to_ground + hit_tolerance;
+  const double drop = to_skin(move, s, to_ground);
   const double rest = rest_part * 2.0 * move.skin;
   if (std::abs(drop) * s.normal.z > rest) {
     if (drop > 0.0) {
       move.go(down * drop);
-      move.nearest = to_ground - drop + hit_tolerance;
+      move.known.nearest = to_ground - drop + hit_tolerance;
     } else {
       move.advance(down * drop, 0.0);
     }

@@ -11,9 +11,6 @@ namespace {
 /// into it step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
 constexpr double look_ahead = 2.0;
 
-/// The part of a free ball's gap that a body may be away from its centre: so much is given up of the gap that is told.
-constexpr double ball_part = 1.0 / 8.0;
-
 /// Where nothing is as near as clearances are told, the next look reaches farther by so many ways: the steps that a
 /// free ball may last.
 constexpr double ways_ahead = 8.0;
@@ -24,6 +21,14 @@ constexpr double least_look = 4.0;
 /// What a gap that was found may be less than the true one (space.h): it is at least this part of it, and this much.
 constexpr double gap_part = 7.0 / 8.0;
 constexpr double gap_tolerance = 2e-3;
+
+/// A free ball answers as long as what it tells is at least three quarters of the true gap. Be T that over the way
+/// asked for, which ends `away` from the ball's centre at most; then the gap there is at least T - away, that over the
+/// ball's own way at least T - away - way, and what was found, of which `away` is taken off, at least gap_part (T -
+/// away - way). All that is taken off must be an eighth of T at most, and T is at least gap - away.
+constexpr double told_part = 3.0 / 4.0;
+constexpr double away_weight = (1.0 + gap_part) / (gap_part - told_part) + 1.0;  // 16
+constexpr double way_weight = gap_part / (gap_part - told_part);                 // 7
 
 /// Each merge of two pieces in one direction may move the straight line by a rounding of the coordinates, 1e-9 m at
 /// 6.4e6 m: this many stay far below world_tolerance.
@@ -70,20 +75,21 @@ Advance Move::advance(const Vec3& motion, double seconds) {
     time += seconds;
     return {};
   }
-  if (!touching || unproven) {
+  if (!known.touching || known.unproven) {
     const double gap = look_along(motion * (1.0 + look_ahead * skin / length));
     if (gap > free_gap) {
-      unproven = false;
+      known.unproven = false;
       time += seconds;
       go(motion, settings.radius + std::min(gap, settings.clearance_reach));
       return {};
     }
   }
-  touching = false;
-  if (unproven) {
-    unproven = false;
-    came_upon = space.clearance(body(), place, 0.0).distance < -world_tolerance;
-    if (came_upon) return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
+  known.touching = false;
+  if (known.unproven) {
+    known.unproven = false;
+    known.came_upon = space.clearance(body(), place, 0.0).distance < -world_tolerance;
+    if (known.came_upon) known.ball = {};
+    if (known.came_upon) return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
   }
   const Advance a = probe(motion);
   time += a.fraction * seconds;
@@ -93,18 +99,22 @@ Advance Move::advance(const Vec3& motion, double seconds) {
 
 double Move::look_along(const Vec3& motion) {
   const double reach = std::max(settings.clearance_reach, least_look * skin), length = glm::length(motion);
-  const bool same_body = ball_.radius == settings.radius && ball_.height == height;
-  if (same_body && ball_.gap > 0.0) {
-    const double away = std::max(glm::length(place - ball_.centre), glm::length(place + motion - ball_.centre));
-    const double rest = ball_.gap - away;
-    if (rest >= reach || away <= ball_part * ball_.gap) return rest;
+  FreeBall& ball = known.ball;
+  const bool same_body = ball.radius == settings.radius && ball.height == height;
+  if (same_body && ball.gap > 0.0) {
+    const double away = std::max(glm::length(place - ball.centre), glm::length(place + motion - ball.centre));
+    const double rest = ball.gap - away;
+    if (rest >= reach || away_weight * away + way_weight * ball.way <= ball.gap) return rest;
   }
-  const bool in_the_open = same_body && ball_.gap >= reach;
-  const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, nearest, Space::reach_limit});
+  const bool in_the_open = same_body && ball.gap >= reach;
+  const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
   const double gap = space.gap(body(), place, motion, look);
   if (gap > free_gap) {
-    ball_ = {place + motion, gap, settings.radius, height};
-    if (gap < look) nearest = std::min(nearest, gap / gap_part + gap_tolerance);
+    ball = {place + motion, gap, length, settings.radius, height};
+    // What is near may be so at the far end of the way.
+    if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + length);
+  } else {
+    ball = {};
   }
   return gap;
 }
@@ -115,16 +125,30 @@ double Move::clearance_over(const Vec3& motion) {
   return settings.radius + std::max(gap_over(motion), -world_tolerance);
 }
 
+double Move::measured(const Vec3& motion) {
+  const double gap = gap_over(motion);
+  if (gap >= -world_tolerance) return settings.radius + gap;
+  // In touch, a clearance is more exact than a look.
+  const bool fits = space.clearance(body(), place, motion, 0.0).distance >= -world_tolerance;
+  return fits ? settings.radius - world_tolerance : 0.0;
+}
+
+void Move::measure() {
+  known.clearance = measured(Vec3(0.0));
+  known.fresh = true;
+  known.over_way = false;
+}
+
 void Move::go(const Vec3& motion) {
   if (glm::length(motion) > 0.0) go(motion, clearance_over(motion));
 }
 
 void Move::go(const Vec3& motion, double certified) {
   const double length = glm::length(motion);
-  clearance = certified;
-  fresh = true;
+  known.clearance = certified;
+  known.fresh = known.over_way = true;
   place += motion;
-  nearest += length;
+  known.nearest += length;
   const Vec3 direction = motion / length;
   const bool straight_on = !report.corners.empty() && direction == last_direction_ && merged_ < merge_limit &&
                            report.corners.back().height == height && report.corners.back().radius == settings.radius;
@@ -132,10 +156,10 @@ void Move::go(const Vec3& motion, double certified) {
     Corner& last = report.corners.back();
     last.position = place;
     last.time = time;
-    last.clearance = std::min(last.clearance, clearance);
+    last.clearance = std::min(last.clearance, certified);
     ++merged_;
   } else {
-    report.corners.push({place, height, settings.radius, time, clearance, false});
+    report.corners.push({place, height, settings.radius, time, certified, false});
     last_direction_ = direction;
     merged_ = 0;
   }
@@ -146,11 +170,15 @@ void Move::ease_off(const Advance& touch) {
 }
 
 void Move::resize(double new_height, const Vec3& new_place) {
+  double certified = known.clearance;
+  const bool was_known = known.fresh;
+  known.forget_place();
   height = new_height;
+  if (!was_known) certified = measured(new_place - place);
   place = new_place;
-  nearest = std::numeric_limits<double>::infinity();
-  fresh = false;
-  report.corners.push({place, height, settings.radius, time, clearance, false});
+  known.forget_place();
+  known.clearance = certified;
+  report.corners.push({place, height, settings.radius, time, certified, false});
   last_direction_ = Vec3(0.0);
 }
 
@@ -189,16 +217,14 @@ Move::Mark Move::mark() const {
   const Corner last = report.corners.empty() ? Corner{} : report.corners.back();
   return {place,
           height,
-          clearance,
           time,
-          nearest,
+          known,
           last_direction_,
           merged_,
           last,
           report.corners.size(),
           report.events.size(),
           report.contacts,
-          fresh,
           report.blocked,
           report.met_unknown};
 }
@@ -206,16 +232,14 @@ Move::Mark Move::mark() const {
 void Move::undo(const Mark& m) {
   place = m.place;
   height = m.height;
-  clearance = m.clearance;
   time = m.time;
-  nearest = m.nearest;
+  known = m.known;
   last_direction_ = m.direction;
   merged_ = m.merged;
   report.corners.shorten(m.corners);
   if (!report.corners.empty()) report.corners.back() = m.corner;
   report.events.shorten(m.events);
   report.contacts = m.contacts;
-  fresh = m.fresh;
   report.blocked = m.blocked;
   report.met_unknown = m.met_unknown;
 }

@@ -2,8 +2,6 @@
 /// \file
 /// A step under way: where the body is, how it advances, and the report that is written as it goes.
 
-#include <limits>
-
 #include "roam/walker.h"
 
 namespace roam::walking {
@@ -55,13 +53,14 @@ class Move {
   /// A place on the way that undo() returns to.
   struct Mark {
     Vec3 place;
-    double height, clearance, time, nearest;
+    double height, time;
+    Known known;
     Vec3 direction;
     int merged;
     Corner corner;
     std::size_t corners, events;
     InlineList<Contact, 8> contacts;
-    bool fresh, blocked, met_unknown;
+    bool blocked, met_unknown;
   };
 
   const Space& space;
@@ -71,21 +70,11 @@ class Move {
   const double slope_cosine;
   Vec3 place;
   double height;
-  double clearance;   ///< certified at the present place, metres; 0: not known
   double time = 0.0;  ///< seconds since the step began
-  /// An upper bound of the gap at the present place, metres: to look for the nearest triangle farther off is in vain.
-  double nearest = std::numeric_limits<double>::infinity();
-  /// `clearance` was measured of this body, in the space as it is now.
-  bool fresh = false;
-  /// The body was touching something when it was last seen, so that a look ahead is likely to find it in the way.
-  bool touching = false;
-  /// The space has changed since the body was known to fit where it is. False from the first advance on.
-  bool unproven = false;
-  /// Something of that change is where the body is.
-  bool came_upon = false;
+  Known known;        ///< `unproven` is false from the first advance on
 
   Move(const Space& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
-       double whole_height, double certified, FreeBall& known)
+       double whole_height, const Known& what_is_known)
       : space(in),
         settings(of),
         report(into),
@@ -93,8 +82,7 @@ class Move {
         slope_cosine(cosine),
         place(from),
         height(whole_height),
-        clearance(certified),
-        ball_(known) {}
+        known(what_is_known) {}
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
@@ -108,11 +96,17 @@ class Move {
   [[nodiscard]] double gap_over(const Vec3& motion);
   /// The same of the clearance over a way that a sweep has found free.
   [[nodiscard]] double clearance_over(const Vec3& motion);
+  /// The same of a way that no sweep has found free, as from a body to a smaller one that lies in it; 0 where it may
+  /// not be.
+  [[nodiscard]] double measured(const Vec3& motion);
+  /// Measures how free the place is.
+  void measure();
   /// Goes along `motion`, part of a way that a sweep has found free, and measures how free that part is.
   void go(const Vec3& motion);
   /// Where a touch left less than half the skin, restores it as far as there is room.
   void ease_off(const Advance& touch);
-  /// A new height about the same feet or head; the caller has seen to it that the body fits.
+  /// A new height about the same feet or head, and the radius that is set; the caller has seen to it that the body fits
+  /// where the one before did. Where the clearance of that one is not known, the new one's is measured.
   void resize(double new_height, const Vec3& new_place);
 
   void touch(const Impact& contact, double gap);
@@ -129,7 +123,6 @@ class Move {
   /// gap_over(), as far as it was looked.
   [[nodiscard]] double look_along(const Vec3& motion);
 
-  FreeBall& ball_;
   Vec3 last_direction_{0.0};
   int merged_ = 0;
 };

@@ -14,9 +14,8 @@ constexpr double leaving = 0.05;
 /// The smaller body lies in the larger one, and so does its way from the larger one's centre to its own.
 void narrow(Move& m, const Sizes& sizes, double radius) {
   const double by = m.settings.radius - radius, before = m.settings.height;
-  const bool known = m.clearance > 0.0;
   sizes.present = sized(sizes.given, {radius, m.settings.support_radius});
-  if (known) m.clearance = std::max(m.clearance - by, radius - world_tolerance);
+  m.known.clearance = std::max(m.known.clearance - by, radius - world_tolerance);
   const double height = m.height < before ? m.height : m.settings.height;
   m.resize(height, m.place - Vec3(0.0, 0.0, 0.5 * (m.height - height)));
   m.note(EventKind::narrowed);
@@ -38,11 +37,11 @@ void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
     if (m.probe(lift).touched || !fits(m.space, body, m.place + lift + raised)) return;
   }
   // The old body's way up lies in the new one.
-  const double reach = std::clamp(m.clearance - m.settings.radius, 0.0, m.settings.clearance_reach);
   if (lift.z + raised.z > 0.0) m.go(lift + raised);
-  const double gap = m.space.clearance(body, m.place, reach).distance;
-  m.clearance = radius + std::max(gap, -world_tolerance);
+  const double gap = m.space.clearance(body, m.place, m.settings.clearance_reach).distance;
   sizes.present = larger;
+  m.known.clearance = radius + std::max(gap, -world_tolerance);
+  m.known.fresh = true;
   m.resize(height, m.place);
   m.note(EventKind::widened);
 }

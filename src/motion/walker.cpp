@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -73,35 +72,21 @@ WalkerInput Walker::slowed(const WalkerInput& input) {
 }
 
 walking::Move Walker::under_way() {
-  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, clearance_, ball_);
+  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, known_);
   m.time = report_.elapsed;
-  m.nearest = nearest_;
-  m.fresh = fresh_;
-  m.touching = touching_;
-  m.unproven = unproven_;
   return m;
 }
 
 void Walker::come_to(const walking::Move& m) {
   position_ = m.place;
   height_ = m.height;
-  clearance_ = m.clearance;
-  nearest_ = m.nearest;
-  fresh_ = m.fresh;
-  unproven_ = m.unproven;
-  came_upon_ = m.came_upon;
-}
-
-/// What was known of a space that has changed.
-void Walker::forget() {
-  ball_ = {};
-  nearest_ = std::numeric_limits<double>::infinity();
-  fresh_ = false;
+  known_ = m.known;
 }
 
 void Walker::begin() {
-  touching_ = !report_.contacts.empty();
-  if (!space_->tells_changes() || space_->revision() != known_at_) forget();
+  if (!space_->tells_changes() || space_->revision() != known_at_) known_.forget();
+  known_.touching = !report_.contacts.empty();
+  known_.unproven = known_.came_upon = false;
   known_at_ = space_->revision();
   report_.corners.clear();
   report_.contacts.clear();
@@ -118,16 +103,15 @@ void Walker::finish() {
   report_.grounded = stance_.grounded;
   report_.carried = stance_.carried;
   if (mode_ == Mode::ghost || held_) {
-    clearance_ = 0.0;
-    fresh_ = false;
-  } else if (!fresh_) {
+    known_.forget_place();
+  } else if (!known_.fresh || (known_.over_way && position_ == report_.from)) {
+    // Who rests is told the clearance of the place once, and no more that of the way there.
     walking::Move m = under_way();
-    m.clearance = m.clearance_over(Vec3(0.0));
-    m.fresh = true;
+    m.measure();
     come_to(m);
   }
-  report_.clearance = report_.least_clearance = clearance_;
-  report_.least_gap = clearance_ - settings_.radius;
+  report_.clearance = report_.least_clearance = known_.clearance;
+  report_.least_gap = known_.clearance - settings_.radius;
   report_.met_unknown |= waits_ || (stance_.grounded && stance_.unknown);
   if (report_.met_unknown) report_.events.push({EventKind::met_unknown, position_});
   for (const Corner& c : report_.corners) {
@@ -145,9 +129,7 @@ void Walker::remember_safe() {
 
 void Walker::put(const Vec3& place, double time) {
   position_ = place;
-  clearance_ = 0.0;
-  nearest_ = std::numeric_limits<double>::infinity();
-  fresh_ = false;
+  known_.forget();
   const Corner corner{position_, height_, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
   if (!report_.corners.empty() && report_.corners.back().teleport) {
@@ -206,6 +188,7 @@ void Walker::fit_in() {
 }
 
 void Walker::free_body() {
+  known_.forget();
   const std::optional<Vec3> free = way_out(*space_, body(), position_, skin_);
   if (!free) return hold();
   // Put exactly in touch, a body is a hair too near: that is set right without a word.
@@ -231,23 +214,23 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
     position_ += motion;
-    nearest_ = std::numeric_limits<double>::infinity();
+    known_.forget();
     if (motion != Vec3(0.0)) report_.corners.push({position_, height_, settings_.radius, dt, 0.0, false});
     if (walking::fits(*space_, body(), position_)) remember_safe();
   } else {
     const bool changed = space_->revision() != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
     const Vec3 wish(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
-    unproven_ = !held_ && changed && wish * dt != Vec3(0.0);
-    if (unproven_) {
+    known_.unproven = !held_ && changed && wish * dt != Vec3(0.0);
+    if (known_.unproven) {
       looked_at_ = space_->revision();
       resized_ = false;
     } else if (held_ || changed) {
       look_again();
     }
     if (!held_) move(slowed(input), dt);
-    if (unproven_ && embedded()) fit_in();
-    unproven_ = false;
+    if (known_.unproven && embedded()) fit_in();
+    known_.unproven = false;
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   finish();
@@ -257,7 +240,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
 void Walker::move(const WalkerInput& input, double dt) {
   walking::Ending end = move_for(input, dt);
   if (end == walking::Ending::embedded) {
-    if (came_upon_) {
+    if (known_.came_upon) {
       fit_in();
     } else {
       free_body();
@@ -347,6 +330,9 @@ bool Walker::resize(double radius, double support_radius) {
     walking::Move m = under_way();
     walking::adapt(m, stance_, sizes);
     come_to(m);
+    // The new body may fit where something came upon the old one.
+    if (space_->revision() != looked_at_) look_again();
+    resized_ = true;
   }
   finish();
   return walking::wanted(sizes, position_, feet()) == walking::Size{settings_.radius, settings_.support_radius};
