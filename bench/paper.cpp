@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "bench_verbs.h"
+#include "interrupt.h"
 #include "paper_report.h"
 #include "paper_scene.h"
 #include "report.h"
@@ -37,6 +38,7 @@ PaperFindings find(const Options& options) {
   findings.scene = laid.title;
   findings.triangles = laid.triangles;
   findings.prepared = laid.prepared;
+  findings.patience = options.paper.patience;
   findings.ways = paper_ways(options.paper.radius, options.paper.split_radius);
   for (const PaperRow& row : paper_rows()) {
     const auto& wanted = options.rows;
@@ -44,6 +46,7 @@ PaperFindings find(const Options& options) {
     RowFindings& found = findings.rows.emplace_back();
     found.row = &row;
     if (!row.load) continue;
+    app::stop_if_interrupted();
     fmt::print(stderr, "{}\n", row.title);
     found.result = run_row(row.name, laid.scene, options.paper);
     for (std::size_t i = 0; found.result.failure.empty() && i < findings.ways.size(); ++i) {
@@ -61,12 +64,7 @@ app::ExitStatus run(const Options& options) {
     app::print(paper_tables(findings));
   }
   if (!options.picture.empty()) draw_paper(options.picture, findings);
-  for (const RowFindings& row : findings.rows) {
-    for (const Judgement& judged : row.judged) {
-      if (row.row->name.starts_with("roam") && judged.in_walls > 0) return app::answer_no;
-    }
-  }
-  return app::done;
+  return paper_status(findings);
 }
 
 constexpr const char* help =
@@ -74,7 +72,7 @@ constexpr const char* help =
     "row\n"
     "then runs in a process of its own. Rows that cannot be run are named.\n"
     "docs/paper.md explains the cells, and sets them beside the printed ones.\n\n"
-    "Exit status 3: roam itself was in a wall.\n\n"
+    "Exit status 3: roam itself was in a wall; 1: also when a row of roam's own failed.\n\n"
     "Examples:\n"
     "  roam bench paper\n"
     "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB\n"

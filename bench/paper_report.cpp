@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "bars.h"
 
@@ -46,6 +47,7 @@ struct Cell1 {
   const RowFindings& row;
   std::size_t way;
   [[nodiscard]] const Judgement& judged() const { return row.judged[way]; }
+  [[nodiscard]] bool cut() const { return judged().ending == Ending::cut; }
   [[nodiscard]] Steps steps() const { return steps_of(row, {way}); }
 };
 
@@ -53,9 +55,15 @@ struct Cell1 {
 struct Cells2 {
   double load_s = 0.0, peak_mib = 0.0;
   Steps steps;
-  int flew_off = 0;  // of Table 1's three ways
-  bool room_entered = false, massive = false, radius_adapts = false;
+  int flew_off = 0, ended = 0;  // of Table 1's three ways
+  bool massive = false;
+  std::optional<bool> room_entered{}, radius_adapts{};  // empty: the way was cut
 };
+
+std::optional<bool> completed(const Judgement& judged) {
+  if (judged.ending == Ending::cut) return std::nullopt;
+  return judged.ending == Ending::reached;
+}
 
 Cells2 cells_2(const RowFindings& row) {
   Cells2 cells{row.result.load_seconds, static_cast<double>(row.result.peak_bytes) / (1 << 20),
@@ -63,18 +71,28 @@ Cells2 cells_2(const RowFindings& row) {
   for (std::size_t way = 0; way < table_1_ways; ++way) {
     const Ending ending = row.judged[way].ending;
     cells.flew_off += ending == Ending::fell || ending == Ending::through ? 1 : 0;
+    cells.ended += ending == Ending::cut ? 0 : 1;
   }
-  cells.room_entered = row.judged[room].ending == Ending::reached;
+  cells.room_entered = completed(row.judged[room]);
   cells.massive = row.result.peak_bytes <= massive_limit;
-  cells.radius_adapts = row.result.adapts && row.judged[adapted].ending == Ending::reached;
+  cells.radius_adapts = row.result.adapts ? completed(row.judged[adapted]) : false;
   return cells;
 }
 
-const char* yes(bool is) { return is ? "yes" : "no"; }
+const char* yes(std::optional<bool> is) { return !is ? "not finished" : *is ? "yes" : "no"; }
+
+Json known(std::optional<bool> is) { return is ? Json(*is) : Json(nullptr); }
+
+bool failed(const RowFindings& row) { return row.row->load && row.judged.empty(); }
+
+std::string outcome(const Judgement& judged, double patience) {
+  if (judged.ending == Ending::cut) return fmt::format("{} in {:g} s", name(judged.ending), patience);
+  return name(judged.ending);
+}
 
 std::string table_1(const PaperFindings& findings) {
   std::string out =
-      fmt::format("{:<18} {:>6} {:<26} {:<15} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "way", "r, m", "row",
+      fmt::format("{:<18} {:>6} {:<26} {:<22} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "way", "r, m", "row",
                   "outcome", "time, s", "steps", "p50, us", "p99, us", "max, us", "in walls", "deepest");
   for (std::size_t way = 0; way < findings.ways.size(); ++way) {
     for (const RowFindings& row : findings.rows) {
@@ -82,9 +100,10 @@ std::string table_1(const PaperFindings& findings) {
       const Cell1 cell{row, way};
       const Steps s = cell.steps();
       const Judgement& j = cell.judged();
-      out += fmt::format("{:<18} {:>6.3g} {:<26} {:<15} {:>9.4g} {:>7} {:>9.3g} {:>9.3g} {:>9.3g} {:>9} {:>7.3g} mm\n",
-                         findings.ways[way].name, row.result.ways[way].radius, row.row->title, name(j.ending),
-                         time_of_way(s), s.count, s.p50, s.p99, s.most, j.in_walls, 1e3 * j.deepest);
+      out += fmt::format("{:<18} {:>6.3g} {:<26} {:<22} {:>9} {:>7} {:>9.3g} {:>9.3g} {:>9.3g} {:>9} {:>7.3g} mm\n",
+                         findings.ways[way].name, row.result.ways[way].radius, row.row->title,
+                         outcome(j, findings.patience), cell.cut() ? "-" : fmt::format("{:.4g}", time_of_way(s)),
+                         s.count, s.p50, s.p99, s.most, j.in_walls, 1e3 * j.deepest);
     }
     out += "\n";
   }
@@ -93,18 +112,18 @@ std::string table_1(const PaperFindings& findings) {
 
 std::string table_2(const PaperFindings& findings) {
   std::string out =
-      fmt::format("{:<26} {:>8} {:>9} {:>9} {:>9} {:>6} {:>9} {:>11} {:>13} {:>14}\n", "row", "load, s", "peak, MiB",
+      fmt::format("{:<26} {:>8} {:>9} {:>9} {:>9} {:>6} {:>9} {:>12} {:>13} {:>14}\n", "row", "load, s", "peak, MiB",
                   "p50, us", "p99, us", "jams", "flew off", "small room", "within 1 GiB", "radius adapts");
   for (const RowFindings& row : findings.rows) {
     if (row.judged.empty()) {
       out += fmt::format("{:<26} {}\n", row.row->title,
-                         row.row->load ? "failed: " + row.result.failure : "not here: " + row.row->missing);
+                         failed(row) ? "failed: " + row.result.failure : "not here: " + row.row->missing);
       continue;
     }
     const Cells2 c = cells_2(row);
-    out += fmt::format("{:<26} {:>8.3g} {:>9.1f} {:>9.3g} {:>9.3g} {:>6} {:>7}/3 {:>11} {:>13} {:>14}\n",
+    out += fmt::format("{:<26} {:>8.3g} {:>9.1f} {:>9.3g} {:>9.3g} {:>6} {:>7}/{} {:>12} {:>13} {:>14}\n",
                        row.row->title, c.load_s, c.peak_mib, c.steps.p50, c.steps.p99, c.steps.jams, c.flew_off,
-                       yes(c.room_entered), yes(c.massive), yes(c.radius_adapts));
+                       c.ended, yes(c.room_entered), yes(c.massive), yes(c.radius_adapts));
   }
   return out;
 }
@@ -127,12 +146,11 @@ std::string paper_tables(const PaperFindings& findings) {
 }
 
 Json paper_json(const PaperFindings& findings) {
-  Json table_1 = Json::array(), table_2 = Json::array(), absent = Json::array();
+  Json table_1 = Json::array(), table_2 = Json::array(), absent = Json::array(), broken = Json::array();
   for (const RowFindings& row : findings.rows) {
     if (row.judged.empty()) {
-      absent.push_back({{"row", row.row->name},
-                        {"title", row.row->title},
-                        {"why", row.row->load ? row.result.failure : row.row->missing}});
+      const Json why = failed(row) ? row.result.failure : row.row->missing;
+      (failed(row) ? broken : absent).push_back({{"row", row.row->name}, {"title", row.row->title}, {"why", why}});
       continue;
     }
     for (std::size_t way = 0; way < findings.ways.size(); ++way) {
@@ -142,7 +160,7 @@ Json paper_json(const PaperFindings& findings) {
                          {"row", row.row->name},
                          {"radius_m", row.result.ways[way].radius},
                          {"outcome", name(cell.judged().ending)},
-                         {"time_s", time_of_way(s)},
+                         {"time_s", cell.cut() ? Json(nullptr) : Json(time_of_way(s))},
                          {"steps", s.count},
                          {"p50_us", s.p50},
                          {"p99_us", s.p99},
@@ -160,12 +178,24 @@ Json paper_json(const PaperFindings& findings) {
                        {"p99_us", c.steps.p99},
                        {"jams", c.steps.jams},
                        {"flew_off", c.flew_off},
-                       {"small_room", c.room_entered},
+                       {"ways_ended", c.ended},
+                       {"small_room", known(c.room_entered)},
                        {"within_1_gib", c.massive},
-                       {"radius_adapts", c.radius_adapts}});
+                       {"radius_adapts", known(c.radius_adapts)}});
   }
-  return {{"scene", findings.scene},       {"triangles", findings.triangles}, {"laid_out_s", findings.prepared},
-          {"table_1", std::move(table_1)}, {"table_2", std::move(table_2)},   {"absent", std::move(absent)}};
+  return {{"scene", findings.scene},         {"triangles", findings.triangles}, {"laid_out_s", findings.prepared},
+          {"patience_s", findings.patience}, {"table_1", std::move(table_1)},   {"table_2", std::move(table_2)},
+          {"absent", std::move(absent)},     {"failed", std::move(broken)}};
+}
+
+app::ExitStatus paper_status(const PaperFindings& findings) {
+  bool in_wall = false;
+  for (const RowFindings& row : findings.rows) {
+    if (!row.row->name.starts_with("roam")) continue;
+    if (failed(row)) return app::failed;
+    in_wall |= std::any_of(row.judged.begin(), row.judged.end(), [](const Judgement& j) { return j.in_walls > 0; });
+  }
+  return in_wall ? app::answer_no : app::done;
 }
 
 void draw_paper(const std::string& file, const PaperFindings& findings) {
@@ -180,7 +210,7 @@ void draw_paper(const std::string& file, const PaperFindings& findings) {
       group.bars.push_back({.name = row.row->title,
                             .p50 = s.p50,
                             .p99 = s.p99,
-                            .note = name(cell.judged().ending),
+                            .note = outcome(cell.judged(), findings.patience),
                             .stressed = row.row->name.starts_with("roam")});
     }
   }

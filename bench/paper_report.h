@@ -2,6 +2,7 @@
 /// \file
 /// The paper's two tables, from what the rows did.
 
+#include "exit_status.h"
 #include "report.h"
 #include "row_process.h"
 
@@ -17,6 +18,7 @@ struct PaperFindings {
   std::string scene;
   std::uint64_t triangles = 0;
   double prepared = 0.0;  ///< seconds
+  double patience = 0.0;  ///< seconds that a way could take
   std::vector<Way> ways;
   std::vector<RowFindings> rows;
 };
@@ -28,6 +30,8 @@ constexpr std::uint64_t massive_limit = 1ull << 30;
 
 [[nodiscard]] std::string paper_tables(const PaperFindings& findings);
 [[nodiscard]] app::Json paper_json(const PaperFindings& findings);
+/// Failed when a row of roam's own did not come to its end, answer_no when roam was in a wall. Rows of others may fail.
+[[nodiscard]] app::ExitStatus paper_status(const PaperFindings& findings);
 /// The steps' times on the first two ways as bars. Throws roam::Error.
 void draw_paper(const std::string& file, const PaperFindings& findings);
 

@@ -1,13 +1,12 @@
 #include "paper_ways.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 
 #include "judge.h"
 #include "roam/generate.h"
+#include "thread_clock.h"
 
 namespace roam::bench {
 namespace {
@@ -18,23 +17,6 @@ constexpr double near_enough = 0.3;    // m from the end
 constexpr double fallen = 2.0;         // m below the way
 constexpr int window = 60;             // steps in which a body that is not stuck gets on
 constexpr double least_progress = 0.05;
-
-/// Nanoseconds that this thread has been running: what other programs do does not count.
-double thread_time() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-/// What two readings of that clock take.
-double cost_of_reading() {
-  double least = 1e9;
-  for (int i = 0; i < 1000; ++i) {
-    const double begin = thread_time();
-    least = std::min(least, thread_time() - begin);
-  }
-  return least;
-}
 
 /// How far the end is; for who walks, seen from above.
 double left(const Way& way, const Vec3& place) {
@@ -75,7 +57,9 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
   walked.radius = way.radius;
   mover.place(way);
   double before = left(way, place);
-  while (!arrived(way, place) && below(way, place) < fallen && std::chrono::steady_clock::now() < end) {
+  while (!arrived(way, place) && below(way, place) < fallen) {
+    walked.cut = std::chrono::steady_clock::now() >= end;
+    if (walked.cut) break;
     Vec3 ahead = way.to - place;
     if (way.walking) ahead.z = 0.0;
     const double rest = glm::length(ahead);
@@ -85,7 +69,7 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
     walked.nanoseconds.push_back(std::max(0.0, thread_time() - begin - reading));
     walked.places.push_back(place);
     if (mover.radius) walked.radius = std::min(walked.radius, mover.radius());
-    if (mover.rest) mover.rest(1.0 / paper_rate);
+    if (mover.rest) mover.rest(std::max(0.0, 1.0 / paper_rate - 1e-9 * walked.nanoseconds.back()));
     if (walked.nanoseconds.size() % window != 0) continue;
     const double progress = before - left(way, place);
     // Who falls does not get on, and is not stuck.
@@ -114,7 +98,10 @@ Judgement judge(const Way& way, const Walked& walked, const Reference& near) {
     }
   }
   const Vec3& last = walked.places.back();
-  judgement.ending = below(way, last) >= fallen ? Ending::fell : arrived(way, last) ? Ending::reached : Ending::stuck;
+  judgement.ending = below(way, last) >= fallen ? Ending::fell
+                     : arrived(way, last)       ? Ending::reached
+                     : walked.cut               ? Ending::cut
+                                                : Ending::stuck;
   return judgement;
 }
 
@@ -126,8 +113,10 @@ const char* name(Ending ending) {
       return "stuck";
     case Ending::fell:
       return "fell";
-    default:
+    case Ending::through:
       return "through a wall";
+    default:
+      return "not finished";
   }
 }
 

@@ -33,7 +33,7 @@ struct Mover {
   std::function<void(const Way&)> place;
   /// One step at this velocity (m/s); the centre afterwards. This is what is timed.
   std::function<Vec3(const Vec3& velocity)> step;
-  /// What the frame has left, seconds: for those who load meanwhile. May be empty.
+  /// What the step has left of its frame, seconds: for those who load meanwhile. May be empty.
   std::function<void(double seconds)> rest{};
   /// The radius now, for those who change it on ways that are adapting. Empty for those who cannot.
   std::function<double()> radius{};
@@ -44,12 +44,14 @@ struct Walked {
   std::vector<double> nanoseconds;  ///< of each step, of the thread's own time
   std::vector<Vec3> places;         ///< the centre at the start and after each step
   double radius = 0.0;              ///< metres, the least that the body had
+  bool cut = false;                 ///< ended by the clock while it was still getting on
 };
 
 /// Goes until the end is reached, nothing moves any more, the body has fallen, or `longest` seconds have passed.
 [[nodiscard]] Walked walk(const Mover& mover, const Way& way, double longest);
 
-enum class Ending : std::uint8_t { reached, stuck, fell, through };
+/// `cut`: patience ran out first, and nothing is known of the rest of the way.
+enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
 
 /// How a way ended, judged by geometry that no mover has a part in.
 struct Judgement {
@@ -61,7 +63,7 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const Way& way, const Walked& walked, const Reference& near);
 constexpr double paper_reach = 20.0;  ///< metres
 
-/// "completed", "stuck", "fell" or "through a wall".
+/// "completed", "stuck", "fell", "through a wall" or "not finished".
 [[nodiscard]] const char* name(Ending ending);
 
 }  // namespace roam::bench

@@ -2,19 +2,24 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "interrupt.h"
 #include "roam/error.h"
 
 extern char** environ;
@@ -25,6 +30,13 @@ namespace {
 using nlohmann::json;
 
 constexpr int result_end = 3;  // the descriptor that a row writes to
+
+/// The largest resident memory of a program that this one has started and waited for: roam's reader.
+std::uint64_t peak_bytes_of_children() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
 
 /// The largest resident memory of this process so far.
 std::uint64_t peak_bytes() {
@@ -39,7 +51,7 @@ std::uint64_t peak_bytes() {
 json to_json(const Walked& walked) {
   json places = json::array();
   for (const Vec3& p : walked.places) places.push_back({p.x, p.y, p.z});
-  return {{"radius", walked.radius}, {"ns", walked.nanoseconds}, {"places", places}};
+  return {{"radius", walked.radius}, {"cut", walked.cut}, {"ns", walked.nanoseconds}, {"places", places}};
 }
 
 RowResult parse(const std::string& text) {
@@ -51,22 +63,43 @@ RowResult parse(const std::string& text) {
   for (const json& way : report.at("ways")) {
     Walked& walked = result.ways.emplace_back();
     walked.radius = way.at("radius");
+    walked.cut = way.at("cut");
     walked.nanoseconds = way.at("ns").get<std::vector<double>>();
     for (const json& p : way.at("places")) walked.places.emplace_back(p[0], p[1], p[2]);
   }
   return result;
 }
 
+/// What comes until the other end is closed; empty after Ctrl-C, and when reading fails.
+std::optional<std::string> read_all(int end) {
+  constexpr int look_up = 100;  // ms: a signal may come just before the call that it is to end
+  std::string text;
+  std::array<char, 65536> buffer{};
+  while (!app::interrupted()) {
+    pollfd ready{end, POLLIN, 0};
+    const int count = ::poll(&ready, 1, look_up);
+    if (count == 0 || (count < 0 && errno == EINTR)) continue;
+    const ssize_t got = count < 0 ? -1 : ::read(end, buffer.data(), buffer.size());
+    if (got == 0) return text;
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return std::nullopt;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  return std::nullopt;
+}
+
 json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Mover mover = row.load(scene);
+  const std::vector<Way> paper = paper_ways(options.radius, options.split_radius);
+  mover.place(paper.front());  // who loads meanwhile waits here
   const double loaded = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   json ways = json::array();
-  for (const Way& way : paper_ways(options.radius, options.split_radius)) {
+  for (const Way& way : paper) {
     ways.push_back(to_json(walk(mover, way, options.patience)));
   }
   const json report{{"load_s", loaded},
-                    {"peak_bytes", peak_bytes()},
+                    {"peak_bytes", peak_bytes() + peak_bytes_of_children()},
                     {"adapts", static_cast<bool>(mover.radius)},
                     {"ways", std::move(ways)}};
   return report;
@@ -98,16 +131,20 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
   const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
-  std::string text;
-  std::array<char, 65536> buffer{};
-  for (ssize_t got = 0; failed == 0 && (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
-    if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
+  if (failed != 0) {
+    ::close(ends[0]);
+    throw Error(std::string("cannot start a row: ") + ::strerror(failed));
   }
+  const std::optional<std::string> said = read_all(ends[0]);
   ::close(ends[0]);
-  if (failed != 0) throw Error(std::string("cannot start a row: ") + ::strerror(failed));
+  // Ctrl-C reaches the row as well; a signal to this process alone does not.
+  if (!said) ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  app::stop_if_interrupted();
+  if (!said) throw Error("cannot read what the row '" + name + "' found");
+  const std::string& text = *said;
   RowResult broken;
   if (WIFSIGNALED(status)) {
     broken.failure = fmt::format("ended by signal {}", ::strsignal(WTERMSIG(status)));
