@@ -2,21 +2,45 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
+#include <exception>
+#include <functional>
 
 namespace roam::bench {
 namespace {
 
+/// Asks, and notes how the engine ended if it does: then it is not asked again.
+class Guarded {
+ public:
+  explicit Guarded(const Ask& ask) : ask_(ask) {}
+  void operator()(std::span<const Query> queries, std::span<double> nanoseconds, std::span<Answer> answers) {
+    if (!failure.empty()) return;
+    try {
+      ask_(queries, nanoseconds, answers);
+    } catch (const std::exception& error) {
+      failure = error.what();
+      if (failure.empty()) failure = "ended early";
+    }
+  }
+
+  std::string failure{};
+
+ private:
+  const Ask& ask_;
+};
+
 /// As many answers as the engine gives in the time that a round may take, at least one portion.
-std::vector<Answer> ask_patiently(const Engine& engine, std::span<const Query> queries, double patience) {
+std::vector<Answer> ask_patiently(Guarded& engine, std::span<const Query> queries, const ComparisonOptions& options) {
   constexpr std::size_t portion = 32;
   std::vector<Answer> answers(queries.size());
   std::vector<double> unused(portion);
   const auto start = std::chrono::steady_clock::now();
-  const auto end = start + std::chrono::duration<double>(patience);
+  const auto end = start + std::chrono::duration<double>(options.patience);
   std::size_t done = 0;
-  while (done < queries.size() && (done == 0 || std::chrono::steady_clock::now() < end)) {
+  while (engine.failure.empty() && done < queries.size() && (done == 0 || std::chrono::steady_clock::now() < end)) {
+    if (options.between) options.between();
     const std::size_t count = std::min(portion, queries.size() - done);
-    engine.ask(queries.subspan(done, count), unused, std::span(answers).subspan(done, count));
+    engine(queries.subspan(done, count), unused, std::span(answers).subspan(done, count));
     done += count;
   }
   answers.resize(done);
@@ -31,26 +55,37 @@ std::vector<EngineRun> compare(std::span<const Engine> engines, const QuerySet& 
   const bool capsules =
       std::any_of(queries.begin(), queries.end(), [](const Query& q) { return q.body.half_height > 0; });
   std::vector<Answer> truth;
-  for (const Query& query : queries) truth.push_back(reference.sweep(query));
+  for (const Query& query : queries) {
+    if (options.between) options.between();
+    truth.push_back(reference.sweep(query));
+  }
 
   std::vector<EngineRun> runs;
+  std::deque<Guarded> guarded;
   std::vector<Ask> asked;
   std::vector<std::size_t> counts;
   for (const Engine& engine : engines) {
     if (capsules && engine.spheres_only) continue;
-    const std::vector<Answer> answers = ask_patiently(engine, queries, options.patience);
+    Guarded& guard = guarded.emplace_back(engine.ask);
+    const std::vector<Answer> answers = ask_patiently(guard, queries, options);
     const std::size_t count = answers.size();
-    runs.push_back(
-        {.set = set.name,
-         .engine = &engine,
-         .asked = count,
-         .verdict = judge(answers, std::span(truth).first(count), queries.first(count), reference, engine.says_when),
-         .times = {}});
-    asked.push_back(engine.ask);
+    EngineRun& run = runs.emplace_back();
+    run.set = set.name;
+    run.engine = &engine;
+    run.asked = count;
+    if (guard.failure.empty()) {
+      run.verdict = judge(answers, std::span(truth).first(count), queries.first(count), reference, engine.says_when);
+    }
+    asked.push_back(std::ref(guard));
     counts.push_back(count);
   }
-  const std::vector<Times> times = time_in_turns(asked, counts, queries, options.rounds);
+  const std::vector<Times> times = time_in_turns(asked, counts, queries, options.rounds, options.between);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].failure = guarded[i].failure;
+    if (!runs[i].failure.empty()) {
+      runs[i].verdict = {};
+      continue;
+    }
     std::vector<bool> hits;
     for (std::size_t q = 0; q < counts[i]; ++q) hits.push_back(truth[q].hit);
     runs[i].times = summarize(times[i], hits);

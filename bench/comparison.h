@@ -3,6 +3,7 @@
 /// Engines on the same queries: who is wrong, and how long each takes.
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,16 +22,19 @@ struct EngineRun {
   const Engine* engine = nullptr;
   std::size_t asked = 0;  ///< fewer than the set has when the engine is too slow for all
   Verdict verdict;
-  Summary times;  ///< nanoseconds
+  Summary times;        ///< nanoseconds
+  std::string failure;  ///< empty, or how the engine ended while it was asked: then there is neither verdict nor time
 };
 
 struct ComparisonOptions {
   int rounds = 5;
-  double patience = 1.0;  ///< seconds: an engine that needs longer for a set gets the first part of it
+  double patience = 1.0;            ///< seconds: an engine that needs longer for a set gets the first part of it
+  std::function<void()> between{};  ///< called between engines, portions and rounds; what it throws ends the comparison
 };
 
 /// Judges all answers first, then times the engines in turns. Engines that know no capsule are left out where the set
-/// has one. One thread; the engines must outlive the runs.
+/// has one. An engine that throws while it is asked has failed, and the others go on. One thread; the engines must
+/// outlive the runs.
 [[nodiscard]] std::vector<EngineRun> compare(std::span<const Engine> engines, const QuerySet& set,
                                              const Reference& reference, const ComparisonOptions& options);
 

@@ -52,13 +52,8 @@ std::vector<EngineOffer> engine_offers(const EnginePlaces& places) {
 #else
       left_out("fcl", "libfcl-dev"),
 #endif
-#ifdef ROAM_BENCH_OSG
       linked("polytope", [](const Scene& scene) { return make_polytope(scene, false); }),
       linked("polytope-kdtree", [](const Scene& scene) { return make_polytope(scene, true); }),
-#else
-      left_out("polytope", "libopenscenegraph-dev"),
-      left_out("polytope-kdtree", "libopenscenegraph-dev"),
-#endif
       wasm("physx", "physx-js-webidl", places),
       wasm("jolt", "jolt-physics", places),
       linked("paper", make_paper),

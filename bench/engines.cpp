@@ -7,6 +7,7 @@
 #include "bars.h"
 #include "bench_verbs.h"
 #include "comparison.h"
+#include "interrupt.h"
 #include "report.h"
 #include "roam/error.h"
 #include "run_options.h"
@@ -25,12 +26,18 @@ struct Options : RunOptions {
   bool json = false;
 };
 
+/// An engine that is here, and ended while it was built or asked.
+struct Failure {
+  std::string name, set, why;  // the set is empty while it is built
+};
+
 /// What a run found.
 struct Findings {
   std::string scene;
   std::uint64_t triangles = 0;
   std::vector<Engine> engines;
   std::vector<EngineOffer> absent;
+  std::vector<Failure> failed;
   std::vector<EngineRun> runs;
 };
 
@@ -38,7 +45,7 @@ void note(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
 Findings find(const Options& options) {
   Findings findings;
-  const Scene scene = make_scene(options.scene);
+  const Scene scene = make_scene(options.scene, [] { return !app::interrupted(); });
   findings.scene = scene.name;
   findings.triangles = scene.triangles();
   note(scene.name);
@@ -50,21 +57,27 @@ Findings find(const Options& options) {
       findings.absent.push_back(offer);
       continue;
     }
+    app::stop_if_interrupted();
     note("building " + offer.name);
     try {
       findings.engines.push_back(offer.make(scene));
     } catch (const Error& error) {
-      EngineOffer broken = offer;
-      broken.missing = error.what();
-      findings.absent.push_back(broken);
+      findings.failed.push_back({offer.name, {}, error.what()});
     }
   }
-  if (findings.engines.empty()) throw Error("none of the engines that were asked for is here");
+  if (findings.engines.empty()) {
+    if (!findings.failed.empty()) throw Error(findings.failed.front().name + " failed: " + findings.failed.front().why);
+    throw Error("none of the engines that were asked for is here");
+  }
   for (const std::string& name : options.sets) {
     note("asking " + name);
     const QuerySet set = make_queries(name, options.queries, reference);
     for (EngineRun& run : compare(findings.engines, set, reference, options.comparison)) {
-      findings.runs.push_back(std::move(run));
+      if (run.failure.empty()) {
+        findings.runs.push_back(std::move(run));
+      } else {
+        findings.failed.push_back({run.engine->name, run.set, run.failure});
+      }
     }
   }
   return findings;
@@ -103,6 +116,10 @@ std::string table(const Findings& findings, int rounds) {
                        engine.build_one, or_dash(engine.build_two > 0, fmt::format("{:.3f}", engine.build_two)),
                        engine.used);
   }
+  for (const Failure& failure : findings.failed) {
+    out += fmt::format("{:<27} failed while it was {}: {}\n", failure.name,
+                       failure.set.empty() ? "built" : "asked " + failure.set, failure.why);
+  }
   for (const EngineOffer& offer : findings.absent) {
     out += fmt::format("{:<27} not here: {}\n", offer.name, offer.missing);
   }
@@ -129,7 +146,7 @@ Json to_json(const EngineRun& run) {
 }
 
 Json to_json(const Findings& findings, int rounds) {
-  Json engines = Json::array(), absent = Json::array(), runs = Json::array();
+  Json engines = Json::array(), absent = Json::array(), failed = Json::array(), runs = Json::array();
   for (const Engine& engine : findings.engines) {
     Json one{{"engine", engine.name},
              {"used", engine.used},
@@ -141,6 +158,7 @@ Json to_json(const Findings& findings, int rounds) {
   }
   for (const EngineOffer& offer : findings.absent)
     absent.push_back({{"engine", offer.name}, {"missing", offer.missing}});
+  for (const Failure& f : findings.failed) failed.push_back({{"engine", f.name}, {"set", f.set}, {"why", f.why}});
   for (const EngineRun& run : findings.runs) runs.push_back(to_json(run));
   return {{"scene", findings.scene},
           {"triangles", findings.triangles},
@@ -149,6 +167,7 @@ Json to_json(const Findings& findings, int rounds) {
           {"gap_allowed_m", gap_allowed},
           {"engines", engines},
           {"absent", absent},
+          {"failed", failed},
           {"runs", runs}};
 }
 
@@ -176,6 +195,9 @@ app::ExitStatus run(const Options& options) {
     app::print(table(findings, options.comparison.rounds));
   }
   if (!options.picture.empty()) draw(options.picture, findings);
+  if (std::any_of(findings.failed.begin(), findings.failed.end(), [](const Failure& f) { return f.name == "roam"; })) {
+    return app::failed;
+  }
   const bool wrong = std::any_of(findings.runs.begin(), findings.runs.end(), [](const EngineRun& run) {
     return run.engine->name == "roam" && run.verdict.missed + run.verdict.late > 0;
   });
@@ -186,7 +208,7 @@ constexpr const char* help =
     "Engines that are not here are named, with what to install. PhysX and Jolt come from npm as WebAssembly and run\n"
     "under node, slower than native builds of them:\n"
     "  npm install --prefix DIR physx-js-webidl jolt-physics\n\n"
-    "Exit status 3: roam itself missed something or stopped late.\n\n"
+    "Exit status 3: roam itself missed something or stopped late; 1: also when roam itself failed.\n\n"
     "Examples:\n"
     "  roam bench engines\n"
     "  roam bench engines --scene your/own/file.ive --picture engines.svg\n"
@@ -212,6 +234,7 @@ void add_engines(CLI::App& program, app::Run& run) {
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] {
     options->comparison.rounds = options->rounds;
+    options->comparison.between = app::stop_if_interrupted;
     run = [options] { return bench::run(*options); };
   });
 }

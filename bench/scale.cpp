@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench_verbs.h"
+#include "interrupt.h"
 #include "paper_scene.h"
 #include "report.h"
 #include "roam/error.h"
@@ -68,25 +69,30 @@ struct Row {
 };
 
 Size make_size(std::uint64_t triangles, const Options& options, const std::string& folder) {
+  app::stop_if_interrupted();
+  const auto goes_on = [](const auto&) { return !app::interrupted(); };
   const generate::Scene gallery = generate::gallery({.triangles = triangles});
   Size size{.triangles = gallery.triangles(), .space = {}, .pager = {}};
   const auto start = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   fmt::print(stderr, "making {} triangles\n", size.triangles);
   if (static_cast<double>(size.triangles) * building_bytes <= options.memory_gib * (1 << 30)) {
-    const std::vector<Mesh> meshes = generate::collect(gallery);
+    const std::vector<Mesh> meshes = generate::collect(gallery, goes_on);
     const double made = passed();
-    const auto world = std::make_shared<World>(World::build(meshes));
+    BuildOptions build;
+    build.progress = goes_on;
+    const auto world = std::make_shared<World>(World::build(meshes, build));
     size.build_s = passed() - made;
     size.bytes = world->stats().bytes;
     size.space = world;
     return size;
   }
   const std::string file = fmt::format("{}/{}.ply", folder, triangles);
-  generate::write_scene(gallery, file);
+  generate::write_scene(gallery, file, goes_on);
   StoreBuildOptions build;
   build.scene = {file};
   build.output = fmt::format("{}/{}.roam", folder, triangles);
+  build.progress = goes_on;
   const double made = passed();
   build_store(build);
   size.build_s = passed() - made;
@@ -111,6 +117,7 @@ std::vector<double> fly(const Size& size, What what, double speed) {
   std::vector<double> times;
   double unused = 0.0;
   while (!route.done()) {
+    app::stop_if_interrupted();
     const Vec3 place = walker.position();
     const std::uint64_t before = clock_before();
     if (what == What::sweep) unused += size.space->sweep(body, place, motion).time;
@@ -126,11 +133,6 @@ std::vector<double> fly(const Size& size, What what, double speed) {
   }
   to_nanoseconds(times);
   return times;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 std::vector<Row> measure(const std::vector<Size>& sizes, const Options& options) {

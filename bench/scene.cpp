@@ -11,9 +11,11 @@
 namespace roam::bench {
 namespace {
 
-std::vector<Mesh> read(const std::string& file) {
+std::vector<Mesh> read(const std::string& file, [[maybe_unused]] const std::function<bool()>& goes_on) {
 #ifdef ROAM_BENCH_READS_FILES
-  return import_scene(file).meshes;
+  ImportOptions options;
+  if (goes_on) options.progress = [&](const ImportProgress&) { return goes_on(); };
+  return import_scene(file, options).meshes;
 #else
   throw Error("cannot read '" + file +
               "': this build has no readers; choose gallery, terrain or city, or configure with -DROAM_TOOLS=ON");
@@ -39,16 +41,18 @@ std::uint64_t Scene::triangles() const {
   return count;
 }
 
-Scene make_scene(const SceneChoice& choice) {
+Scene make_scene(const SceneChoice& choice, const std::function<bool()>& goes_on) {
   Scene scene;
+  generate::Progress progress;
+  if (goes_on) progress = [&](std::uint64_t) { return goes_on(); };
   if (choice.scene == "gallery") {
-    scene.meshes = generate::collect(generate::gallery({.triangles = choice.triangles}));
+    scene.meshes = generate::collect(generate::gallery({.triangles = choice.triangles}), progress);
   } else if (choice.scene == "terrain") {
-    scene.meshes = generate::collect(generate::terrain({.triangles = choice.triangles}));
+    scene.meshes = generate::collect(generate::terrain({.triangles = choice.triangles}), progress);
   } else if (choice.scene == "city") {
-    scene.meshes = generate::collect(generate::city({.triangles = choice.triangles}));
+    scene.meshes = generate::collect(generate::city({.triangles = choice.triangles}), progress);
   } else {
-    scene.meshes = read(choice.scene);
+    scene.meshes = read(choice.scene, goes_on);
   }
   center_at(scene.meshes, choice.origin);
   scene.name = std::filesystem::path(choice.scene).filename().string() + ", " + std::to_string(scene.triangles()) +

@@ -3,6 +3,7 @@
 /// The triangles that a benchmark runs on.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct Scene {
 };
 
 /// Makes or loads the scene and moves it. Throws roam::Error where the file or the kind is unknown.
-[[nodiscard]] Scene make_scene(const SceneChoice& choice);
+/// Asks `goes_on` now and then; when it says no, roam::Cancelled is thrown.
+[[nodiscard]] Scene make_scene(const SceneChoice& choice, const std::function<bool()>& goes_on = {});
 
 }  // namespace roam::bench

@@ -1,8 +1,6 @@
 // How long a step takes in stores of the same scene, ever finer, and in a world in memory: one flight along a path
 // through each, a table and a picture.
 
-#include <time.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -19,6 +17,8 @@
 #include "roam/route.h"
 #include "roam/world.h"
 #include "steps_picture.h"
+#include "thread_clock.h"
+#include "timing.h"
 
 namespace {
 
@@ -29,7 +29,7 @@ using roam::Vec3;
 constexpr double longest_wait = 60.0;
 
 /// The first path of the paper, through its gallery.
-const std::vector<Vec3> first_path = {{-13739.0, 253.0, 182.0}, {-12504.0, 1566.0, 182.0}};
+const std::vector<Vec3> first_path = {roam::generate::gallery_paths[0].from, roam::generate::gallery_paths[0].to};
 
 struct Options {
   std::vector<std::string> stores;
@@ -40,23 +40,6 @@ struct Options {
   int rounds = 3;
   std::string picture;
 };
-
-/// Nanoseconds that this thread has been running: what other programs do does not count.
-double thread_time() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-/// What two readings of the clock take, nanoseconds.
-double cost_of_reading() {
-  double least = 1e9;
-  for (int i = 0; i < 1000; ++i) {
-    const double begin = thread_time();
-    least = std::min(least, thread_time() - begin);
-  }
-  return least;
-}
 
 /// One way along the path: of each step the nanoseconds, and what it asked.
 struct Flight {
@@ -102,11 +85,6 @@ Flight fly(const Options& options, const std::shared_ptr<const roam::Store>& sto
 
 double at(const std::vector<double>& sorted, double part) {
   return 1e-3 * sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 /// How often a step asks what, and how long that takes: of one flight, in which each question was timed.

@@ -8,12 +8,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double ticks_per_nanosecond() {
   static const double rate = [] {
     constexpr auto span = std::chrono::milliseconds(50);
@@ -43,17 +37,24 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 void to_nanoseconds(std::span<double> ticks) {
   const double empty = empty_ticks();
   for (double& t : ticks) t = std::max(0.0, t - empty) / ticks_per_nanosecond();
 }
 
 std::vector<Times> time_in_turns(std::span<const Ask> asked, std::span<const std::size_t> queries,
-                                 std::span<const Query> all, int rounds) {
+                                 std::span<const Query> all, int rounds, const std::function<void()>& between) {
   std::vector<std::vector<std::vector<double>>> runs(asked.size());
   std::vector<Answer> answers(all.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t e = 0; e < asked.size(); ++e) {
+      if (between) between();
       const std::size_t count = std::min(queries[e], all.size());
       asked[e](all.first(count), runs[e].emplace_back(count), answers);
     }

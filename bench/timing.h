@@ -24,9 +24,14 @@ using Times = std::vector<double>;
 using Ask = std::function<void(std::span<const Query>, std::span<double> nanoseconds, std::span<Answer>)>;
 
 /// The times of each of `asked` on the first queries[i] of `queries`. The engines take turns, `rounds` times; all
-/// queries of a round are asked in order, so that each engine's caches hold what its own queries left there.
+/// queries of a round are asked in order, so that each engine's caches hold what its own queries left there. `between`
+/// is called before each turn; what it throws ends the timing.
 [[nodiscard]] std::vector<Times> time_in_turns(std::span<const Ask> asked, std::span<const std::size_t> queries,
-                                               std::span<const Query> all, int rounds);
+                                               std::span<const Query> all, int rounds,
+                                               const std::function<void()>& between = {});
+
+/// The upper one where there are two in the middle. `values` must not be empty.
+[[nodiscard]] double median(std::vector<double> values);
 
 /// The figures of a set of queries, in nanoseconds.
 struct Summary {

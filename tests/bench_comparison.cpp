@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "../bench/comparison.h"
+#include "roam/error.h"
 
 namespace roam::bench {
 namespace {
@@ -86,6 +87,51 @@ TEST(BenchComparison, GivesAnEngineThatIsTooSlowTheFirstPart) {
   EXPECT_GT(runs[0].asked, 0U);
   EXPECT_LT(runs[0].asked, 200U);
   EXPECT_EQ(runs[0].verdict.queries, runs[0].asked);
+}
+
+TEST(BenchComparison, NamesAnEngineThatEndsAndGoesOnWithTheOthers) {
+  const Reference reference = wall_at_5();
+  const Engine right = engine(
+      "right", [&](const Query& q) { return reference.sweep(q); }, 2000.0);
+  Engine at_once = right, later = right;
+  at_once.name = "at once";
+  at_once.ask = [](auto&&...) { throw Error("ended early"); };
+  later.name = "later";
+  later.ask = [ask = right.ask](std::span<const Query> asked, std::span<double> times, std::span<Answer> answers) {
+    // All answers are given; it ends while it is timed.
+    if (asked.size() > 100) throw Error("out of memory");
+    ask(asked, times, answers);
+  };
+  const std::vector<Engine> engines{at_once, right, later};
+  const std::vector<EngineRun> runs = compared(engines, queries());
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[0].failure, "ended early");
+  EXPECT_EQ(runs[1].failure, "");
+  EXPECT_EQ(runs[1].verdict.hits, 100U);
+  EXPECT_EQ(runs[1].times.p50, 2000.0);
+  EXPECT_EQ(runs[2].failure, "out of memory");
+  EXPECT_EQ(runs[2].verdict.queries, 0U) << "no verdict on half a run";
+}
+
+TEST(BenchComparison, EndsWhenItIsToldTo) {
+  const Engine quick = engine(
+      "quick", [](const Query&) { return Answer{}; }, 1.0);
+  int calls = 0;
+  const auto stop_at = [&](int last) {
+    return [&calls, last] {
+      if (++calls == last) throw Cancelled();
+    };
+  };
+  const std::vector<Engine> engines{quick};
+  const QuerySet set = queries();
+  const ComparisonOptions whole{.rounds = 3, .patience = 10.0, .between = stop_at(-1)};
+  ASSERT_EQ(compare(engines, set, wall_at_5(), whole).size(), 1U);
+  // In each of its parts, the last round too.
+  for (const int last : {1, calls / 2, calls}) {
+    calls = 0;
+    const ComparisonOptions options{.rounds = 3, .patience = 10.0, .between = stop_at(last)};
+    EXPECT_THROW((void)compare(engines, set, wall_at_5(), options), Cancelled) << last;
+  }
 }
 
 TEST(BenchComparison, AsksNoCapsuleOfAnEngineOfSpheres) {
