@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "interrupt.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "roam/import.h"
@@ -21,46 +22,46 @@ namespace fs = std::filesystem;
 /// Keeps of each mesh what is near the ways.
 class Neighbourhood {
  public:
-  explicit Neighbourhood(const std::vector<Way>& ways) {
-    for (const Way& way : ways) {
-      Box box;
-      box.include(way.from);
-      box.include(way.to);
-      // Whoever falls or is pushed aside is judged, too; the split is 14 m deep.
-      box.lower -= Vec3(paper_reach);
-      box.upper += Vec3(paper_reach);
-      boxes_.push_back(box);
-    }
-  }
+  explicit Neighbourhood(std::vector<Way> ways) : ways_(std::move(ways)) {}
 
   void add(const Mesh& mesh) {
     Mesh kept{.name = mesh.name, .vertices = {}, .triangles = {}};
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      Box box;
-      for (const Vec3& v : mesh.triangle(i)) box.include(v);
-      const bool near = std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& b) {
-        return box.lower.x <= b.upper.x && box.upper.x >= b.lower.x && box.lower.y <= b.upper.y &&
-               box.upper.y >= b.lower.y && box.lower.z <= b.upper.z && box.upper.z >= b.lower.z;
-      });
-      if (!near) continue;
+      const Triangle triangle = mesh.triangle(i);
+      if (!near(triangle)) continue;
       const auto first = static_cast<std::uint32_t>(kept.vertices.size());
-      for (const Vec3& v : mesh.triangle(i)) kept.vertices.push_back(v);
+      kept.vertices.insert(kept.vertices.end(), triangle.begin(), triangle.end());
       kept.triangles.push_back({first, first + 1, first + 2});
     }
     if (!kept.triangles.empty()) kept_.push_back(std::move(kept));
   }
 
-  [[nodiscard]] std::shared_ptr<const Reference> judge() const {
+  /// What was kept is gone afterwards.
+  [[nodiscard]] std::shared_ptr<const Reference> judge() && {
     if (kept_.empty()) {
       throw Error(
           "the scene has nothing near the three paths of the paper's Table 1: it must be at their coordinates, "
           "metres, z up");
     }
-    return std::make_shared<Reference>(kept_);
+    const std::vector<Mesh> kept = std::move(kept_);
+    return std::make_shared<Reference>(kept);
   }
 
  private:
-  std::vector<Box> boxes_;
+  /// By the ball around the triangle's box: some that are farther off are kept too, and none that is nearer is not.
+  [[nodiscard]] bool near(const Triangle& triangle) const {
+    Box box;
+    for (const Vec3& v : triangle) box.include(v);
+    const Vec3 middle = box.center();
+    const double reach = paper_reach + 0.5 * glm::length(box.upper - box.lower);
+    return std::any_of(ways_.begin(), ways_.end(), [&](const Way& way) {
+      const Vec3 along = way.to - way.from;
+      const double part = std::clamp(glm::dot(middle - way.from, along) / glm::dot(along, along), 0.0, 1.0);
+      return glm::distance(middle, way.from + part * along) <= reach;
+    });
+  }
+
+  std::vector<Way> ways_;
   std::vector<Mesh> kept_;
 };
 
@@ -90,27 +91,32 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
   TileWriter tiles(laid.scene.tiles);
   Neighbourhood near(paper_ways(options.radius, options.split_radius));
   const auto take = [&](const Mesh& mesh) {
+    app::stop_if_interrupted();
     laid.triangles += mesh.triangles.size();
     tiles.add(mesh);
     near.add(mesh);
   };
+  const auto goes_on = [](const auto&) { return !app::interrupted(); };
   fmt::print(stderr, "laying out the scene in {}\n", folder);
   if (options.scene.empty()) {
     laid.scene.scene = folder + "/scene.ply";
     const generate::Scene gallery = generate::gallery({.triangles = options.triangles});
-    gallery.stream(take);
-    generate::write_scene(gallery, laid.scene.scene);
+    gallery.stream(take, goes_on);
+    generate::write_scene(gallery, laid.scene.scene, goes_on);
     laid.title = fmt::format("the made gallery, {} triangles", laid.triangles);
   } else {
     laid.scene.scene = options.scene;
-    for (const Mesh& mesh : import_scene(options.scene).meshes) take(mesh);
+    ImportOptions import;
+    import.progress = goes_on;
+    for (const Mesh& mesh : import_scene(options.scene, import).meshes) take(mesh);
     laid.title = fmt::format("{}, {} triangles", fs::path(options.scene).filename().string(), laid.triangles);
   }
-  laid.near = near.judge();
+  laid.near = std::move(near).judge();
   laid.scene.tile_count = tiles.finish();
   StoreBuildOptions build;
   build.scene = {laid.scene.scene};
   build.output = laid.scene.store;
+  build.progress = goes_on;
   build_store(build);
   laid.prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return laid;

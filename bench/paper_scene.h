@@ -40,7 +40,7 @@ struct LaidOut {
   std::shared_ptr<const Reference> near;  ///< all triangles within paper_reach of the ways
 };
 
-/// Writes the files into `folder`. Throws roam::Error.
+/// Writes the files into `folder`. Throws roam::Error, and roam::Cancelled after Ctrl-C.
 [[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::string& folder);
 
 }  // namespace roam::bench
