@@ -210,7 +210,7 @@ class Search {
       const Triangle t = survey_.triangle(id);
       area += 0.5 * std::abs(glm::cross(t[1] - t[0], t[2] - t[0]).z);
     }
-    const double cell = spacing_of(tree_, whole_.front());
+    const double cell = tree_.spacing();
     const double closed = static_cast<double>(closed_places_) * cell * cell;
     return closed * reversed_ratio < area - closed;
   }

@@ -201,7 +201,7 @@ class Judge {
       }
     }
     // A strip of width w has two rims: 2 ways out for every w / spacing places.
-    const double cell = spacing_of(tree_, nodes.front());
+    const double cell = tree_.spacing();
     const bool narrow = 2.0 * cell * static_cast<double>(looked_at) <= ledge_width * static_cast<double>(ways_out);
     if (narrow) ways_out -= voids;
     return static_cast<double>(falls) > majority * static_cast<double>(ways_out);
@@ -295,16 +295,6 @@ class Judge {
 };
 
 }  // namespace
-
-double spacing_of(const WidestTree& tree, NodeId id) {
-  double least = 0.0;
-  for (const NodeId beside : tree.neighbours(id)) {
-    const Vec3 to = tree.node(beside).place - tree.node(id).place;
-    const double apart = std::hypot(to.x, to.y);
-    if (apart > 0.0 && (least == 0.0 || apart < least)) least = apart;
-  }
-  return least;
-}
 
 bool is_scrap(const Component& component) { return component.nodes.size() < least_places; }
 

@@ -31,9 +31,6 @@ struct Surroundings {
 /// has not one place to so many that look at backs. The streets of a city have more to what is within its blocks.
 inline constexpr double reversed_ratio = 2.0;
 
-/// Metres between neighbours of the lattice, seen from above on foot; 0 for a place without any. `id` has been reached.
-[[nodiscard]] double spacing_of(const WidestTree& tree, NodeId id);
-
 /// So few places that a body can make no way.
 [[nodiscard]] bool is_scrap(const Component& component);
 

@@ -83,6 +83,8 @@ class WidestTree {
   /// whichever trees they hang in by now: growths that were ended take places from each other. Makes no places.
   void join(NodeId root, const std::vector<bool>& among);
 
+  /// Of its lattice, metres.
+  [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] const Node& node(NodeId id) const;
   /// The root of the tree that a node hangs in; no_node where it was seen but not reached.

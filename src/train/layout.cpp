@@ -38,7 +38,8 @@ std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
   return counts;
 }
 
-/// Why a component is not roamed.
+}  // namespace
+
 const char* why_left_out(Verdict verdict) {
   switch (verdict) {
     case Verdict::inside:
@@ -57,6 +58,8 @@ const char* why_left_out(Verdict verdict) {
   return "";
 }
 
+namespace {
+
 ConnectedPart part_of(const Measure& measure, const WidestTree& tree, const Component& component, bool roamed) {
   ConnectedPart part;
   part.places = component.nodes.size();
@@ -68,7 +71,7 @@ ConnectedPart part_of(const Measure& measure, const WidestTree& tree, const Comp
   });
   part.place = tree.node(*widest).place;
   if (measure.mode == Mode::walk) {
-    const double cell = spacing_of(tree, *widest);
+    const double cell = tree.spacing();
     part.area = static_cast<double>(part.places) * cell * cell;
   }
   return part;

@@ -32,6 +32,9 @@ struct Layout {
   std::size_t uncertain = 0;  ///< ways that were planned and then certified for no body: not among the paths
 };
 
+/// Why a component of that verdict is not roamed: ConnectedPart::why.
+[[nodiscard]] const char* why_left_out(Verdict verdict);
+
 /// What is measured for a training.
 [[nodiscard]] Measure measure_of(const TrainOptions& options);
 [[nodiscard]] BodyKind kind_of(const Survey& survey, const TrainOptions& options);

@@ -23,7 +23,7 @@ enum class Verdict : std::uint8_t {
   unfinished,  ///< not looked at whole, and without as much detail as another part: open country
 };
 
-/// "inside", "backs", "on top", "smaller" or "unfinished".
+/// "inside", "backs", "over low rooms", "on top", "smaller" or "unfinished".
 [[nodiscard]] const char* name(Verdict verdict);
 
 /// Places that hang together for a body of `narrowest`.

@@ -145,6 +145,7 @@ void WidestTree::join(NodeId root, const std::vector<bool>& among) {
   }
 }
 
+double WidestTree::spacing() const { return state_->spacing; }
 std::size_t WidestTree::size() const { return state_->graph->size(); }
 const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }
 NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }
