@@ -48,7 +48,7 @@ TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
 nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
 
 const std::vector<std::string> small{"engines",  "--triangles", "10000",      "--queries", "200",
-                                     "--rounds", "2",           "--patience", "0.05"};
+                                     "--rounds", "2",           "--patience", "10"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -149,6 +149,33 @@ TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
   EXPECT_TRUE(two["radius_adapts"]);
   EXPECT_FALSE(row_of(report["table_2"], "polytope-kdtree")["radius_adapts"]);
   EXPECT_FALSE(row_of(report["absent"], "ogre-bullet")["why"].get<std::string>().empty());
+  EXPECT_TRUE(report["failed"].empty()) << report["failed"];
+}
+
+/// Interrupts that command after each of some times, and looks at what is left.
+void expect_to_end_on_ctrl_c(std::vector<std::string> arguments, const std::vector<double>& seconds) {
+  arguments.insert(arguments.begin(), "bench");
+  for (const double after : seconds) {
+    const TestFolder folder;
+    std::vector<std::string> all = arguments;
+    if (all[1] != "engines") all.insert(all.end(), {"--scratch", folder.file("")});
+    const ProgramResult result = run_program(ROAM_PROGRAM, all, {.input = {}, .interrupt_after = after});
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_TRUE(says(result.err, "cancelled")) << result.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.file(""))) << "after " << after << " s";
+  }
+}
+
+// The scenes are far larger than what is done by then: they would run for minutes.
+TEST(BenchInterrupted, EndsEachMeasurementAndLeavesNothing) {
+  expect_to_end_on_ctrl_c({"paper", "--triangles", "100M"}, {1.0});
+  expect_to_end_on_ctrl_c({"scale", "--least", "100M", "--triangles", "100M", "--memory", "0.1"}, {1.0});
+  expect_to_end_on_ctrl_c({"engines", "--triangles", "10000", "--queries", "200", "--rounds", "1000000"}, {3.0});
+}
+
+// By a signal to the command alone, as from a supervisor: the row is another process, and goes on for long.
+TEST(BenchInterrupted, EndsTheRowThatRuns) {
+  expect_to_end_on_ctrl_c({"paper", "--triangles", "2M", "--rows", "polytope"}, {7.0});
 }
 
 TEST(BenchPaper, RefusesASceneThatIsNotAtThePlaceOfTable1) {
