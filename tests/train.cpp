@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "roam/generate.h"
 #include "train/trials.h"
@@ -153,6 +154,30 @@ TEST(Training, TakesAFootThatCarriesBesideAWall) {
   const std::vector<Vec3> along{{2.0, 2.0, 0.0}, {3.0, 0.35, 0.0}, {5.0, 0.35, 0.0}, {6.0, 2.0, 0.0}};
   EXPECT_EQ(walked(survey, 0.25, t.support_radius, along, 1.8), Outcome::reached);
   EXPECT_EQ(walked(survey, 0.25, 0.5 * gap + 0.02, along, 1.8), Outcome::fell);
+}
+
+/// What it climbs is lower than it was asked for: the trench is none for a step of 0.3 m.
+TEST(Training, LooksForCracksWithTheStepThatItsPathsAreOf) {
+  const Training t = roam::train(corridor({.door = 0.4, .split = 0.5, .depth = 0.25}));
+  EXPECT_LT(t.step, 0.2) << t.answer;
+  EXPECT_GT(t.step, 0.15) << t.answer;
+  const auto trench = std::find_if(t.cracks.begin(), t.cracks.end(),
+                                   [](const roam::Crack& crack) { return std::abs(crack.point.x - 3.0) < 0.1; });
+  ASSERT_NE(trench, t.cracks.end()) << t.answer;
+  EXPECT_NEAR(trench->radius, 0.25, 1e-3);
+  EXPECT_FALSE(t.feasible) << t.answer;
+  EXPECT_FALSE(says(t, "no crack lies on the way")) << t.answer;
+}
+
+/// The walker's foot takes what is at most 0.25 m deep for floor, and is carried over a gap that is deeper.
+TEST(Training, RecommendsNoFootForATrenchThatNoneHelpsOver) {
+  for (const double depth : {0.23, 0.25, 0.4}) {
+    const Training t = roam::train(corridor({.door = 0.8, .split = 1.2, .depth = depth}), {.height = 1.8, .step = 0.2});
+    const bool helps = depth > 0.25;
+    EXPECT_EQ(t.support_radius > 0.0, helps) << depth << ": " << t.answer;
+    EXPECT_EQ(says(t, "No foot helps over the trench 1.200 m wide"), !helps) << depth << ": " << t.answer;
+    EXPECT_TRUE(t.contradictions.empty()) << depth << ": " << t.answer;
+  }
 }
 
 TEST(Training, SaysWhyThereIsNothingToTrain) {

@@ -52,6 +52,22 @@ TEST(TrainedParts, AreNamedEachWithItsPlaceItsFloorAndWhetherItCounts) {
   EXPECT_TRUE(says(t, roof->why)) << t.answer;
 }
 
+TEST(TrainedParts, AreThoseThatAPathLeadsThrough) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});
+  shells::add_room(mesh, {20, 0, 0}, {24, 5, 3});
+  const Training t = roam::train(survey_of({mesh}), {.paths = 1, .height = 1.8});
+  const ConnectedPart* large = part_near(t, {4, 3, 0}, 4.0);
+  const ConnectedPart* small = part_near(t, {22, 2.5, 0}, 2.5);
+  ASSERT_NE(large, nullptr);
+  ASSERT_NE(small, nullptr);
+  EXPECT_TRUE(large->trained);
+  EXPECT_FALSE(small->trained);
+  EXPECT_FALSE(small->why.empty());
+  EXPECT_TRUE(says(t, "2 parts without a way between them; paths were planned in 1 of them")) << t.answer;
+  EXPECT_TRUE(says(t, small->why)) << t.answer;
+}
+
 TEST(TrainedParts, AreNoneForABodyThatIsTallerThanTheRooms) {
   Mesh mesh;
   shells::add_room(mesh, {0, 0, 0}, {8, 6, 2.2});

@@ -108,7 +108,7 @@ Profile profile_of(const TrainReport& report, const SceneIdentity& scene) {
   profile.radius = t.radius;
   profile.height = height_of(report);
   profile.support_radius = t.support_radius;
-  profile.step = std::min(report.options.step, 0.5 * profile.height);
+  profile.step = std::min(t.step, 0.5 * profile.height);
   profile.slope_degrees = report.slope_degrees;
   profile.largest = t.largest;
   profile.smallest = t.smallest;
@@ -157,7 +157,7 @@ Json json_report(const TrainReport& report) {
                {"radius", t.radius},
                {"height", height_of(report)},
                {"support_radius", t.support_radius},
-               {"step", report.options.step},
+               {"step", t.step},
                {"slope", report.slope_degrees},
                {"spacing", report.options.spacing},
                {"interval", {{"min", t.smallest}, {"max", or_null(t.largest)}}},
@@ -224,7 +224,7 @@ std::vector<picture::OpeningView> views_of(const TrainReport& report) {
     if (view.mode == Mode::fly) view.floor = d.point.z - t.radius;
     view.radius = t.radius;
     view.height = height_of(report);
-    view.step = std::min(report.options.step, 0.5 * view.height);
+    view.step = std::min(t.step, 0.5 * view.height);
     view.support_radius = t.support_radius;
     view.fits = split ? std::max(t.radius, t.support_radius) > 0.5 * d.width : 2.0 * t.radius < d.width;
     views.push_back(std::move(view));

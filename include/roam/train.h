@@ -99,6 +99,7 @@ struct ConnectedPart {
 struct Training {
   double radius = 0.0;          ///< of the body that serves: use it from now on
   double support_radius = 0.0;  ///< of its foot; 0: it needs none of its own
+  double step = 0.3;  ///< that it climbs, m: TrainOptions::step or less, for a sphere climbs at most its radius
   /// The feasible interval of one radius for all paths: [smallest, largest]. None: no opening limits it. 0: no crack.
   double smallest = 0.0;
   std::optional<double> largest;

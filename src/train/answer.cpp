@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace roam::training {
 
 namespace {
@@ -150,12 +153,15 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
         "points up, say so; else train for flying.",
         survey.triangles(), survey.slope_degrees());
   }
-  if (!parts.empty()) {
+  const auto low = std::find_if(parts.begin(), parts.end(), [](const ConnectedPart& part) {
+    return part.why == why_left_out(Verdict::over_low_rooms);
+  });
+  if (low != parts.end()) {
     return fmt::format(
         "A body {:g} m high stands nowhere inside: where it fits at all, as on the {:.0f} m2 about {}, is on top of "
         "rooms "
         "that are lower. Take a lower body.",
-        options.height, parts.front().area, at(parts.front().place));
+        options.height, low->area, at(low->place));
   }
   return options.mode == Mode::walk
              ? "There is no free place: nowhere on the floor does even the smallest body fit. Is the height right, and "
@@ -180,8 +186,11 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
     text = training.feasible ? feasible_words(training, cracks_known) : infeasible_words(layout, training);
   }
   if (layout.components.size() > 1) {
-    text += fmt::format(" The scene has {} parts without a way between them; paths were planned in each.",
-                        layout.components.size());
+    const auto planned = static_cast<std::size_t>(std::count_if(
+        training.parts.begin(), training.parts.end(), [](const ConnectedPart& part) { return part.trained; }));
+    text += fmt::format(" The scene has {} parts without a way between them; paths were planned in {}.",
+                        layout.components.size(),
+                        planned == layout.components.size() ? "each" : fmt::format("{} of them", planned));
   }
   text += parts_words(training.parts);
   if (layout.uncertain > 0)
@@ -191,6 +200,15 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
   if (contradictions.size() > most_told)
     text += fmt::format(" {} more trials contradict the geometry.", contradictions.size() - most_told);
   return text;
+}
+
+std::string shallow_words(const FoundCrack& trench) {
+  return fmt::format(
+      " No foot helps over the trench {:.3f} m wide at {}, for its bottom is only {:.3f} m down: a radius from {:.3f} "
+      "m "
+      "up rolls over it, and a step of {:.2f} m leads through it.",
+      2.0 * trench.radius, at(trench.point), trench.shallow_depth, trench.radius,
+      std::ceil(100.0 * trench.shallow_depth) / 100.0);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "roam/train.h"
+#include "train/cracks.h"
 #include "train/layout.h"
 #include "train/paper.h"
 
@@ -24,6 +25,9 @@ namespace roam::training {
 /// Of Method::interval. Whether all cracks were looked for, and whether it was ended before all was done.
 [[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known,
                                           bool ended);
+
+/// Of a trench that the body sinks into and no foot helps over.
+[[nodiscard]] std::string shallow_words(const FoundCrack& trench);
 
 /// Of Method::paper.
 [[nodiscard]] std::string paper_answer(const PaperResult& result, const Training& training);

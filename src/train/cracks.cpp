@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/free_disc.h"
 #include "train/void_measure.h"
 
 namespace roam::training {
@@ -14,6 +15,8 @@ namespace {
 
 /// Of the work, by time: finding voids. Measuring them is the rest.
 constexpr double kFindShare = 0.8;
+/// m: depths that storing makes of one.
+constexpr double same_depth = 2e-3;
 
 /// From the floor that a disc touches first to what it touches most nearly opposite.
 Vec3 across(const FloorPlan& plan, const Disc& disc) {
@@ -50,6 +53,8 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
   crack.radius = measured.disc.radius;
   crack.direction = across(probe.floor(), measured.disc);
   crack.foot = measured.foot;
+  const double depth = bottom ? crack.point.z - bottom->z : 0.0;
+  if (depth <= walking::carrying_band + same_depth) crack.shallow_depth = depth;
   crack.rim = measured.rim;
   return crack;
 }

@@ -25,6 +25,9 @@ struct FoundCrack : Crack {
   /// m, at least `radius`: a foot that carries even the thinnest body, which comes closer to walls and so, where a gap
   /// runs along or obliquely into a wall, farther from floor. To the spacing of a lattice, 3 cm for a radius of 5 cm.
   double foot = 0.0;
+  /// m, of its bottom where that is so near below the rim that a walker's foot takes it for floor: it is no gap that a
+  /// foot carries over, nor does a step reach it. 0: it is deeper.
+  double shallow_depth = 0.0;
   /// Places of the floor's rim along it, each at most 2 * smallest from the next along a triangle's edge, sorted. A way
   /// of the feet that goes over the gap passes between or over them.
   std::vector<Vec3> rim;

@@ -85,9 +85,14 @@ class Paths {
     const Crossings crossings(survey_, evidence_.cracks, layout_.measure.narrowest);
     for (std::size_t i = 0; i < training_.paths.size(); ++i) cross(crossings, i);
     if (options_.paths == 0) add_crossings(crossings);
-    for (const FoundCrack& crack : evidence_.cracks) {
-      if (crack.kind == Crack::Kind::crack) note_width(crack);
+    for (std::size_t i = 0; i < evidence_.cracks.size(); ++i) {
+      const FoundCrack& crack = evidence_.cracks[i];
       training_.cracks.push_back(crack);
+      if (crack.kind != Crack::Kind::crack) continue;
+      if (crack.shallow_depth == 0.0)
+        note_width(crack);
+      else if (!evidence_.shallow || crack.radius > evidence_.cracks[*evidence_.shallow].radius)
+        evidence_.shallow = i;
     }
   }
 
@@ -180,6 +185,8 @@ Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& la
   describe_decisive(layout, evidence, training);
   return evidence;
 }
+
+bool sinks_into(double radius, const Crack& crack) { return radius < carried_share * crack.radius; }
 
 double trapped_below(double crack_radius, double step) {
   return crack_radius > step && step > 0.0 ? (crack_radius * crack_radius + step * step) / (2.0 * step) : 0.0;

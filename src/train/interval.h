@@ -33,7 +33,8 @@ struct Evidence {
   std::vector<PathCrossing> crossings;   ///< of gaps that are cracks
   std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
   std::optional<std::size_t> widest;     ///< the crack that decides the lower end
-  double widest_anywhere = 0.0;          ///< m, radius of the widest crack, on a path or not
+  double widest_anywhere = 0.0;          ///< m, radius of the widest crack that a foot helps over, on a path or not
+  std::optional<std::size_t> shallow;    ///< the widest crack that none does, likewise
   double least_foot = 0.0;               ///< m, of the least foot that is carried over all of them; 0: there are none
   bool complete = true;                  ///< false: ended before all cracks were found
 };
@@ -43,6 +44,9 @@ struct Evidence {
 /// can walk around gets a path of its own.
 [[nodiscard]] Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Stages& stages,
                                  Training& training);
+
+/// Whether a body is so much smaller than a crack that it sinks into it.
+[[nodiscard]] bool sinks_into(double radius, const Crack& crack);
 
 /// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
 [[nodiscard]] double trapped_below(double crack_radius, double step);

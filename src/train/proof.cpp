@@ -84,6 +84,7 @@ class Proof {
     for (std::size_t i = 0; i < training_.paths.size(); ++i) {
       const TrainedPath& path = training_.paths[i];
       if (path.largest && *path.largest < training_.radius) continue;  // chosen for the others
+      if (sinks_into_shallow(i)) continue;                             // the answer says so
       all.push_back(
           {i, training_.radius, training_.support_radius, path.way, Judgement::passed, "the chosen body", true});
     }
@@ -112,8 +113,16 @@ class Proof {
     all.push_back({path, outside, foot_, std::move(through), Judgement::cannot_enter, "just outside the opening"});
   }
 
+  [[nodiscard]] bool sinks_into_shallow(std::size_t path) const {
+    return std::any_of(evidence_.crossings.begin(), evidence_.crossings.end(), [&](const PathCrossing& c) {
+      const FoundCrack& crack = evidence_.cracks[c.crossing.crack];
+      return c.path == path && crack.shallow_depth > 0.0 && sinks_into(training_.radius, crack);
+    });
+  }
+
   void add_crack(const PathCrossing& crossing, std::vector<Attempt>& all) {
-    const Crack& crack = evidence_.cracks[crossing.crossing.crack];
+    const FoundCrack& crack = evidence_.cracks[crossing.crossing.crack];
+    if (crack.shallow_depth > 0.0) return;
     const TrainedPath& path = training_.paths[crossing.path];
     const double passes = path.largest ? inside_share * *path.largest : training_.radius;
     const double small = crack.radius - foot_margin, body = std::min(passes, small);

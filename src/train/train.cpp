@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "train/answer.h"
+#include "train/inside.h"
 #include "train/interval.h"
 #include "train/layout.h"
 #include "train/paper.h"
@@ -55,17 +56,36 @@ void take_usual_body(const TrainOptions& options, const BodyKind& kind, Training
   training.radius = std::min({usual_radius, options.radius_max, largest_radius(kind)});
 }
 
+/// Parts that no path leads through were not trained. Fewer may have been asked for than there are parts.
+void leave_out_parts_without_paths(const Layout& layout, Training& training) {
+  auto part = training.parts.begin();
+  for (const Component& component : layout.components) {
+    if (is_scrap(component)) continue;
+    const auto leads_through = [&](const PlannedPath& path) {
+      return std::binary_search(component.nodes.begin(), component.nodes.end(), path.ends.from);
+    };
+    if (std::none_of(layout.paths.begin(), layout.paths.end(), leads_through)) {
+      part->trained = false;
+      part->why = "no path was planned in it";
+    }
+    ++part;
+  }
+}
+
 void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Layout& layout,
                    Stages& stages, Training& training) {
   const Evidence evidence = find_ends(survey, options, layout, stages, training);
   choose_body(kind, options, evidence, training);
   if (!stages.ended()) add_regions(survey, options, layout, stages, training);
   if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);
+  leave_out_parts_without_paths(layout, training);
   training.answer = interval_answer(layout, training, evidence.complete, stages.ended());
   if (evidence.least_foot > options.support_max && training.support_radius > 0.0)
     training.answer +=
         fmt::format(" A gap beside a wall needs a foot of {:.2f} m, more than was allowed: it is not carried.",
                     evidence.least_foot);
+  if (evidence.shallow && sinks_into(training.radius, evidence.cracks[*evidence.shallow]))
+    training.answer += shallow_words(evidence.cracks[*evidence.shallow]);
 }
 
 /// Laid out for the step of the body that comes of it: a sphere climbs at most its radius. Less climbs less, so this
@@ -118,6 +138,7 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const BodyK
   if (!(training.radius > 0.0)) take_usual_body(options, kind, training);
   if (result.fallen) training.smallest = result.fallen->radius;
   if (result.blocked) training.largest = result.blocked->radius;
+  leave_out_parts_without_paths(layout, training);
   training.answer = paper_answer(result, training);
 }
 
@@ -131,19 +152,22 @@ Training train(const Survey& survey, const TrainOptions& options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   Stages stages(options.progress);
   Training training;
-  const BodyKind kind = kind_of(survey, options);
   TrainOptions laid = options;
   if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
-  Layout layout = lay_out_for_body(survey, laid, kind, stages);
+  Layout layout = lay_out_for_body(survey, laid, kind_of(survey, options), stages);
+  // What follows is of the same step, or it would look for other cracks than the ways lead over.
+  TrainOptions settled = options;
+  settled.step = training.step = layout.measure.step;
+  const BodyKind kind = kind_of(survey, settled);
   for (const Component& component : layout.components) training.places += component.nodes.size();
   training.parts = layout.parts;
   if (layout.components.empty()) {
     take_usual_body(options, kind, training);
     training.answer = stages.ended() ? "No place was found." : nothing_to_train(survey, options, layout.parts);
   } else if (options.method == Method::paper) {
-    follow_paper(survey, options, kind, layout, stages, training);
+    follow_paper(survey, settled, kind, layout, stages, training);
   } else {
-    find_interval(survey, options, kind, layout, stages, training);
+    find_interval(survey, settled, kind, layout, stages, training);
   }
   training.complete = !stages.ended();
   if (!training.complete) {
