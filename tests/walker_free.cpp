@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "walker_judged.h"
 
@@ -28,7 +29,15 @@ class ChangingRoom final : public roam::Space {
 
   [[nodiscard]] roam::Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override {
     ++asked_;
-    return world_->sweep(body, from, motion);
+    roam::Impact s = world_->sweep(body, from, motion);
+    if (clings && motion.x == 0.0 && motion.y == 0.0 && motion.z < 0.0) {
+      s.hit = true;
+      s.time = s.distance = 0.0;
+      s.feature = roam::Feature::face;
+      s.point = from + Vec3(body.radius, 0.0, 0.0);
+      s.normal = *clings;
+    }
+    return s;
   }
   std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                        std::span<roam::Contact> contacts) const override {
@@ -59,6 +68,8 @@ class ChangingRoom final : public roam::Space {
   [[nodiscard]] double speed_limit() const override { return limit; }
 
   double limit = std::numeric_limits<double>::infinity();  ///< m/s
+  /// Where set, a way down meets a plane with this normal at once, as that of a body in touch with a wall may.
+  std::optional<Vec3> clings;
 
  private:
   std::unique_ptr<Mesh> mesh_;
@@ -254,6 +265,18 @@ void expect_true_or_none(const ChangingRoom& room, const Walker& w) {
   }
 }
 
+TEST(WalkerFree, AWallThatIsTouchedOnTheWayDownIsNoGround) {
+  for (const double z : {-0.0, 0.0, 1e-17, -1e-17, 1e-3, -1e-3}) {
+    SCOPED_TRACE(z);
+    ChangingRoom room(floor_mesh(), true);
+    Walker w(room, {}, Mode::walk, {0.0, 0.0, 0.9 + 0.005});
+    const double before = w.position().z;
+    room.clings = Vec3(-1.0, 0.0, z);
+    for (int i = 0; i < 30; ++i) w.step({{0.0, 0.3, 0.0}}, frame);
+    EXPECT_NEAR(w.position().z, before, near_ground);
+  }
+}
+
 TEST(WalkerFree, TellsNoClearanceThatWasTrueOfTheSpaceBefore) {
   for (const bool tells : {true, false}) {
     for (const double ahead : {0.05, 0.2, 0.5}) {
@@ -265,6 +288,9 @@ TEST(WalkerFree, TellsNoClearanceThatWasTrueOfTheSpaceBefore) {
         room.become(walled_hall(ahead));
         w.resize(radius, 0.0);
         expect_true_or_none(room, w);
+        if (tells) {
+          EXPECT_GE(room.judge().distance(w.body(), w.position(), 2.0), w.body().radius - 1e-6);
+        }
         w.set_mode(Mode::fly);
         expect_true_or_none(room, w);
         w.step({}, frame);
@@ -292,7 +318,7 @@ TEST(WalkerFree, ALowBodyIsMeasuredInTheSpaceAsItIs) {
   }
 }
 
-/// How much less than the truth may be told of a free way or place whose axis is so far from everything.
+/// The least that may be told of a free way or place whose axis is so far from everything.
 double least_told(double true_clearance, const WalkerSettings& s, double skin) {
   const double gap = std::min(true_clearance - s.radius, s.clearance_reach);
   return s.radius + 0.75 * gap - 2.0 * skin - 0.002;
@@ -340,12 +366,11 @@ TEST(WalkerFree, WhoRestsIsToldTheClearanceOfThePlace) {
   EXPECT_EQ(room.asked(), before);
 }
 
-TEST(WalkerFree, LooksFarEnoughAfterALongStepThatEndedInTheOpen) {
+TEST(WalkerFree, ALongWayPastAPostSaysLittleOfWhereItEnds) {
   Mesh m = hall();
   add_box(m, {-0.05, 0.5, -5.0}, {0.05, 0.6, 5.0});
   ChangingRoom room(m, true);
   Walker w(room, ball(0.3), Mode::fly, {-0.1, 0.0, 0.0});
-  // The look reaches a little farther than the way, to where it is nearest.
   w.step({{-120.0, 0.0, 0.0}}, frame);
   EXPECT_EQ(w.step({{-0.1, 0.0, 0.0}}, frame).clearance, 1.3);
 }
