@@ -48,7 +48,7 @@ TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
 nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
 
 const std::vector<std::string> small{"engines",  "--triangles", "10000",      "--queries", "200",
-                                     "--rounds", "2",           "--patience", "10"};
+                                     "--rounds", "2",           "--patience", "100000"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());

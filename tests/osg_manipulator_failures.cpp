@@ -18,6 +18,7 @@ TEST(ManipulatorFailures, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
       return 0;
     }
     roam::Clearance clearance(const roam::Body&, const Vec3&, const Vec3&, double reach) const override {
+      if (broken) throw roam::Error("the disk is gone");
       roam::Clearance c;
       c.distance = reach;
       return c;
