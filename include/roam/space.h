@@ -15,6 +15,7 @@
 ///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. So a body that starts
 ///     less than that from a wall may be answered a hit at time 0, whichever way it moves: keep a body that is to move
 ///     on at least 2 * largest_error() from what it touches, as Walker does;
+///   - a gap() that is more than 0 certifies the same of its whole way;
 ///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
 ///     `unknown`.
 ///
@@ -117,8 +118,11 @@ class Space {
   }
 
   /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
-  /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Else at most an
-  /// eighth of the gap, and 2 mm, less than the gap. More than 0 only when the whole way is free.
+  /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
+  /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
+  ///
+  /// For authors of spaces: Walker makes no sweep along a way of which this is more than 0.05 mm. That the body passes
+  /// nothing rests on it then as it does on sweep().
   [[nodiscard]] virtual double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
     return clearance(body, from, motion, reach).distance;
   }
@@ -138,6 +142,9 @@ class Space {
   /// what it is in a space that never changes, and in one that does not know.
   [[nodiscard]] virtual std::uint64_t revision() const { return 0; }
   /// Whether revision() tells of every change, so that what was answered once is answered again while it stays.
+  ///
+  /// For authors of spaces: where this is true, Walker remembers what gap() found free, and goes there without asking
+  /// while revision() is the same. A change that is not told lets it walk into what came.
   [[nodiscard]] virtual bool tells_changes() const { return false; }
   /// Metres per second that a body should not exceed now, so that what it comes to is known by then; Walker slows down
   /// to it. Going faster is safe too: the body stops before what is unknown. No limit where everything is known.

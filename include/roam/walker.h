@@ -7,9 +7,10 @@
 ///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
-///   - the body only moves along straight pieces that Space::sweep has certified free, so that at every instant its
-///     axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each with
-///     its own certified bound;
+///   - the body only moves along straight pieces that the space has certified free, by Space::sweep or by Space::gap,
+///     asked of the piece or, in a space that tells its changes, before of what lies around it; so that at every
+///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each
+///     with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
 ///     was put and not moved are marked as teleports;
@@ -190,7 +191,8 @@ struct Corner {
   double time = 0.0;  ///< seconds since the step began
   /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
   /// and a body that is being freed). Never less than radius - 1e-6 otherwise; it may be less than the true clearance,
-  /// by a quarter of the gap and 2 mm at most on a free way: Space::clearance tells more.
+  /// by a quarter of the gap, two skins and 2 mm at most on a free way: Space::clearance tells more. What is merged of
+  /// many ways in one direction has the least of theirs.
   double clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is said about the way
 };
@@ -209,8 +211,9 @@ struct StepReport {
   Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
   double height = 0.0;  ///< the body's whole height now, metres
   double radius = 0.0;  ///< the body's radius now, metres
-  /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the piece
-  /// which ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded).
+  /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the way which
+  /// ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded, or something has
+  /// come upon it of which the next step frees it).
   double clearance = 0.0;
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
