@@ -12,7 +12,7 @@ namespace roam::bench {
 namespace {
 
 // Of the picture, in its own units.
-constexpr double width = 760.0, left = 200.0, right = 190.0, top = 56.0, row = 20.0, gap = 34.0, bottom = 24.0;
+constexpr double width = 810.0, left = 200.0, right = 240.0, top = 56.0, row = 20.0, gap = 34.0, bottom = 24.0;
 
 std::string escaped(const std::string& text) {
   std::string out;

@@ -75,7 +75,7 @@ constexpr const char* help =
     "Exit status 3: roam itself was in a wall; 1: also when a row of roam's own failed.\n\n"
     "Examples:\n"
     "  roam bench paper\n"
-    "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB\n"
+    "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB; takes 30 GB of memory\n"
     "  roam bench paper --scene your/own/gallery.ive --json\n";
 
 }  // namespace
