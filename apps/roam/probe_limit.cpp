@@ -250,6 +250,8 @@ std::optional<Limit> headroom(const ProbeSearch& search, double radius) {
     const double next = beyond ? low + precision : 0.5 * (low + high);
     if (!passes(next)) high = next;
   }
+  // Where nothing is above the way of the lower body, it is not the height that stops the higher one.
+  if (best->size >= tall + headroom_beyond) return std::nullopt;
   best->size = low;
   best->needed = tall;
   best->point = best->feet + Vec3(0.0, 0.0, 0.5 * low);
