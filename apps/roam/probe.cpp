@@ -130,11 +130,11 @@ std::string file_names(const SceneOptions& scene) {
   return text;
 }
 
-void write_path(const ProbeOptions& o, const ProbeAnswer& answer) {
+void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::ofstream out(*o.path);
   out << "# " << explain(o.question, answer) << "\n";
   out << body_line(settings_of(o.question, answer.size), o.question.mode) << "\n";
-  for (const Vec3& p : centres(o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  for (const Vec3& p : centres(survey, o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
   out.close();
   if (!out) throw Error(o.path->string() + ": cannot be written; is its folder yours, and the disk not full?");
 }
@@ -177,12 +177,14 @@ ExitStatus probe(ProbeOptions o) {
     answers = probe(scene.survey, o.question, sizes, [&](std::uint64_t places) { return progress.goes_on(places, 0); });
   }
   const ProbeAnswer& first = answers.front();
-  if (o.path && first.wide_enough) write_path(o, first);
+  if (o.path && first.wide_enough) write_path(o, scene.survey, first);
+  if (o.path && !first.wide_enough)
+    fmt::print(stderr, "roam: {}: there is no way, so it was not written\n", o.path->string());
   if (drawing) drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first));
   if (o.json) {
     print(json_report(o, scene, answers));
   } else {
-    print(o.matrix ? table(answers) : explain(o.question, first) + "\n");
+    print(o.matrix ? table(o.question, answers) : explain(o.question, first) + "\n");
   }
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 
 #include "exit_status.h"
 #include "probe_search.h"
 #include "roam/error.h"
+#include "train/open_space.h"
 
 namespace roam::app {
 namespace {
@@ -21,6 +23,8 @@ constexpr double wide_times = 1.25;
 /// The narrowest ways that are looked for, to name the opening that stops the body: metres, and parts of its radius.
 constexpr double narrow = 0.05;
 constexpr double narrow_part = 0.5;
+/// Radii. A route has left the scene more than two beyond its box; one beyond it nothing is met.
+constexpr double beside_scene = 1.9;
 
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
 
@@ -30,10 +34,42 @@ bool is_number(const std::string& text, double& value) {
   return error == std::errc() && after == end;
 }
 
+/// The nearest place of a box.
+Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lower, box.upper); }
+
+/// A way that is taken to a box wherever it leads beside it; its ends stay. What is straight stays straight, and on the
+/// box's sides a body is as far from all that lies in it as the box is larger.
+std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
+  std::vector<Vec3> near;
+  const auto add = [&](const Vec3& place) {
+    if (near.empty() || near.back() != place) near.push_back(place);
+  };
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    // Between two crossings of the sides' planes it is taken straight to a straight line.
+    std::vector<double> crossings{0.0, 1.0};
+    const Vec3 along = way[i + 1] - way[i];
+    for (int k = 0; k < 3; ++k) {
+      for (const double side : {box.lower[k], box.upper[k]}) {
+        const double at = (side - way[i][k]) / along[k];
+        if (at > 0.0 && at < 1.0) crossings.push_back(at);
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    if (i == 0) add(way[i]);
+    for (const double at : crossings) add(nearest_in(box, at < 1.0 ? way[i] + at * along : way[i + 1]));
+    if (i + 2 == way.size()) add(way[i + 1]);
+  }
+  return near;
+}
+
 /// Sends the walker along the way.
 ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const std::vector<Vec3> path = centres(question, answer);
-  Walker walker(survey.world(), settings_of(question, answer.size), question.mode, path.front());
+  const std::vector<Vec3> path = centres(survey, question, answer);
+  // Flying, an end may lie over the scene or beside it.
+  Box box;
+  for (const Vec3& place : path) box.include(place);
+  const training::OpenSpace space(survey.world(), question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(space, settings_of(question, answer.size), question.mode, path.front());
   const RouteResult result = follow(walker, path);
   ProbeWalk walk{result.outcome, result.end};
   if (result.outcome != Outcome::fell) return walk;
@@ -178,9 +214,10 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
   return answers;
 }
 
-std::vector<Vec3> centres(const ProbeQuestion& question, const ProbeAnswer& answer) {
+std::vector<Vec3> centres(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   std::vector<Vec3> path = answer.passage.way;
-  if (question.mode == Mode::fly) return path;
+  if (question.mode == Mode::fly)
+    return taken_to(survey.world().bounds().grown(beside_scene * answer.size.radius), path);
   for (Vec3& place : path) place.z += 0.5 * answer.size.height;
   return path;
 }

@@ -96,8 +96,9 @@ using ProbeProgress = std::function<bool(std::uint64_t)>;
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
                                              std::span<const ProbedSize> sizes, const ProbeProgress& progress);
 
-/// The way as places of the centre of the body.
-[[nodiscard]] std::vector<Vec3> centres(const ProbeQuestion& question, const ProbeAnswer& answer);
+/// The way as places of the centre of the body. Flying, it keeps so near the scene, as far as the ends allow, that who
+/// goes it has not left it.
+[[nodiscard]] std::vector<Vec3> centres(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer);
 
 /// What decides, in a few words, with its size: "door 0.520 m wide".
 [[nodiscard]] std::string text_of(const Limit& limit);
@@ -106,6 +107,6 @@ using ProbeProgress = std::function<bool(std::uint64_t)>;
 /// The members of one size; `way` and what belongs to it only where they are asked for.
 [[nodiscard]] Json json_report(const ProbeAnswer& answer, bool with_way);
 /// One line a size.
-[[nodiscard]] std::string table(std::span<const ProbeAnswer> answers);
+[[nodiscard]] std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> answers);
 
 }  // namespace roam::app

@@ -248,7 +248,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
                              : limit.kind == Kind::step                       ? "step_m"
                                                                               : "width_m";
     if (limit.kind != Kind::apart) opening[size] = limit.size;
-    opening["missing_m"] = answer.missing;
+    opening["missing_m"] = limit.kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
     opening["direction"] = to_json(limit.direction);
     opening["along_m"] = limit.along;
     if (is_end(limit.kind)) opening["room"] = answer.room ? to_json(*answer.room) : Json(nullptr);
@@ -262,7 +262,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   return json;
 }
 
-std::string table(std::span<const ProbeAnswer> answers) {
+std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> answers) {
   std::string text = fmt::format("{:>8}  {:>8}  {:<4}  {:>11}  {:>9}  {}\n", "radius", "height", "", "widest way",
                                  "missing", "what decides");
   for (const ProbeAnswer& answer : answers) {
@@ -276,7 +276,7 @@ std::string table(std::span<const ProbeAnswer> answers) {
       what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
     else if (!p.found)
       what = "no way at all";
-    const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, Mode::walk);
+    const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
     const char* const word = answer.passable ? "yes" : contradicts ? "?" : "no";
     text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
                         word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
