@@ -9,8 +9,8 @@
 /// What is promised, for any speed and any time step, in fly and walk mode:
 ///   - the body only moves along straight pieces that the space has certified free, by Space::sweep or by Space::gap,
 ///     asked of the piece or, in a space that tells its changes, before of what lies around it; so that at every
-///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report, each
-///     with its own certified bound;
+///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report,
+///     each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
 ///     was put and not moved are marked as teleports;
