@@ -99,6 +99,9 @@ void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
     if (gap > below - body.radius) {
       ASSERT_GE(bound, std::min(reach, gap - std::abs(gap) / 8.0 - below)) << q;
     }
+    if (bound > 0.0 && bound < reach) {
+      ASSERT_LE(gap, bound * (8.0 / 7.0) + below) << q;
+    }
     if (!c.found) {
       ASSERT_EQ(bound, reach) << q;
       ASSERT_EQ(c.distance, reach) << q;
