@@ -5,7 +5,7 @@
 # TOOLS names compiler and Highway with their versions: others make other code, and have a section of their own.
 # docs/benchmarks.md says when a baseline may be renewed.
 set -euo pipefail
-what=$1 program=$2 baseline=$3 tools=$4
+what=$1 program=$(realpath "$2") baseline=$3 tools=$4
 band=3 # per cent
 renew="cmake --build BUILD_FOLDER --target renew_instruction_counts"
 
@@ -38,6 +38,7 @@ while read -r row times; do
     /^calls=/ { getline; next }
     own && /^[0-9+*-]/ { sum += $2 }
     END { printf "%d", sum }' "$file")
+  ((count > 0)) || { echo "nothing was counted in row_$row: callgrind names other objects than $program" >&2; exit 1; }
   echo "$row $count $times"
 done < "$work/rows" > "$work/counts"
 
