@@ -14,6 +14,7 @@ struct FloatMesh {
   std::vector<float> vertices;         ///< x, y, z of each, in metres, rounded to nearest
   std::vector<std::uint32_t> indices;  ///< three of each triangle
 
+  FloatMesh() = default;
   explicit FloatMesh(const Scene& scene);
 };
 
