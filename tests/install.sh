@@ -64,7 +64,8 @@ case $what in
     printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' > "$work/wall.obj"
     mkfifo "$work/ready"
     exec {ready}<> "$work/ready"
-    Xvfb -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
+    # -noreset: else the server starts anew, and refuses the next client, when the first has looked and left.
+    Xvfb -noreset -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
     screen=$!
     trap 'kill "$screen"' EXIT
     read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
