@@ -23,7 +23,8 @@ TEST(ViewStore, FindsTheStoreBesideTheScene) {
   d.press('w');
   d.run(12.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
-  EXPECT_TRUE(contains(d.hud(), "blocked: wall, front")) << d.hud();
+  // The name is read by another thread, and comes with a later frame.
+  EXPECT_TRUE(d.until([&] { return contains(d.hud(), "blocked: wall, front"); })) << d.hud();
   const ViewReport report = d.session->finish();
   EXPECT_EQ(report.store, store);
   EXPECT_EQ(report.triangles, 12u);
