@@ -201,6 +201,85 @@ TEST(Verification, AnswersAsMeasuringEveryPairDoes) {
   EXPECT_EQ(result.overstated, overstated);
 }
 
+/// Slanted ways of 2 m of spheres and capsules between small triangles, at `origin`.
+struct Swarm {
+  explicit Swarm(const Vec3& origin, std::uint32_t triangles, std::uint64_t steps) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> coordinate(-4.0, 4.0), small(-0.02, 0.02), move(-1.2, 1.2);
+    const auto point = [&](auto& spread) { return Vec3(spread(random), spread(random), spread(random)); };
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+      const Vec3 p = origin + point(coordinate);
+      mesh.vertices.insert(mesh.vertices.end(), {p, p + point(small), p + point(small)});
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    for (std::uint64_t i = 0; i < steps; ++i) {
+      const Vec3 p = origin + point(coordinate);
+      // Some rest, some go straight up; what is certified is now and then too much.
+      const Vec3 way = i % 7 == 0 ? Vec3(0.0) : i % 7 == 1 ? Vec3(0.0, 0.0, move(random)) : point(move);
+      pieces.push_back({i, p, p + way, {0.15, i % 2 == 0 ? 0.0 : 0.5}, i % 3 == 0 ? 0.3 : 0.0});
+    }
+  }
+  roam::Mesh mesh;
+  std::vector<Piece> pieces;
+};
+
+TEST(Verification, PassesOverOnlyWhatIsFartherThanNeedBe) {
+  for (const Vec3& origin : {Vec3(0.0), Vec3(-13739, 253, 182), Vec3(6.4e6, -6.4e6, 6.4e6)}) {
+    const Swarm swarm(origin, 800, 100);
+    std::uint64_t violations = 0, overstated = 0, near = 0;
+    long double least_gap = 1e9L;
+    for (const Piece& piece : swarm.pieces) {
+      long double least = 1e9L;
+      for (std::size_t t = 0; t < swarm.mesh.triangles.size(); ++t) {
+        const auto distance = swept_distance(piece.from, piece.to, piece.body.half_height, swarm.mesh.triangle(t));
+        near += distance <= std::max(piece.body.radius, piece.clearance) ? 1 : 0;
+        least = std::min(least, distance);
+      }
+      violations += least < piece.body.radius - 1e-6L ? 1 : 0;
+      overstated += least < piece.clearance - 1e-9L ? 1 : 0;
+      least_gap = std::min(least_gap, least - piece.body.radius);
+    }
+    const auto result = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
+    EXPECT_GT(violations, 10U);
+    EXPECT_GT(overstated, 10U);
+    EXPECT_EQ(result.violations, violations);
+    EXPECT_EQ(result.overstated, overstated);
+    ASSERT_TRUE(result.least_gap);
+    EXPECT_EQ(*result.least_gap, static_cast<double>(least_gap));
+    EXPECT_GE(result.distances, near);
+    EXPECT_LE(result.distances, near + near / 2) << "what is measured is what is near, not what is in a box with it";
+  }
+}
+
+TEST(Verification, IsTheSameOfASceneThatComesPieceByPiece) {
+  Swarm swarm(Vec3(-13739, 253, 182), 800, 3'000);
+  const auto whole = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
+  EXPECT_GT(whole.violations, 0U);
+  // As a reader gives it, with vertices of its own for each piece, and one far away in between.
+  roam::app::Verifier verifier(swarm.pieces);
+  roam::TriangleId first = 0;
+  for (std::size_t begin = 0; begin < swarm.mesh.triangles.size(); begin += 60) {
+    roam::Mesh piece, far;
+    for (std::size_t t = begin; t < std::min(begin + 60, swarm.mesh.triangles.size()); ++t) {
+      for (const Vec3& corner : swarm.mesh.triangle(t)) piece.vertices.push_back(corner);
+      const auto n = static_cast<std::uint32_t>(piece.vertices.size());
+      piece.triangles.push_back({n - 3, n - 2, n - 1});
+    }
+    verifier.check({&piece, 1}, first);
+    first += piece.triangles.size();
+    far = piece;
+    for (Vec3& v : far.vertices) v.x += 1000.0;
+    verifier.check({&far, 1}, 1'000'000);
+  }
+  const auto pieces = verifier.result();
+  EXPECT_EQ(pieces.pieces, whole.pieces);
+  EXPECT_EQ(pieces.violations, whole.violations);
+  EXPECT_EQ(pieces.overstated, whole.overstated);
+  EXPECT_EQ(pieces.least_gap, whole.least_gap);
+  ASSERT_TRUE(pieces.worst && whole.worst);
+  EXPECT_EQ(pieces.worst->distance, whole.worst->distance);
+}
+
 TEST(Verification, CanBeCancelled) {
   const std::vector<roam::Mesh> scene{floor_mesh(5)};
   EXPECT_THROW((void)roam::app::verify(scene, walk_over(0.31, 0.3, 0.0, 5000), [](std::uint64_t) { return false; }),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <mutex>
 
 #include "roam/error.h"
@@ -22,6 +23,8 @@ struct Candidate {
   std::uint32_t triangle;
 };
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 Box box_of(const Triangle& triangle) {
   Box box;
   for (const Vec3& corner : triangle) box.include(corner);
@@ -30,7 +33,6 @@ Box box_of(const Triangle& triangle) {
 
 /// All that may lie within reach of the piece. Each bound is rounded outward once more than its sums were rounded.
 Box box_of(const Piece& piece) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double reach = std::nextafter(std::max(piece.body.radius, piece.clearance), infinity);
   Box box;
   box.include(piece.from);
@@ -42,6 +44,42 @@ Box box_of(const Piece& piece) {
   }
   return box;
 }
+
+/// Tells what is near a piece by balls around the triangles: a box around a slanted way holds much that is not near it.
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const Piece& piece)
+      : from_(piece.from), way_(piece.to - piece.from), half_height_(piece.body.half_height) {
+    const double level = way_.x * way_.x + way_.y * way_.y;
+    per_length_ = inverse(level + way_.z * way_.z);
+    per_level_ = inverse(level);
+  }
+
+  /// False where the triangle is certainly farther than `reach` from all that the piece's axis passes.
+  [[nodiscard]] bool may_hold(const Triangle& triangle, double reach) const {
+    const Box box = box_of(triangle);
+    const Vec3 middle = box.center();
+    double round = 0.0;
+    for (const Vec3& corner : triangle) round = std::max(round, glm::distance(corner, middle));
+    // The axis is no nearer than the way of its centre less half of its height; and no nearer than seen from above.
+    const Vec3 to = middle - from_;
+    const Vec3 nearest = to - std::clamp(glm::dot(to, way_) * per_length_, 0.0, 1.0) * way_;
+    const double s = std::clamp((to.x * way_.x + to.y * way_.y) * per_level_, 0.0, 1.0);
+    const double level = std::hypot(to.x - s * way_.x, to.y - s * way_.y);
+    const double distance = std::max(glm::length(nearest) - half_height_, level);
+    // A dozen operations, each rounded by 2^-53 of no more than these: 2^-40 is far more than all of them.
+    const double rounding = 0x1p-40 * (glm::length(to) + glm::length(way_) + half_height_ + round + reach);
+    return !(distance - round - rounding > reach);
+  }
+
+ private:
+  /// 0 of 0: then the end is as near as the start.
+  static double inverse(double square) { return square > 0.0 ? 1.0 / square : 0.0; }
+
+  Vec3 from_, way_;
+  double half_height_;
+  double per_length_ = 0.0, per_level_ = 0.0;
+};
 
 bool meet(const Box& a, const Box& b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
@@ -63,12 +101,14 @@ class Verifier::Run {
 
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
 
-  void check(std::span<const Mesh> meshes, std::span<const TriangleId> first_ids) {
+  /// `boxes`: of all vertices of each mesh.
+  void check(std::span<const Mesh> meshes, std::span<const Box> boxes, std::span<const TriangleId> first_ids) {
     meshes_ = meshes;
     first_ids_ = first_ids;
     std::vector<Candidate> candidates;
     for (std::uint32_t m = 0; m < meshes.size(); ++m) {
       const Mesh& mesh = meshes[m];
+      if (!meet(box_, boxes[m])) continue;
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (meet(box_, box_of(mesh.triangle(t)))) candidates.push_back({m, t});
       }
@@ -110,8 +150,14 @@ class Verifier::Run {
     const auto count_once = [&](std::vector<std::uint64_t>& steps) {
       if (steps.empty() || steps.back() != piece.step) steps.push_back(piece.step);
     };
+    const Neighbourhood near(piece);
+    const double reach = std::max(piece.body.radius, piece.clearance);
     for (const Candidate& c : candidates) {
-      const long double distance = swept_distance(piece.from, piece.to, piece.body.half_height, triangle(c));
+      const Triangle t = triangle(c);
+      // What is farther than the radius and the certified clearance may still be the nearest of all.
+      const double nearest = least_gap ? piece.body.radius + static_cast<double>(*least_gap) : infinity;
+      if (!near.may_hold(t, std::max(reach, nearest))) continue;
+      const long double distance = swept_distance(piece.from, piece.to, piece.body.half_height, t);
       const long double gap = distance - piece.body.radius;
       ++distances;
       least_gap = std::min(least_gap.value_or(gap), gap);
@@ -151,9 +197,11 @@ Verifier::~Verifier() = default;
 void Verifier::check(std::span<const Mesh> meshes, TriangleId first,
                      const std::function<bool(std::uint64_t)>& progress) {
   std::vector<TriangleId> first_ids;
-  for (const Mesh& mesh : meshes) {
+  std::vector<Box> boxes(meshes.size());
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
     first_ids.push_back(first);
-    first += mesh.triangles.size();
+    first += meshes[m].triangles.size();
+    for (const Vec3& vertex : meshes[m].vertices) boxes[m].include(vertex);
   }
   std::mutex mutex;
   std::uint64_t done = 0;
@@ -165,7 +213,7 @@ void Verifier::check(std::span<const Mesh> meshes, TriangleId first,
                           const std::scoped_lock lock(mutex);
                           if (cancelled) return;
                         }
-                        runs_[i].check(meshes, first_ids);
+                        runs_[i].check(meshes, boxes, first_ids);
                         const std::scoped_lock lock(mutex);
                         done += runs_[i].size();
                         if (progress && !progress(done)) cancelled = true;

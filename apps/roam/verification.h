@@ -37,7 +37,7 @@ inline constexpr double certificate_slack = 1e-9;
 
 struct Verification {
   std::uint64_t pieces = 0;
-  std::uint64_t distances = 0;   ///< that were computed; all other triangles' boxes were farther than need be
+  std::uint64_t distances = 0;   ///< that were computed; boxes or balls around all others were farther than need be
   std::uint64_t violations = 0;  ///< steps on which the axis came nearer to a triangle than the radius
   std::uint64_t overstated = 0;  ///< steps whose certified clearance is more than the true one
   /// The least distance of the axis less the radius, metres; none when no triangle came near.
@@ -48,9 +48,11 @@ struct Verification {
   void add(const Verification& other);
 };
 
-/// Checks pieces against triangles that come little by little. A triangle is passed over only when its box is farther
-/// from the box of the piece than both the radius and the certified clearance; boxes are compared in doubles that are
-/// rounded outward. Whatever is left is measured by swept_distance. Independent of any Space. Uses all cores.
+/// Checks pieces against triangles that come little by little, so that a way of any length is checked against a scene
+/// of any size while this is read once. A triangle is passed over only when its box is farther from the box of the
+/// piece, or the ball around it from the piece, than both the radius and the certified clearance; that is told in
+/// doubles with more room than their rounding. Whatever is left is measured by swept_distance. Independent of any
+/// Space. Uses all cores.
 class Verifier {
  public:
   /// The pieces must stay.
