@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "roam/passage.h"
+#include "train/fly_way.h"
 #include "train/refine.h"
 #include "train/walk_lattice_place.h"
 #include "train/way_ends.h"
@@ -48,15 +49,24 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
     refuse(fmt::format("a body {} m high leaves no room above the step for the narrowest radius", o.height));
 }
 
-/// One search with one step.
+Vec3 end_at(const Survey& survey, const Measure& measure, const Vec3& point) {
+  const auto place = free_end(survey, measure, point);
+  if (place) return *place;
+  refuse(fmt::format(
+      "no body with a radius of {} m fits at ({}, {}, {}) or within sight of it; choose a place with free space "
+      "around it{}",
+      measure.narrowest, point.x, point.y, point.z, measure.mode == Mode::walk ? " and floor below" : ""));
+}
+
+/// One search on foot with one step.
 class Search {
  public:
   Search(const Survey& survey, const PassageOptions& options, const Measure& measure)
       : survey_(survey), options_(options), measure_(measure), tree_(survey, measure, options.spacing) {}
 
   Passage run(const Vec3& from, const Vec3& to) {
-    from_ = end_at(from);
-    to_ = end_at(to);
+    from_ = end_at(survey_, measure_, from);
+    to_ = end_at(survey_, measure_, to);
     const auto a = tree_.seed(from_), b = tree_.seed(to_);
     Passage best;
     best.bound = end_bound();
@@ -70,8 +80,6 @@ class Search {
         best.opening = gap_between(tree_, *a, *b);
       }
     }
-    if (a && b && measure_.mode == Mode::fly && !ended_)
-      best.bound = std::min(best.bound, tree_.bound(*a, *b, goes_on()));
     best.proven = best.found && best.bound - best.radius <= proof;
     best.complete = !ended_;
     best.places = tree_.size();
@@ -79,22 +87,12 @@ class Search {
   }
 
  private:
-  [[nodiscard]] Vec3 end_at(const Vec3& point) const {
-    const auto place = free_end(survey_, measure_, point);
-    if (!place) {
-      refuse(fmt::format(
-          "no body with a radius of {} m fits at ({}, {}, {}) or within sight of it; choose a place with free space "
-          "around it{}",
-          measure_.narrowest, point.x, point.y, point.z, measure_.mode == Mode::walk ? " and floor below" : ""));
-    }
-    return *place;
-  }
   /// What fits at the ends bounds every way, and so does what the height leaves. Of a sphere that may lift only what
   /// fits is certain, not that nothing larger does.
   [[nodiscard]] double end_bound() const {
     constexpr double rounding = 1e-4;  // m: of a clearance
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    if (measure_.mode == Mode::walk && measure_.height == 0.0) return unknown;
+    if (measure_.height == 0.0) return unknown;
     const double limit = largest_radius(measure_);
     const double ends = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
     if (ends < limit) return ends + rounding + survey_.world().largest_error();
@@ -145,43 +143,21 @@ class Search {
       found.push_back(*last.opening);
       const double around = best.radius + options_.spacing;
       // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
-      const double narrow = std::hypot(best.radius, error() * options_.spacing) + same_width;
+      const double narrow = std::hypot(best.radius, lattice_error * options_.spacing) + same_width;
       const auto blocked = [&](const Node& node) {
         return node.clearance < narrow && std::any_of(found.begin(), found.end(), [&](const Opening& o) {
                  const Vec3 off = o.point - node.place;
-                 const double above =
-                     measure_.mode == Mode::walk ? std::max(off.z - tall(), std::min(0.0, off.z)) : off.z;
+                 const double above = std::max(off.z - tall(), std::min(0.0, off.z));
                  return std::hypot(off.x, off.y) < around && std::abs(above) < around;
                });
       };
-      const double least = std::max(measure_.narrowest, best.radius - error() * options_.spacing);
+      const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
       const std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
       if (way.empty()) return;
-      if (const auto same = same_opening(way, best, found)) {
-        last.opening = *same;
-        continue;
-      }
       last = refined(way);
       if (last.found && last.radius > best.radius) best = last;
     }
   }
-  /// Flying, through a slot at another height: straight from where the way is narrowest to an opening that was found.
-  [[nodiscard]] std::optional<Opening> same_opening(const std::vector<NodeId>& way, const Passage& best,
-                                                    const std::vector<Opening>& found) const {
-    if (measure_.mode != Mode::fly) return std::nullopt;
-    const NodeId narrowest = *std::min_element(
-        way.begin(), way.end(), [&](NodeId a, NodeId b) { return tree_.node(a).clearance < tree_.node(b).clearance; });
-    const Vec3 place = tree_.node(narrowest).place;
-    const double radius = std::max(best.radius - error() * options_.spacing, measure_.narrowest);
-    for (const Opening& o : found) {
-      if (!goes_straight(survey_, measure_, place, o.point, radius)) continue;
-      Opening here = o;
-      here.point = place;
-      return here;
-    }
-    return std::nullopt;
-  }
-  [[nodiscard]] double error() const { return measure_.mode == Mode::fly ? cubic_error : lattice_error; }
   [[nodiscard]] double tall() const { return measure_.height > 0.0 ? measure_.height : 2.0 * measure_.widest; }
 
   const Survey& survey_;
@@ -199,7 +175,14 @@ Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const
   Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
                   options.step,      options.widest,
                   options.narrowest, options.support_max};
-  const bool rolls = options.mode == Mode::walk && options.height == 0.0;
+  if (options.mode == Mode::fly) {
+    const Vec3 first = end_at(survey, measure, from), last = end_at(survey, measure, to);
+    Passage passage =
+        widest_flight(survey, measure, first, last, {options.spacing, options.most_places, options.progress});
+    passage.proven = passage.found && passage.bound - passage.radius <= proof;
+    return passage;
+  }
+  const bool rolls = options.height == 0.0;
   if (rolls) measure.step = std::min(options.step, options.widest);
   for (;;) {
     Passage passage = Search(survey, options, measure).run(from, to);
