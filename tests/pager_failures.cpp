@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <future>
 #include <glm/geometric.hpp>
+#include <numbers>
 
+#include "changing_room.h"
 #include "clutter.h"
 #include "pager_made.h"
+#include "roam/route.h"
 #include "store/opened.h"
+#include "store/tile_reader.h"
 #include "walker_judged.h"
 
 namespace {
@@ -165,6 +171,68 @@ TEST(PagerFailures, WhatNeverComesIsSolidAndNamedAndTheRestGoesOn) {
   EXPECT_TRUE(told);
   yard.bytes->errors = 0;
   ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
+}
+
+TEST(PagerFailures, ARouteIntoWhatDoesNotComeIsHeldByItNotBlocked) {
+  const Yard yard("pager_route");
+  const Body body{0.3, 0.6};
+  // A way that no box bars.
+  const World whole = build(yard.mesh);
+  Random random(5);
+  std::array<Vec3, 2> path{};
+  do {
+    path[0] = {random.between(10.0, 50.0), random.between(10.0, 50.0), 1.0};
+    const double heading = random.between(0.0, 2.0 * std::numbers::pi);
+    path[1] = path[0] + 10.0 * Vec3(std::cos(heading), std::sin(heading), 0.0);
+  } while (whole.sweep({0.35, body.half_height}, path[0], path[1] - path[0]).hit);
+  // What lies about its start can be read, and nothing farther off.
+  roam::store::TileReader reader(yard.store->state());
+  for (std::uint64_t p = 0; p < yard.store->state().pages.size(); ++p) {
+    yard.bytes->spared.insert(yard.store->state().pages[p].ref.offset);
+    for (const auto& tile : reader.page(p).view.tiles) {
+      if (roam::store::box_of(tile).grown(1.0).holds(path[0])) yard.bytes->spared.insert(tile.offset);
+    }
+  }
+  yard.bytes->errors = 1000;
+  Pager pager(yard.store);
+  ASSERT_TRUE(made::update_until(pager, body, path[0], [&] { return !pager.clearance(body, path[0], 0.3).unknown; }));
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    Walker w(pager, {.radius = body.radius, .height = body.height()}, mode, path[0]);
+    roam::Route route(w, path, {.speed = 5.0});
+    while (!route.done()) {
+      route.advance();
+      (void)pager.update(w.body(), w.position(), w.velocity());
+    }
+    EXPECT_EQ(route.result().outcome, roam::Outcome::held);
+    EXPECT_LT(route.result().length, 9.0);
+    ASSERT_TRUE(route.result().blocked_at);
+    EXPECT_FALSE(route.result().blocked_at->opening);
+    std::string why;
+    EXPECT_TRUE(made::update_until(pager, body, w.position(), [&] {
+      why = pager.object_name(route.result().blocked_at->triangle);
+      return why.find("input/output") != std::string::npos;
+    })) << why;
+  }
+}
+
+TEST(PagerFailures, ARouteThatASpaceSlowsDownToNothingIsHeldAndBehindAWallBlocked) {
+  Mesh mesh;
+  add_floor(mesh, -10.0, -10.0, 10.0, 10.0, 0.0);
+  for (const bool wall : {false, true}) {
+    if (wall) add_wall(mesh, 1.0, -10.0, 1.0, 10.0, 0.0, 3.0);
+    ChangingRoom room(mesh, true);
+    for (const Mode mode : {Mode::walk, Mode::fly}) {
+      room.limit = 5.0;
+      Walker w(room, {}, mode, {0.0, 0.0, 0.95});
+      const std::array<Vec3, 2> path{Vec3(0.0, 0.0, 0.95), Vec3(5.0, 0.0, 0.95)};
+      roam::Route route(w, path, {.speed = 3.0});
+      for (int i = 0; i < 40; ++i) route.advance();
+      room.limit = 0.01;
+      while (!route.done()) route.advance();
+      EXPECT_EQ(route.result().outcome, wall ? roam::Outcome::blocked : roam::Outcome::held);
+      EXPECT_EQ(route.result().blocked_at.has_value(), wall);
+    }
+  }
 }
 
 TEST(PagerFailures, NobodyPassesAWallWhateverIsReadAndWhen) {

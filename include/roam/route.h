@@ -41,7 +41,7 @@ enum class Outcome : std::uint8_t {
   /// starts outside may come in first. Walk mode: walked over the side of that box and fell.
   left_scene,
   fell,  ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
-  held,  ///< did not fit where it was put and could not be freed, or never found ground below
+  held,  ///< did not fit where it was put, found no ground below, or got on no more for what is not known yet (space.h)
 };
 
 /// "reached", "blocked", "left_scene", "fell" or "held".
@@ -77,7 +77,7 @@ struct RouteResult {
   std::uint64_t throttled = 0;         ///< steps that ended early or were slowed, see EventKind
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end
-  std::optional<Blockage> blocked_at;  ///< when blocked by a contact
+  std::optional<Blockage> blocked_at;  ///< when blocked by a contact, or held by what is not known
   /// All events, in order; of a run of steps that report the same kind (sliding along a wall) only the first.
   std::vector<RouteEvent> events;
 };

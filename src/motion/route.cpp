@@ -68,6 +68,22 @@ Vec3 way_to(const Vec3& waypoint, const Walker& walker) {
   return way;
 }
 
+/// Of what is touched, the ground included, what stands most against the way; null where nothing is touched.
+const Contact* most_against(const Vec3& way, const StepReport& report) {
+  const Contact* most = nullptr;
+  for (const Contact& c : report.contacts) {
+    if (most == nullptr || glm::dot(c.normal, way) < glm::dot(most->normal, way)) most = &c;
+  }
+  return most;
+}
+
+/// Whether only the space's speed limit, and nothing that is touched, keeps the body from going on.
+bool waits_for_space(const Vec3& way, const StepReport& report) {
+  const Contact* c = most_against(way, report);
+  return report.has(EventKind::slowed) &&
+         (c == nullptr || glm::dot(c->normal, way) >= -progress_part * glm::length(way));
+}
+
 bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
   const Body body = walker.body();
   const Vec3 way = waypoint - walker.position();
@@ -186,24 +202,23 @@ void Route::judge(const StepReport& report, double distance_before) {
   if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
   const double now = glm::length(way_to(waypoints_[next_], *walker_));
   if (window_best_ - now < progress_part * options_.speed * window_time_) {
+    const Vec3 way = way_to(waypoints_[next_], *walker_);
+    const Contact* c = most_against(way, report);
+    const bool unknown = c != nullptr && c->unknown;
     describe_blockage(report);
-    finish(Outcome::blocked);
+    finish(unknown || waits_for_space(way, report) ? Outcome::held : Outcome::blocked);
   } else {
     start_window();
   }
 }
 
 void Route::describe_blockage(const StepReport& report) {
-  if (report.contacts.empty()) return;
   const Vec3 way = way_to(waypoints_[next_], *walker_);
-  // Of what is touched, the ground included, what stands most against the way.
-  const Contact* c = report.contacts.begin();
-  for (const Contact& other : report.contacts) {
-    if (glm::dot(other.normal, way) < glm::dot(c->normal, way)) c = &other;
-  }
+  const Contact* c = most_against(way, report);
+  if (c == nullptr || waits_for_space(way, report)) return;
   Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
   const double length = glm::length(way);
-  if (length > at_waypoint) {
+  if (length > at_waypoint && !c->unknown) {
     const double reach = opening_skins * walker_->skin();
     const auto opening =
         walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
