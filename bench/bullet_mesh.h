@@ -5,6 +5,7 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -16,11 +17,20 @@ namespace roam::bench {
 /// Bullet keeps pointers into it: it stays where it is.
 struct BulletMesh {
   explicit BulletMesh(FloatMesh triangles) : mesh(std::move(triangles)) {
-    constexpr int index_stride = 3 * sizeof(std::uint32_t);
-    constexpr int vertex_stride = 3 * sizeof(float);
-    arrays = std::make_unique<btTriangleIndexVertexArray>(
-        static_cast<int>(mesh.indices.size() / 3), reinterpret_cast<int*>(mesh.indices.data()), index_stride,
-        static_cast<int>(mesh.vertices.size() / 3), mesh.vertices.data(), vertex_stride);
+    // A quantized node has 21 bits for a triangle and 10 for the part that it is of.
+    constexpr std::size_t part_triangles = 1u << 21;
+    arrays = std::make_unique<btTriangleIndexVertexArray>();
+    const std::size_t count = mesh.indices.size() / 3;
+    for (std::size_t first = 0; first < count; first += part_triangles) {
+      btIndexedMesh part;
+      part.m_numTriangles = static_cast<int>(std::min(part_triangles, count - first));
+      part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.indices.data() + 3 * first);
+      part.m_triangleIndexStride = 3 * sizeof(std::uint32_t);
+      part.m_numVertices = static_cast<int>(mesh.vertices.size() / 3);
+      part.m_vertexBase = reinterpret_cast<const unsigned char*>(mesh.vertices.data());
+      part.m_vertexStride = 3 * sizeof(float);
+      arrays->addIndexedMesh(part);
+    }
     shape = std::make_unique<btBvhTriangleMeshShape>(arrays.get(), true);
     shape->setMargin(0);
     object.setCollisionShape(shape.get());

@@ -1,7 +1,8 @@
 #include "engine.h"
 
 #include <chrono>
-#include <filesystem>
+
+#include "wasm_driver.h"
 
 namespace roam::bench {
 namespace {
@@ -15,12 +16,8 @@ EngineOffer linked(const char* name, Make make) { return {.name = name, .missing
 }
 
 EngineOffer wasm(const std::string& name, const std::string& package, const EnginePlaces& places) {
-  EngineOffer offer{.name = name, .missing = {}, .make = {}};
-  if (places.wasm.empty()) {
-    offer.missing = "`npm install --prefix DIR " + package + "`, then --wasm-engines DIR";
-  } else if (!std::filesystem::exists(std::filesystem::path(places.wasm) / "node_modules" / package)) {
-    offer.missing = "`npm install --prefix " + places.wasm + " " + package + "`";
-  } else {
+  EngineOffer offer{.name = name, .missing = wasm_package_missing(package, places.wasm), .make = {}};
+  if (offer.missing.empty()) {
     offer.make = [name, where = places.wasm](const Scene& scene) { return make_wasm(scene, name, where); };
   }
   return offer;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "../tests/paper_equations.h"
 #include "engine.h"
 #include "memory.h"
+#include "paper_equations.h"
 
 namespace roam::bench {
 namespace {

@@ -27,11 +27,26 @@ struct Options {
 
 std::vector<std::string> row_names() {
   std::vector<std::string> names;
-  for (const PaperRow& row : paper_rows()) names.push_back(row.name);
+  for (const PaperRow& row : paper_rows({})) names.push_back(row.name);
   return names;
 }
 
-PaperFindings find(const Options& options) {
+/// Judged when all rows have ended: the scene comes a second time, and never as a whole.
+void judge(PaperFindings& findings, const PaperScene& scene) {
+  PaperJudge judge;
+  for (const RowFindings& row : findings.rows) {
+    for (std::size_t i = 0; i < row.result.ways.size(); ++i) judge.watch(findings.ways[i], row.result.ways[i]);
+  }
+  fmt::print(stderr, "judging\n");
+  stream_laid_out(scene, [&](const Mesh& mesh) { judge.add(mesh); });
+  const std::vector<Judgement> judgements = judge.judgements();
+  auto next = judgements.begin();
+  for (RowFindings& row : findings.rows) {
+    for (std::size_t i = 0; i < row.result.ways.size(); ++i) row.judged.push_back(*next++);
+  }
+}
+
+PaperFindings find(const Options& options, const std::vector<PaperRow>& rows) {
   PaperFindings findings;
   const ScratchFolder scratch(options.paper.scratch);
   const LaidOut laid = lay_out(options.paper, scratch.path());
@@ -40,7 +55,7 @@ PaperFindings find(const Options& options) {
   findings.prepared = laid.prepared;
   findings.patience = options.paper.patience;
   findings.ways = paper_ways(options.paper.radius, options.paper.split_radius);
-  for (const PaperRow& row : paper_rows()) {
+  for (const PaperRow& row : rows) {
     const auto& wanted = options.rows;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), row.name) == wanted.end()) continue;
     RowFindings& found = findings.rows.emplace_back();
@@ -49,15 +64,14 @@ PaperFindings find(const Options& options) {
     app::stop_if_interrupted();
     fmt::print(stderr, "{}\n", row.title);
     found.result = run_row(row.name, laid.scene, options.paper);
-    for (std::size_t i = 0; found.result.failure.empty() && i < findings.ways.size(); ++i) {
-      found.judged.push_back(judge(findings.ways[i], found.result.ways[i], *laid.near));
-    }
   }
+  judge(findings, laid.scene);
   return findings;
 }
 
 app::ExitStatus run(const Options& options) {
-  const PaperFindings findings = find(options);
+  const std::vector<PaperRow> rows = paper_rows(options.paper.wasm);
+  const PaperFindings findings = find(options, rows);
   if (options.json) {
     app::print(paper_json(findings));
   } else {
@@ -68,14 +82,14 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "The scene is laid out in a scratch folder: as a file and a store for roam, as osgb files for the others. Each "
-    "row\n"
-    "then runs in a process of its own. Rows that cannot be run are named.\n"
+    "The scene is laid out in a scratch folder: as a file and a store for roam, as osgb files for the others. Each\n"
+    "row then runs in a process of its own. Rows that cannot be run are named, and so are rows that take more than\n"
+    "they may. When all have ended, the scene is read once more, and their ways are judged by it.\n"
     "docs/paper.md explains the cells, and sets them beside the printed ones.\n\n"
     "Exit status 3: roam itself was in a wall; 1: also when a row of roam's own failed.\n\n"
     "Examples:\n"
     "  roam bench paper\n"
-    "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB; takes 30 GB of memory\n"
+    "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB\n"
     "  roam bench paper --scene your/own/gallery.ive --json\n";
 
 }  // namespace
@@ -100,6 +114,14 @@ void add_paper(CLI::App& program, app::Run& run) {
   verb->add_option("--patience", paper.patience, "Seconds: a way that takes longer is ended")
       ->capture_default_str()
       ->check(app::positive);
+  verb->add_option("--loading", paper.loading, "Seconds: a row that takes longer until it can move is ended")
+      ->capture_default_str()
+      ->check(app::positive);
+  verb->add_option("--memory", paper.memory, "A row that takes more is ended (default: three quarters of what is free)")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("BYTES");
+  verb->add_option("--wasm-engines", paper.wasm, "The folder whose node_modules hold PhysX: physx-js-webidl, from npm")
+      ->type_name("DIR");
   verb->add_option("--scratch", paper.scratch, "Where the scene is laid out (default: the system's temporary folder)")
       ->type_name("DIR");
   verb->add_option("--picture", options->picture, "Draw the steps' times as bars, to an SVG file")->type_name("FILE");

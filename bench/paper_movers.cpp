@@ -10,6 +10,7 @@
 #include "roam/store.h"
 #include "roam/walker.h"
 #include "roam/world.h"
+#include "wasm_driver.h"
 
 namespace roam::bench {
 namespace {
@@ -25,6 +26,7 @@ struct Walk {
   std::shared_ptr<Pager> pager;  // null for a world
   std::optional<Walker> walker;
   std::optional<SizeLearner> learner;  // on ways that are adapting
+  double radius = 0.0;                 // the least on the last step, m
 };
 
 Mover mover_of(const std::shared_ptr<Walk>& walk) {
@@ -42,7 +44,9 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
     walk->learner.emplace(profile);
   };
   mover.step = [walk](const Vec3& velocity) {
-    walk->walker->step({.velocity = velocity}, dt);
+    const StepReport& report = walk->walker->step({.velocity = velocity}, dt);
+    walk->radius = report.radius;
+    for (const Corner& corner : report.corners) walk->radius = std::min(walk->radius, corner.radius);
     if (walk->learner) {
       if (const auto lesson = walk->learner->watch(*walk->walker, velocity, dt)) {
         walk->learner->take(*walk->walker, *lesson);
@@ -50,7 +54,7 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
     }
     return walk->walker->position();
   };
-  mover.radius = [walk] { return walk->walker->body().radius; };
+  mover.radius = [walk] { return walk->radius; };
   if (walk->pager) {
     mover.rest = [walk](double seconds) {
       const Walker& walker = *walk->walker;
@@ -73,6 +77,17 @@ Mover roam_in_store(const PaperScene& scene) {
   walk->pager = std::make_shared<Pager>(Store::open(scene.store), PagerOptions{.memory = scene.memory});
   walk->space = walk->pager;
   return mover_of(walk);
+}
+
+Mover roam_sweep(const PaperScene& scene) {
+  const auto world = std::make_shared<World>(World::build(import_scene(scene.scene).meshes));
+  return collide_and_slide(
+      [world](double radius, const Vec3& from, const Vec3& motion) -> std::optional<Touch> {
+        const Impact impact = world->sweep({.radius = radius}, from, motion);
+        if (!impact.hit) return std::nullopt;
+        return Touch{impact.time, impact.normal};
+      },
+      Vec3(0.0));
 }
 
 Mover collide_and_slide(Sweep sweep, const Vec3& shift) {
@@ -137,10 +152,15 @@ Mover go_or_stay(Blocked blocked, const Vec3& shift) {
   return mover;
 }
 
-const std::vector<PaperRow>& paper_rows() {
-  static const std::vector<PaperRow> rows{
+std::vector<PaperRow> paper_rows(const std::string& wasm) {
+  std::vector<PaperRow> rows{
       {"roam", "roam", "Walker in a World, all in memory", {}, roam_in_memory},
       {"roam-store", "roam, from a store", "Walker in a Pager over a store", {}, roam_in_store},
+      {"roam-sweep",
+       "roam, sweep and slide",
+       "World::sweep and the slide of the rows below, in place of Walker",
+       {},
+       roam_sweep},
       {"paper",
        "the paper's method",
        "box intersector, equations (1)-(6), slide; OpenSceneGraph, all in memory",
@@ -175,15 +195,18 @@ const std::vector<PaperRow>& paper_rows() {
 #else
       {"osg-bullet", "OSG + Bullet", {}, "install libbullet-dev and build again", {}},
 #endif
-      {"ogre-bullet", "OGRE + Bullet", {}, "this program drives no OGRE", {}},
       {"physx",
-       "PhysX character controller",
-       {},
-       "this program drives no controller of PhysX; `roam bench engines "
-       "--wasm-engines DIR` measures its sweeps",
+       "PhysX controller (WASM)",
+       "npm physx-js-webidl under node: PxCapsuleController of a height of 2 mm, timed around its move()",
+       wasm_package_missing("physx-js-webidl", wasm),
        {}},
+      {"ogre-bullet", "OGRE + Bullet", {}, "OGRE has no collision: Bullet's steps are the row above", {}},
       {"unity", "Unity3D", {}, "it cannot be run without its maker's leave", {}},
   };
+  for (PaperRow& row : rows) {
+    if (row.name != "physx" || !row.missing.empty()) continue;
+    row.load = [wasm](const PaperScene& scene) { return physx_controller(scene, wasm); };
+  }
   return rows;
 }
 

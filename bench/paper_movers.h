@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "float_mesh.h"
 #include "paper_ways.h"
 #include "roam/mesh.h"
 
@@ -32,10 +33,13 @@ struct PaperRow {
   std::string missing;  ///< empty, or what to install
   std::function<Mover(const PaperScene&)> load{};
 };
-[[nodiscard]] const std::vector<PaperRow>& paper_rows();
+/// `wasm`: the folder whose node_modules hold PhysX; empty: nowhere.
+[[nodiscard]] std::vector<PaperRow> paper_rows(const std::string& wasm);
 
 [[nodiscard]] Mover roam_in_memory(const PaperScene& scene);
 [[nodiscard]] Mover roam_in_store(const PaperScene& scene);
+/// World::sweep in place of Walker: the work that a row does which has a sweep and nothing else.
+[[nodiscard]] Mover roam_sweep(const PaperScene& scene);
 /// The paper's box intersector and equations, or osgUtil::PolytopeIntersector, over a graph that is in memory, with
 /// KdTrees or without, or that is paged.
 enum class Graph { loaded, with_kd_trees, paged };
@@ -43,9 +47,11 @@ enum class Graph { loaded, with_kd_trees, paged };
 [[nodiscard]] Mover polytope_method(const PaperScene& scene, Graph graph);
 /// Triangles from an OpenSceneGraph scene in Bullet's btBvhTriangleMeshShape.
 [[nodiscard]] Mover osg_bullet(const PaperScene& scene);
+/// PhysX's capsule controller, nearly a sphere, in a node process; `wasm` as above. Throws roam::Error when it ends.
+[[nodiscard]] Mover physx_controller(const PaperScene& scene, const std::string& wasm);
 
 /// The triangles of the tiles, as floats, for an engine that OpenSceneGraph only reads for.
-void read_tiles(const PaperScene& scene, std::vector<float>& vertices, std::vector<std::uint32_t>& indices);
+void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 
 /// Writes the folder of PaperScene::tiles mesh by mesh; returns how many there are.
 class TileWriter {

@@ -14,8 +14,8 @@
 #include <osgUtil/IntersectionVisitor>
 #include <osgUtil/PolytopeIntersector>
 
-#include "../tests/paper_equations.h"
 #include "osgRoam/BoxIntersector.h"
+#include "paper_equations.h"
 #include "paper_movers.h"
 #include "roam/error.h"
 
@@ -160,16 +160,17 @@ Mover polytope_method(const PaperScene& scene, Graph graph) {
       paper_shift);
 }
 
-void read_tiles(const PaperScene& scene, std::vector<float>& vertices, std::vector<std::uint32_t>& indices) {
+void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take) {
   for (std::size_t i = 0; i < scene.tile_count; ++i) {
     const osg::ref_ptr<osg::Node> node = read(scene.tiles + "/" + tile_name(i));
     const auto* geometry = node->asGeode()->getDrawable(0)->asGeometry();
-    const auto first = static_cast<std::uint32_t>(vertices.size() / 3);
+    FloatMesh tile;
     for (const osg::Vec3& v : *static_cast<const osg::Vec3Array*>(geometry->getVertexArray())) {
-      vertices.insert(vertices.end(), {v.x(), v.y(), v.z()});
+      tile.vertices.insert(tile.vertices.end(), {v.x(), v.y(), v.z()});
     }
     const auto* triangles = static_cast<const osg::DrawElementsUInt*>(geometry->getPrimitiveSet(0));
-    for (const std::uint32_t corner : *triangles) indices.push_back(first + corner);
+    tile.indices.assign(triangles->begin(), triangles->end());
+    take(std::move(tile));
   }
 }
 

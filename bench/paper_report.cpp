@@ -49,6 +49,11 @@ struct Cell1 {
   [[nodiscard]] const Judgement& judged() const { return row.judged[way]; }
   [[nodiscard]] bool cut() const { return judged().ending == Ending::cut; }
   [[nodiscard]] Steps steps() const { return steps_of(row, {way}); }
+  /// The least that the body had.
+  [[nodiscard]] double radius() const {
+    const auto& radii = row.result.ways[way].radii;
+    return radii.empty() ? 0.0 : *std::min_element(radii.begin(), radii.end());
+  }
 };
 
 /// One row of Table 2.
@@ -101,9 +106,9 @@ std::string table_1(const PaperFindings& findings) {
       const Steps s = cell.steps();
       const Judgement& j = cell.judged();
       out += fmt::format("{:<18} {:>6.3g} {:<26} {:<22} {:>9} {:>7} {:>9.3g} {:>9.3g} {:>9.3g} {:>9} {:>7.3g} mm\n",
-                         findings.ways[way].name, row.result.ways[way].radius, row.row->title,
-                         outcome(j, findings.patience), cell.cut() ? "-" : fmt::format("{:.4g}", time_of_way(s)),
-                         s.count, s.p50, s.p99, s.most, j.in_walls, 1e3 * j.deepest);
+                         findings.ways[way].name, cell.radius(), row.row->title, outcome(j, findings.patience),
+                         cell.cut() ? "-" : fmt::format("{:.4g}", time_of_way(s)), s.count, s.p50, s.p99, s.most,
+                         j.in_walls, 1e3 * j.deepest);
     }
     out += "\n";
   }
@@ -158,7 +163,7 @@ Json paper_json(const PaperFindings& findings) {
       const Steps s = cell.steps();
       table_1.push_back({{"way", findings.ways[way].name},
                          {"row", row.row->name},
-                         {"radius_m", row.result.ways[way].radius},
+                         {"radius_m", cell.radius()},
                          {"outcome", name(cell.judged().ending)},
                          {"time_s", cell.cut() ? Json(nullptr) : Json(time_of_way(s))},
                          {"steps", s.count},

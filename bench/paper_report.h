@@ -3,6 +3,7 @@
 /// The paper's two tables, from what the rows did.
 
 #include "exit_status.h"
+#include "paper_judge.h"
 #include "report.h"
 #include "row_process.h"
 

@@ -19,51 +19,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps of each mesh what is near the ways.
-class Neighbourhood {
- public:
-  explicit Neighbourhood(std::vector<Way> ways) : ways_(std::move(ways)) {}
+constexpr double paper_reach = 20.0;  // m from the ways: a scene without anything there is another one
 
-  void add(const Mesh& mesh) {
-    Mesh kept{.name = mesh.name, .vertices = {}, .triangles = {}};
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const Triangle triangle = mesh.triangle(i);
-      if (!near(triangle)) continue;
-      const auto first = static_cast<std::uint32_t>(kept.vertices.size());
-      kept.vertices.insert(kept.vertices.end(), triangle.begin(), triangle.end());
-      kept.triangles.push_back({first, first + 1, first + 2});
-    }
-    if (!kept.triangles.empty()) kept_.push_back(std::move(kept));
+/// By the ball around the triangle's box.
+bool near(const std::vector<Way>& ways, const Triangle& triangle) {
+  Box box;
+  for (const Vec3& v : triangle) box.include(v);
+  const Vec3 middle = box.center();
+  const double reach = paper_reach + 0.5 * glm::length(box.upper - box.lower);
+  return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
+    const Vec3 along = way.to - way.from;
+    const double part = std::clamp(glm::dot(middle - way.from, along) / glm::dot(along, along), 0.0, 1.0);
+    return glm::distance(middle, way.from + part * along) <= reach;
+  });
+}
+
+bool near(const std::vector<Way>& ways, const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (near(ways, mesh.triangle(i))) return true;
   }
-
-  /// What was kept is gone afterwards.
-  [[nodiscard]] std::shared_ptr<const Reference> judge() && {
-    if (kept_.empty()) {
-      throw Error(
-          "the scene has nothing near the three paths of the paper's Table 1: it must be at their coordinates, "
-          "metres, z up");
-    }
-    const std::vector<Mesh> kept = std::move(kept_);
-    return std::make_shared<Reference>(kept);
-  }
-
- private:
-  /// By the ball around the triangle's box: some that are farther off are kept too, and none that is nearer is not.
-  [[nodiscard]] bool near(const Triangle& triangle) const {
-    Box box;
-    for (const Vec3& v : triangle) box.include(v);
-    const Vec3 middle = box.center();
-    const double reach = paper_reach + 0.5 * glm::length(box.upper - box.lower);
-    return std::any_of(ways_.begin(), ways_.end(), [&](const Way& way) {
-      const Vec3 along = way.to - way.from;
-      const double part = std::clamp(glm::dot(middle - way.from, along) / glm::dot(along, along), 0.0, 1.0);
-      return glm::distance(middle, way.from + part * along) <= reach;
-    });
-  }
-
-  std::vector<Way> ways_;
-  std::vector<Mesh> kept_;
-};
+  return false;
+}
 
 }  // namespace
 
@@ -89,12 +65,13 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
   laid.scene.store = folder + "/scene.roam";
   fs::create_directory(laid.scene.tiles);
   TileWriter tiles(laid.scene.tiles);
-  Neighbourhood near(paper_ways(options.radius, options.split_radius));
+  const std::vector<Way> ways = paper_ways(options.radius, options.split_radius);
+  bool anything_near = false;
   const auto take = [&](const Mesh& mesh) {
     app::stop_if_interrupted();
     laid.triangles += mesh.triangles.size();
+    anything_near = anything_near || near(ways, mesh);
     tiles.add(mesh);
-    near.add(mesh);
   };
   const auto goes_on = [](const auto&) { return !app::interrupted(); };
   fmt::print(stderr, "laying out the scene in {}\n", folder);
@@ -106,12 +83,14 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
     laid.title = fmt::format("the made gallery, {} triangles", laid.triangles);
   } else {
     laid.scene.scene = options.scene;
-    ImportOptions import;
-    import.progress = goes_on;
-    for (const Mesh& mesh : import_scene(options.scene, import).meshes) take(mesh);
+    stream_laid_out(laid.scene, take);
     laid.title = fmt::format("{}, {} triangles", fs::path(options.scene).filename().string(), laid.triangles);
   }
-  laid.near = std::move(near).judge();
+  if (!anything_near) {
+    throw Error(
+        "the scene has nothing near the three paths of the paper's Table 1: it must be at their coordinates, "
+        "metres, z up");
+  }
   laid.scene.tile_count = tiles.finish();
   StoreBuildOptions build;
   build.scene = {laid.scene.scene};
@@ -121,5 +100,13 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
   laid.prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return laid;
 }
+
+void stream_laid_out(const PaperScene& scene, const std::function<void(const Mesh&)>& take) {
+  ImportOptions import;
+  import.progress = [](const auto&) { return !app::interrupted();
+};
+const fs::path path = scene.scene;
+stream_scene({&path, 1}, import, [&](const Mesh& piece, bool) { take(piece); });
+}  // namespace roam::bench
 
 }  // namespace roam::bench

@@ -2,10 +2,10 @@
 /// \file
 /// The scene of the paper's experiments, laid out for those who are to move in it.
 
-#include <memory>
+#include <functional>
 
 #include "paper_movers.h"
-#include "reference.h"
+#include "roam/mesh.h"
 
 namespace roam::bench {
 
@@ -15,6 +15,9 @@ struct PaperOptions {
   double radius = 0.5;                  ///< metres
   double split_radius = 0.7;            ///< metres: over a split of 1.25 m
   double patience = 60.0;               ///< seconds a way may take
+  double loading = 600.0;               ///< seconds a row may take until it can move
+  std::uint64_t memory = 0;             ///< bytes a row may take, with the programs it starts; 0: memory_for_rows()
+  std::string wasm;                     ///< folder of the npm packages; empty: rows that need it are left out
   std::string scratch;                  ///< folder; empty: the system's temporary one
 };
 
@@ -37,10 +40,12 @@ struct LaidOut {
   std::uint64_t triangles = 0;
   double prepared = 0.0;  ///< seconds that writing files and store took
   PaperScene scene;
-  std::shared_ptr<const Reference> near;  ///< all triangles within paper_reach of the ways
 };
 
 /// Writes the files into `folder`. Throws roam::Error, and roam::Cancelled after Ctrl-C.
 [[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::string& folder);
+
+/// The scene that roam's rows read, mesh by mesh, in bounded memory. Throws as lay_out does.
+void stream_laid_out(const PaperScene& scene, const std::function<void(const Mesh&)>& take);
 
 }  // namespace roam::bench

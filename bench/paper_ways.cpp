@@ -4,7 +4,6 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 
-#include "judge.h"
 #include "roam/generate.h"
 #include "thread_clock.h"
 
@@ -28,9 +27,10 @@ double left(const Way& way, const Vec3& place) {
 /// How far a place is below the way.
 double below(const Way& way, const Vec3& place) { return std::min(way.from.z, way.to.z) - place.z; }
 
-bool arrived(const Way& way, const Vec3& place) { return left(way, place) <= near_enough; }
-
 }  // namespace
+
+bool arrived(const Way& way, const Vec3& place) { return left(way, place) <= near_enough; }
+bool has_fallen(const Way& way, const Vec3& place) { return below(way, place) >= fallen; }
 
 std::vector<Way> paper_ways(double radius, double split_radius) {
   const auto& paths = generate::gallery_paths;
@@ -54,10 +54,9 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
   Walked walked;
   Vec3 place = way.from;
   walked.places.push_back(place);
-  walked.radius = way.radius;
   mover.place(way);
   double before = left(way, place);
-  while (!arrived(way, place) && below(way, place) < fallen) {
+  while (!arrived(way, place) && !has_fallen(way, place)) {
     walked.cut = std::chrono::steady_clock::now() >= end;
     if (walked.cut) break;
     Vec3 ahead = way.to - place;
@@ -66,9 +65,10 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
     const Vec3 velocity = ahead * (std::min(way.speed, rest * paper_rate) / rest);
     const double begin = thread_time();
     place = mover.step(velocity);
-    walked.nanoseconds.push_back(std::max(0.0, thread_time() - begin - reading));
+    const double own = std::max(0.0, thread_time() - begin - reading);
+    walked.nanoseconds.push_back(mover.nanoseconds ? mover.nanoseconds() : own);
+    walked.radii.push_back(mover.radius ? mover.radius() : way.radius);
     walked.places.push_back(place);
-    if (mover.radius) walked.radius = std::min(walked.radius, mover.radius());
     if (mover.rest) mover.rest(std::max(0.0, 1.0 / paper_rate - 1e-9 * walked.nanoseconds.back()));
     if (walked.nanoseconds.size() % window != 0) continue;
     const double progress = before - left(way, place);
@@ -78,46 +78,6 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
     before = left(way, place);
   }
   return walked;
-}
-
-Judgement judge(const Way& way, const Walked& walked, const Reference& near) {
-  Judgement judgement;
-  const double radius = walked.radius;
-  const Body body{.radius = radius};
-  for (std::size_t i = 0; i + 1 < walked.places.size(); ++i) {
-    const Query step{body, walked.places[i], walked.places[i + 1] - walked.places[i]};
-    const double depth = radius - near.smallest_clearance(step, 1.0, radius);
-    if (depth > depth_allowed) {
-      ++judgement.in_walls;
-      judgement.deepest = std::max(judgement.deepest, depth);
-    }
-    if (depth < radius - 1e-3 || glm::length(step.motion) == 0.0) continue;
-    if (near.sweep({.body = {.radius = 0.0}, .from = step.from, .motion = step.motion}).hit) {
-      judgement.ending = Ending::through;
-      return judgement;
-    }
-  }
-  const Vec3& last = walked.places.back();
-  judgement.ending = below(way, last) >= fallen ? Ending::fell
-                     : arrived(way, last)       ? Ending::reached
-                     : walked.cut               ? Ending::cut
-                                                : Ending::stuck;
-  return judgement;
-}
-
-const char* name(Ending ending) {
-  switch (ending) {
-    case Ending::reached:
-      return "completed";
-    case Ending::stuck:
-      return "stuck";
-    case Ending::fell:
-      return "fell";
-    case Ending::through:
-      return "through a wall";
-    default:
-      return "not finished";
-  }
 }
 
 }  // namespace roam::bench

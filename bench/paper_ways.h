@@ -1,14 +1,12 @@
 #pragma once
 /// \file
-/// The ways of the paper's experiments, how a body goes along one, and how that is judged.
+/// The ways of the paper's experiments, and how a body goes along one.
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "reference.h"
+#include "roam/math.h"
 
 namespace roam::bench {
 
@@ -35,35 +33,25 @@ struct Mover {
   std::function<Vec3(const Vec3& velocity)> step;
   /// What the step has left of its frame, seconds: for those who load meanwhile. May be empty.
   std::function<void(double seconds)> rest{};
-  /// The radius now, for those who change it on ways that are adapting. Empty for those who cannot.
+  /// The least radius that the body had on the last step, for those who change it on ways that are adapting. Empty for
+  /// those who cannot.
   std::function<double()> radius{};
+  /// Nanoseconds of the last step, for those whose steps another process takes. Empty: the thread's own time counts.
+  std::function<double()> nanoseconds{};
 };
 
 /// How a body went.
 struct Walked {
-  std::vector<double> nanoseconds;  ///< of each step, of the thread's own time
+  std::vector<double> nanoseconds;  ///< of each step
+  std::vector<double> radii;        ///< metres, the least that the body had on each step
   std::vector<Vec3> places;         ///< the centre at the start and after each step
-  double radius = 0.0;              ///< metres, the least that the body had
   bool cut = false;                 ///< ended by the clock while it was still getting on
 };
 
+[[nodiscard]] bool arrived(const Way& way, const Vec3& place);
+[[nodiscard]] bool has_fallen(const Way& way, const Vec3& place);
+
 /// Goes until the end is reached, nothing moves any more, the body has fallen, or `longest` seconds have passed.
 [[nodiscard]] Walked walk(const Mover& mover, const Way& way, double longest);
-
-/// `cut`: patience ran out first, and nothing is known of the rest of the way.
-enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
-
-/// How a way ended, judged by geometry that no mover has a part in.
-struct Judgement {
-  Ending ending = Ending::stuck;
-  std::size_t in_walls = 0;  ///< steps that began or ended deeper in a wall than depth_allowed
-  double deepest = 0.0;      ///< metres
-};
-/// `near` holds all triangles within `paper_reach` of the way. A body whose centre crosses a triangle went through.
-[[nodiscard]] Judgement judge(const Way& way, const Walked& walked, const Reference& near);
-constexpr double paper_reach = 20.0;  ///< metres
-
-/// "completed", "stuck", "fell", "through a wall" or "not finished".
-[[nodiscard]] const char* name(Ending ending);
 
 }  // namespace roam::bench

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -29,7 +30,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int result_end = 3;  // the descriptor that a row writes to
+constexpr int result_end = 3;       // the descriptor that a row writes to
+constexpr char loaded_mark = '\n';  // what it writes when it can move; JSON takes it for a space
 
 /// The largest resident memory of a program that this one has started and waited for: roam's reader.
 std::uint64_t peak_bytes_of_children() {
@@ -51,7 +53,7 @@ std::uint64_t peak_bytes() {
 json to_json(const Walked& walked) {
   json places = json::array();
   for (const Vec3& p : walked.places) places.push_back({p.x, p.y, p.z});
-  return {{"radius", walked.radius}, {"cut", walked.cut}, {"ns", walked.nanoseconds}, {"places", places}};
+  return {{"radii", walked.radii}, {"cut", walked.cut}, {"ns", walked.nanoseconds}, {"places", places}};
 }
 
 RowResult parse(const std::string& text) {
@@ -62,7 +64,7 @@ RowResult parse(const std::string& text) {
   result.adapts = report.at("adapts");
   for (const json& way : report.at("ways")) {
     Walked& walked = result.ways.emplace_back();
-    walked.radius = way.at("radius");
+    walked.radii = way.at("radii").get<std::vector<double>>();
     walked.cut = way.at("cut");
     walked.nanoseconds = way.at("ns").get<std::vector<double>>();
     for (const json& p : way.at("places")) walked.places.emplace_back(p[0], p[1], p[2]);
@@ -70,42 +72,93 @@ RowResult parse(const std::string& text) {
   return result;
 }
 
-/// What comes until the other end is closed; empty after Ctrl-C, and when reading fails.
-std::optional<std::string> read_all(int end) {
-  constexpr int look_up = 100;  // ms: a signal may come just before the call that it is to end
+/// The programs that a process has started and not waited for.
+std::vector<pid_t> children_of(pid_t process) {
+  std::ifstream list(fmt::format("/proc/{}/task/{}/children", process, process));
+  std::vector<pid_t> children;
+  for (pid_t child = 0; list >> child;) children.push_back(child);
+  return children;
+}
+
+/// Resident now: the process and the programs that it has started.
+std::uint64_t bytes_now(pid_t process) {
+  static const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  std::ifstream sizes(fmt::format("/proc/{}/statm", process));
+  std::uint64_t whole = 0, resident = 0;
+  sizes >> whole >> resident;
+  std::uint64_t bytes = resident * page;
+  for (const pid_t child : children_of(process)) bytes += bytes_now(child);
+  return bytes;
+}
+
+/// What a row says, and why it was ended before it had said all.
+struct Heard {
   std::string text;
+  std::string stopped;  ///< empty when the row ended by itself
+};
+
+/// Listens until the other end is closed, or the row takes more than it may. Empty after Ctrl-C, and when reading
+/// fails.
+std::optional<Heard> listen(int end, pid_t row, const PaperOptions& options) {
+  constexpr int look_up = 50;  // ms: a signal may come just before the call that it is to end, and memory grows fast
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t memory = options.memory > 0 ? options.memory : memory_for_rows();
+  Heard heard;
   std::array<char, 65536> buffer{};
   while (!app::interrupted()) {
     pollfd ready{end, POLLIN, 0};
     const int count = ::poll(&ready, 1, look_up);
+    if (bytes_now(row) > memory) {
+      heard.stopped = fmt::format("it takes more than {} MiB of memory", memory >> 20);
+      return heard;
+    }
+    if (heard.text.empty() &&
+        std::chrono::steady_clock::now() - start > std::chrono::duration<double>(options.loading)) {
+      heard.stopped = fmt::format("it has not loaded the scene in {:g} s", options.loading);
+      return heard;
+    }
     if (count == 0 || (count < 0 && errno == EINTR)) continue;
     const ssize_t got = count < 0 ? -1 : ::read(end, buffer.data(), buffer.size());
-    if (got == 0) return text;
+    if (got == 0) return heard;
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return std::nullopt;
-    text.append(buffer.data(), static_cast<std::size_t>(got));
+    heard.text.append(buffer.data(), static_cast<std::size_t>(got));
   }
   return std::nullopt;
 }
 
+void end_process(pid_t process) {
+  for (const pid_t child : children_of(process)) ::kill(child, SIGKILL);
+  ::kill(process, SIGKILL);
+}
+
 json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const Mover mover = row.load(scene);
-  const std::vector<Way> paper = paper_ways(options.radius, options.split_radius);
-  mover.place(paper.front());  // who loads meanwhile waits here
-  const double loaded = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  json ways = json::array();
-  for (const Way& way : paper) {
-    ways.push_back(to_json(walk(mover, way, options.patience)));
+  json report, ways = json::array();
+  {
+    const Mover mover = row.load(scene);
+    const std::vector<Way> paper = paper_ways(options.radius, options.split_radius);
+    mover.place(paper.front());  // who loads meanwhile waits here
+    report["load_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report["adapts"] = static_cast<bool>(mover.radius);
+    if (::write(result_end, &loaded_mark, 1) != 1) throw Error("cannot write to the command that started this row");
+    for (const Way& way : paper) ways.push_back(to_json(walk(mover, way, options.patience)));
   }
-  const json report{{"load_s", loaded},
-                    {"peak_bytes", peak_bytes() + peak_bytes_of_children()},
-                    {"adapts", static_cast<bool>(mover.radius)},
-                    {"ways", std::move(ways)}};
+  // Now the programs that the mover had started have ended, and count.
+  report["peak_bytes"] = peak_bytes() + peak_bytes_of_children();
+  report["ways"] = std::move(ways);
   return report;
 }
 
 }  // namespace
+
+std::uint64_t memory_for_rows() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("MemAvailable:")) return 1024 * std::stoull(line.substr(13)) / 4 * 3;
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
 
 RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options) {
   std::vector<std::string> arguments{"roam-bench",
@@ -118,7 +171,8 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
                                      std::to_string(scene.memory),
                                      fmt::format("{}", options.radius),
                                      fmt::format("{}", options.split_radius),
-                                     fmt::format("{}", options.patience)};
+                                     fmt::format("{}", options.patience),
+                                     options.wasm};
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -135,30 +189,31 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
     ::close(ends[0]);
     throw Error(std::string("cannot start a row: ") + ::strerror(failed));
   }
-  const std::optional<std::string> said = read_all(ends[0]);
+  const std::optional<Heard> heard = listen(ends[0], child, options);
   ::close(ends[0]);
   // Ctrl-C reaches the row as well; a signal to this process alone does not.
-  if (!said) ::kill(child, SIGKILL);
+  if (!heard || !heard->stopped.empty()) end_process(child);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   app::stop_if_interrupted();
-  if (!said) throw Error("cannot read what the row '" + name + "' found");
-  const std::string& text = *said;
+  if (!heard) throw Error("cannot read what the row '" + name + "' found");
   RowResult broken;
-  if (WIFSIGNALED(status)) {
+  if (!heard->stopped.empty()) {
+    broken.failure = heard->stopped;
+  } else if (WIFSIGNALED(status)) {
     broken.failure = fmt::format("ended by signal {}", ::strsignal(WTERMSIG(status)));
-    return broken;
+  } else if (WEXITSTATUS(status) != 0) {
+    broken.failure = heard->text.empty() ? "ended early" : heard->text;
+    if (broken.failure.front() == loaded_mark) broken.failure.erase(0, 1);
+  } else {
+    return parse(heard->text);
   }
-  if (WEXITSTATUS(status) != 0) {
-    broken.failure = text.empty() ? "ended early" : text;
-    return broken;
-  }
-  return parse(text);
+  return broken;
 }
 
 int row_main(int argc, char** argv) {
-  constexpr int expected = 11;
+  constexpr int expected = 12;
   std::string text;
   int status = 1;
   try {
@@ -168,7 +223,7 @@ int row_main(int argc, char** argv) {
     options.radius = std::stod(argv[8]);
     options.split_radius = std::stod(argv[9]);
     options.patience = std::stod(argv[10]);
-    for (const PaperRow& row : paper_rows()) {
+    for (const PaperRow& row : paper_rows(argv[11])) {
       if (row.name == argv[2] && row.load) text = run(row, scene, options).dump();
     }
     status = text.empty() ? 1 : 0;

@@ -3,18 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <glm/geometric.hpp>
+#include <random>
 #include <thread>
 
+#include "../bench/judge.h"
 #include "../bench/paper_report.h"
 
 namespace roam::bench {
 namespace {
-
-/// A floor far below the way, so that there is something to judge by.
-Reference far_below() {
-  const Mesh floor{.name = "floor", .vertices = {{-9, -9, -9}, {9, -9, -9}, {0, 9, -9}}, .triangles = {{0, 1, 2}}};
-  return Reference({&floor, 1});
-}
 
 const Way straight{.name = "straight", .from = Vec3(0.0), .to = {100.0, 0.0, 0.0}};
 
@@ -31,7 +28,9 @@ Mover mover(double part, double seconds) {
 }
 
 Ending ending(const Mover& mover, double patience) {
-  return judge(straight, walk(mover, straight, patience), far_below()).ending;
+  PaperJudge judge;
+  judge.watch(straight, walk(mover, straight, patience));
+  return judge.judgements().front().ending;
 }
 
 TEST(BenchPaperWays, CallsAWayThatTheClockCutNeitherStuckNorCompleted) {
@@ -59,6 +58,86 @@ TEST(BenchPaperWays, GivesWhoLoadsTheRestOfTheFrameOnly) {
   }
 }
 
+/// Small triangles anywhere around a way of 20 m, a mesh for every fifty.
+std::vector<Mesh> litter(std::mt19937& random) {
+  std::uniform_real_distribution<double> along(-2.0, 22.0), across(-2.0, 2.0), small(-0.3, 0.3);
+  std::vector<Mesh> meshes;
+  for (int m = 0; m < 60; ++m) {
+    Mesh& mesh = meshes.emplace_back();
+    for (std::uint32_t i = 0; i < 50; ++i) {
+      const Vec3 middle{along(random), across(random), across(random)};
+      for (int k = 0; k < 3; ++k) mesh.vertices.push_back(middle + Vec3(small(random), small(random), small(random)));
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+  }
+  return meshes;
+}
+
+/// Two hundred steps of a body that wanders and whose radius changes.
+Walked wandering(std::mt19937& random) {
+  std::uniform_real_distribution<double> aside(-0.1, 0.1), radius(0.01, 0.4);
+  Walked walked;
+  walked.places.emplace_back(0.0);
+  for (int i = 0; i < 200; ++i) {
+    walked.places.push_back(walked.places.back() + Vec3(0.1, aside(random), aside(random)));
+    walked.radii.push_back(radius(random));
+    walked.nanoseconds.push_back(1.0);
+  }
+  return walked;
+}
+
+TEST(PaperJudge, FindsPieceByPieceWhatTheWholeSceneSays) {
+  std::mt19937 random(7);
+  const std::vector<Mesh> scene = litter(random);
+  const Reference whole(scene);
+  std::vector<Walked> walks;
+  for (int i = 0; i < 5; ++i) walks.push_back(wandering(random));
+  for (const std::size_t most : {std::size_t{1}, std::size_t{37}, PaperJudge::most_kept}) {
+    PaperJudge judge(most);
+    for (const Walked& walked : walks) judge.watch(straight, walked);
+    for (const Mesh& mesh : scene) judge.add(mesh);
+    const std::vector<Judgement> judged = judge.judgements();
+    ASSERT_EQ(judged.size(), walks.size());
+    for (std::size_t w = 0; w < walks.size(); ++w) {
+      const Walked& walked = walks[w];
+      std::size_t in_walls = 0;
+      double deepest = 0.0;
+      bool through = false;
+      for (std::size_t i = 0; i < walked.radii.size() && !through; ++i) {
+        const Vec3 motion = walked.places[i + 1] - walked.places[i];
+        const Query step{{.radius = walked.radii[i]}, walked.places[i], motion};
+        const double depth = walked.radii[i] - whole.smallest_clearance(step, 1.0, walked.radii[i]);
+        in_walls += depth > depth_allowed ? 1 : 0;
+        deepest = std::max(deepest, depth);
+        through = whole.sweep({{.radius = 0.0}, step.from, motion}).hit;
+      }
+      EXPECT_EQ(judged[w].in_walls, in_walls) << most;
+      EXPECT_GT(in_walls, 0U);
+      EXPECT_DOUBLE_EQ(judged[w].deepest, deepest) << most;
+      EXPECT_EQ(judged[w].ending, through ? Ending::through : Ending::stuck) << most;
+    }
+  }
+}
+
+/// Past a wall at y = 0.5, at 0.2 m from it on the last of three steps.
+Judgement past_wall(std::vector<double> radii) {
+  const Mesh wall{.name = "wall", .vertices = {{-9, 0.5, -9}, {9, 0.5, -9}, {0, 0.5, 18}}, .triangles = {{0, 1, 2}}};
+  PaperJudge judge;
+  judge.watch(straight, {.nanoseconds = {1.0, 1.0, 1.0},
+                         .radii = std::move(radii),
+                         .places = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0.3, 0}}});
+  judge.add(wall);
+  return judge.judgements().front();
+}
+
+TEST(PaperJudge, JudgesEachStepByTheRadiusThatTheBodyHadOnIt) {
+  EXPECT_EQ(past_wall({0.45, 0.45, 0.15}).in_walls, 0U);
+  const Judgement late = past_wall({0.45, 0.45, 0.25});
+  EXPECT_EQ(late.in_walls, 1U);
+  EXPECT_NEAR(late.deepest, 0.05, 1e-12);
+  EXPECT_EQ(past_wall({0.6, 0.45, 0.15}).in_walls, 1U) << "the least radius of the way would have fitted";
+}
+
 const PaperRow roam_row{
     .name = "roam", .title = "roam", .how = "a walker", .missing = {}, .load = [](auto&&) { return Mover{}; }};
 const PaperRow other_row{
@@ -69,7 +148,7 @@ const PaperRow absent_row{.name = "unity", .title = "Unity", .how = {}, .missing
 RowFindings walked(const PaperRow& row, Ending ending, std::size_t in_walls = 0) {
   RowFindings found{.row = &row, .result = {}, .judged = {}};
   for (const Way& way : paper_ways(0.5, 0.7)) {
-    found.result.ways.push_back({.nanoseconds = {1000.0}, .places = {way.from, way.to}, .radius = way.radius});
+    found.result.ways.push_back({.nanoseconds = {1000.0}, .radii = {way.radius}, .places = {way.from, way.to}});
     found.judged.push_back({.ending = ending, .in_walls = in_walls});
   }
   return found;

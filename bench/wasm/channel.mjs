@@ -1,8 +1,9 @@
 // What the drivers of engines in WebAssembly share. roam-bench runs this text with one driver behind it:
 //   node --input-type=module --eval TEXT DIR        DIR holds node_modules
 // Little endian. In, by descriptor 3: u32 vertices, u32 triangles, f32 x y z of each vertex, u32 a b c of each triangle;
-// then, until the end, u32 n and n queries of 8 f64: radius, half height, from, motion. Out, by descriptor 4: u32 length
-// and a JSON text of that length; then for each query 2 f64: the time of impact (2 when free) and nanoseconds.
+// then, until the end, u32 n and n questions of 8 f64; a sweep's are radius, half height, from, motion. Out, by
+// descriptor 4: u32 length and a JSON text of that length; then for each question its answer and nanoseconds, f64; a
+// sweep's answer is the time of impact, 2 when free.
 import { readFileSync, readSync, writeSync } from 'node:fs';
 import { performance as clock } from 'node:perf_hooks';
 import { pathToFileURL } from 'node:url';
@@ -38,28 +39,34 @@ function emptyPair() {
   return median(empty);
 }
 
-// make(vertices, indices) gives {name, used, bytes, sweep(numbers, at)}; sweep returns the time of impact or 2.
-async function serve(start, make) {
+// Reads the scene, builds it, and says so: what make(vertices, indices) gives, which has {name, used, bytes}.
+async function begin(start, make) {
   const [vertexCount, triangleCount] = new Uint32Array(read(8));
   const vertices = new Float32Array(read(12 * vertexCount));
   const indices = new Uint32Array(read(12 * triangleCount));
   await start();
-  const begin = clock.now();
-  const { name, used, bytes, sweep } = make(vertices, indices);
-  const about = new TextEncoder().encode(JSON.stringify({ name, used, bytes, build_s: 1e-3 * (clock.now() - begin) }));
+  const before = clock.now();
+  const made = make(vertices, indices);
+  const { name, used, bytes } = made;
+  const about = new TextEncoder().encode(JSON.stringify({ name, used, bytes, build_s: 1e-3 * (clock.now() - before) }));
   write(new Uint8Array(Uint32Array.of(about.length).buffer));
   write(about);
+  return made;
+}
+
+// Answers questions until there are no more. answer(numbers, at, answers, to) takes eight numbers and gives `width`;
+// how long it took follows them.
+function serve(width, answer) {
   for (;;) {
     const [count] = new Uint32Array(read(4));
-    const queries = new Float64Array(read(64 * count));
-    const answers = new Float64Array(2 * count);
+    const questions = new Float64Array(read(64 * count));
+    const answers = new Float64Array((width + 1) * count);
     const empty = emptyPair();
     for (let i = 0; i < count; ++i) {
       const before = clock.now();
-      const time = sweep(queries, 8 * i);
+      answer(questions, 8 * i, answers, (width + 1) * i);
       const after = clock.now();
-      answers[2 * i] = time;
-      answers[2 * i + 1] = Math.max(0, 1e6 * (after - before - empty));
+      answers[(width + 1) * i + width] = Math.max(0, 1e6 * (after - before - empty));
     }
     write(new Uint8Array(answers.buffer));
   }

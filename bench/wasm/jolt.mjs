@@ -91,7 +91,7 @@ function make(vertices, indices) {
   const lying = Jolt.Quat.prototype.sRotation(new Jolt.Vec3(1, 0, 0), Math.PI / 2).Clone?.()
     ?? new Jolt.Quat(Math.SQRT1_2, 0, 0, Math.SQRT1_2);
   const level = new Jolt.Quat(0, 0, 0, 1);
-  function sweep(q, at) {
+  function sweep(q, at, answers, to) {
     const upstanding = q[at + 1] > 0;
     const shape = upstanding ? new Jolt.CapsuleShape(q[at + 1], q[at]) : new Jolt.SphereShape(q[at]);
     from.Set(q[at + 2], q[at + 3], q[at + 4]);
@@ -101,10 +101,9 @@ function make(vertices, indices) {
     collector.Reset();
     collector.ResetEarlyOutFraction();
     scene.CastShape(cast, settingsOfCast, base, collector, all);
-    const time = collector.HadHit() ? collector.mHit.mFraction : 2;
+    answers[to] = collector.HadHit() ? collector.mHit.mFraction : 2;
     Jolt.destroy(cast);
     Jolt.destroy(shape);
-    return time;
   }
   return {
     name: `Jolt (npm ${JSON.parse(readFileSync(modules + 'jolt-physics/package.json')).version}, WASM)`,
@@ -114,4 +113,4 @@ function make(vertices, indices) {
   };
 }
 
-await serve(start, make);
+serve(1, (await begin(start, make)).sweep);

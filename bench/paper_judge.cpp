@@ -1,0 +1,126 @@
+#include "paper_judge.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "judge.h"
+
+namespace roam::bench {
+namespace {
+
+constexpr std::size_t block_steps = 16;
+
+Box box_of(const Vec3& from, const Vec3& to, double radius) {
+  // The reference decides what touches: a little too large does no harm.
+  const Vec3 reach(radius + 1e-6);
+  Box box;
+  box.include(from - reach);
+  box.include(from + reach);
+  box.include(to - reach);
+  box.include(to + reach);
+  return box;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.lower[k] > b.upper[k] || b.lower[k] > a.upper[k]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+const char* name(Ending ending) {
+  switch (ending) {
+    case Ending::reached:
+      return "completed";
+    case Ending::stuck:
+      return "stuck";
+    case Ending::fell:
+      return "fell";
+    case Ending::through:
+      return "through a wall";
+    default:
+      return "not finished";
+  }
+}
+
+void PaperJudge::watch(const Way& way, const Walked& walked) {
+  const Vec3& last = walked.places.back();
+  Watched watched{.begin = steps_.size(), .end = 0, .ending = Ending::stuck};
+  watched.ending = has_fallen(way, last) ? Ending::fell
+                   : arrived(way, last)  ? Ending::reached
+                   : walked.cut          ? Ending::cut
+                                         : Ending::stuck;
+  for (std::size_t i = 0; i + 1 < walked.places.size(); ++i) {
+    if (i % block_steps == 0) blocks_.push_back({.begin = steps_.size(), .end = 0, .box = {}});
+    const double radius = walked.radii[i];
+    steps_.push_back({walked.places[i], walked.places[i + 1], radius, radius});
+    blocks_.back().box.include(box_of(walked.places[i], walked.places[i + 1], radius));
+    blocks_.back().end = steps_.size();
+  }
+  watched.end = steps_.size();
+  watched_.push_back(watched);
+}
+
+void PaperJudge::add(const Mesh& mesh) {
+  Box whole;
+  for (const Vec3& v : mesh.vertices) whole.include(v);
+  std::vector<Box> near;
+  for (const Block& block : blocks_) {
+    if (overlap(block.box, whole)) near.push_back(block.box);
+  }
+  if (near.empty()) return;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle triangle = mesh.triangle(i);
+    Box box;
+    for (const Vec3& v : triangle) box.include(v);
+    if (std::none_of(near.begin(), near.end(), [&](const Box& block) { return overlap(block, box); })) continue;
+    const auto first = static_cast<std::uint32_t>(kept_.vertices.size());
+    kept_.vertices.insert(kept_.vertices.end(), triangle.begin(), triangle.end());
+    kept_.triangles.push_back({first, first + 1, first + 2});
+    if (kept_.triangles.size() >= most_) settle();
+  }
+}
+
+void PaperJudge::settle() {
+  if (kept_.triangles.empty()) return;
+  const Reference reference({&kept_, 1});
+  Box whole;
+  for (const Vec3& v : kept_.vertices) whole.include(v);
+  for (const Block& block : blocks_) {
+    if (!overlap(block.box, whole)) continue;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      Step& step = steps_[i];
+      const Query way{{.radius = step.radius}, step.from, step.to - step.from};
+      step.clearance = std::min(step.clearance, reference.smallest_clearance(way, 1.0, step.clearance));
+      // Only a centre that comes to a triangle can cross one.
+      if (step.crossed || step.clearance > 1e-3 || glm::length(way.motion) == 0.0) continue;
+      step.crossed = reference.sweep({.body = {.radius = 0.0}, .from = way.from, .motion = way.motion}).hit;
+    }
+  }
+  kept_.vertices.clear();
+  kept_.triangles.clear();
+}
+
+std::vector<Judgement> PaperJudge::judgements() {
+  settle();
+  std::vector<Judgement> all;
+  for (const Watched& watched : watched_) {
+    Judgement& judgement = all.emplace_back();
+    judgement.ending = watched.ending;
+    for (std::size_t i = watched.begin; i < watched.end; ++i) {
+      const double depth = steps_[i].radius - steps_[i].clearance;
+      if (depth > depth_allowed) {
+        ++judgement.in_walls;
+        judgement.deepest = std::max(judgement.deepest, depth);
+      }
+      if (!steps_[i].crossed) continue;
+      judgement.ending = Ending::through;
+      break;
+    }
+  }
+  return all;
+}
+
+}  // namespace roam::bench

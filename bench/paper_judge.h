@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// How ways ended, judged by geometry that no mover has a part in.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "paper_ways.h"
+#include "roam/mesh.h"
+
+namespace roam::bench {
+
+/// `cut`: patience ran out first, and nothing is known of the rest of the way.
+enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
+
+/// "completed", "stuck", "fell", "through a wall" or "not finished".
+[[nodiscard]] const char* name(Ending ending);
+
+/// How a way ended.
+struct Judgement {
+  Ending ending = Ending::stuck;
+  std::size_t in_walls = 0;  ///< steps deeper in a wall than depth_allowed, by the radius that the body had on each
+  double deepest = 0.0;      ///< metres
+};
+
+/// Judges ways by a scene that comes mesh by mesh, in bounded memory: what no step comes near is not kept, and what is
+/// kept is judged and let go when it is much. A body whose centre crosses a triangle went through a wall.
+class PaperJudge {
+ public:
+  static constexpr std::size_t most_kept = 1u << 20;  ///< triangles, at some 400 bytes each while they are judged
+
+  explicit PaperJudge(std::size_t most = most_kept) : most_(most) {}
+
+  /// Before the scene comes. `walked` is not needed afterwards.
+  void watch(const Way& way, const Walked& walked);
+  /// Each mesh of the scene, in any order.
+  void add(const Mesh& mesh);
+  /// As they were watched, when the whole scene has come.
+  [[nodiscard]] std::vector<Judgement> judgements();
+
+ private:
+  struct Step {
+    Vec3 from, to;
+    double radius = 0.0;
+    double clearance = 0.0;  ///< of the centre on the step, at most the radius
+    bool crossed = false;
+  };
+  /// Steps that follow each other, and the box of the body on them.
+  struct Block {
+    std::size_t begin = 0, end = 0;
+    Box box;
+  };
+  struct Watched {
+    std::size_t begin = 0, end = 0;  ///< of steps_
+    Ending ending;                   ///< unless it went through a wall
+  };
+  void settle();
+
+  std::size_t most_;
+  std::vector<Step> steps_;
+  std::vector<Block> blocks_;
+  std::vector<Watched> watched_;
+  Mesh kept_{.name = "near", .vertices = {}, .triangles = {}};
+};
+
+}  // namespace roam::bench
