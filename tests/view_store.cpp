@@ -122,6 +122,26 @@ TEST(ViewStore, FindsTheSceneOfAStore) {
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
 }
 
+TEST(ViewStore, ReadsTheSceneOfAStoreAsTheStoreWas) {
+  Driven d;
+  const std::string scene = d.write_scene();
+  StoreBuildOptions build = build_of(scene, scene + ".roam");
+  build.import.up = UpAxis::y;
+  build.import.unit = LengthUnit::in;
+  build.import.ignore = {"nothing of this name", "front"};
+  (void)build_store(build);
+  SceneOptions store;
+  store.scenes = {scene + ".roam"};
+  const SceneAndStore what = scene_and_store(store, {});
+  EXPECT_EQ(what.scene.scenes, std::vector<fs::path>{scene});
+  EXPECT_EQ(what.scene.up, "y");
+  EXPECT_EQ(what.scene.unit, "in");
+  EXPECT_EQ(what.scene.ignore, build.import.ignore);
+  const StoreChoice choice = choose_store(what, [] { return true; });
+  EXPECT_TRUE(choice.store);
+  EXPECT_FALSE(choice.stale) << choice.note;
+}
+
 TEST(ViewStore, ShowsTheTrianglesOfAStoreWhoseSceneIsGone) {
   Driven d;
   const std::string scene = d.write_scene();

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "exit_status.h"
 #include "roam/error.h"
+#include "store/build/fingerprint.h"
 #include "store/build/same_scene.h"
 #include "store/opened.h"
 #include "store_name.h"
@@ -41,15 +41,15 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::fu
   }
 }
 
-/// Lets the scene be read as the store was.
+/// Lets the scene be read as the store was. Throws roam::Error where this program does not know how.
 void read_as(SceneOptions& scene, const Store& store) {
-  const auto options = nlohmann::json::parse(store.state().manifest.options, nullptr, false);
-  if (!options.is_object()) return;
-  scene.up = options.contains("up") && options["up"].is_string() ? options["up"].get<std::string>() : std::string();
+  ImportOptions options;
+  store::read_as(store.state().manifest.options, options);
+  scene.up = options.up ? std::string(1, "xyz"[static_cast<int>(*options.up)]) : std::string();
   for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
-    if (metres_per(parse_length_unit(unit)) == options.value("metres_per_unit", 1.0)) scene.unit = unit;
+    if (parse_length_unit(unit) == options.unit) scene.unit = unit;
   }
-  scene.ignore = options.value("ignore", scene.ignore);
+  scene.ignore = options.ignore;
 }
 
 }  // namespace
