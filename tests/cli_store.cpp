@@ -90,6 +90,27 @@ TEST_F(StoreVerbs, AWalkIsVerifiedAgainstTheStoreAndAgainstTheScene) {
   }
 }
 
+TEST_F(StoreVerbs, AWallThatTheStoreDoesNotHaveIsFoundByTheCheckAgainstTheScene) {
+  const TestFolder folder;
+  // Across the way, 60 m in, and read after all of the gallery.
+  folder.write("wall.obj", "v -13704.6 302.9 178\nv -13691.4 290.5 178\nv -13698 296.7 190\nf 1 2 3\n");
+  const std::vector<std::string> walk{"walk",    store(), "--path",   path(), "--mode",    "fly",
+                                      "--speed", "20",    "--memory", "8M",   "--against", scene()};
+  const auto checked = [&](std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    return json::parse(run(arguments).out);
+  };
+  EXPECT_EQ(checked(walk)["violations"], 0);
+  std::vector<std::string> planted = walk;
+  planted.push_back(folder.file("wall.obj"));
+  const json report = checked(planted);
+  EXPECT_EQ(report["outcome"], "reached") << "nothing of the wall is in the store";
+  EXPECT_GE(report["violations"], 1);
+  EXPECT_LE(report["violations"], 10);
+  EXPECT_LT(report["verified"]["least_gap_m"], -0.29);
+  EXPECT_GE(report["verified"]["overstated_clearances"], report["violations"]);
+}
+
 TEST_F(StoreVerbs, WandersFromAPlaceThatIsFoundAndDrawsThat) {
   const TestFolder folder;
   const ProgramResult walked = run(
@@ -152,6 +173,8 @@ TEST_F(StoreVerbs, EveryTileDamagedHoldsABodyAndLetsNothingThrough) {
   EXPECT_EQ(report["violations"], 0) << walked.out;
   if (report["outcome"] != "reached") {
     EXPECT_EQ(walked.status, 3);
+    EXPECT_EQ(report["outcome"], "held") << "by what cannot be read, not by a wall";
+    EXPECT_TRUE(contains(report["why"], "read")) << report["why"];
     EXPECT_GT(report["paging"]["failed"], 0);
     EXPECT_TRUE(contains(report["paging"]["last_failure"], "tile")) << report["paging"];
   }

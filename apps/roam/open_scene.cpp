@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <new>
+#include <thread>
 
 #include "exit_status.h"
 #include "interrupt.h"
@@ -17,6 +19,9 @@ namespace {
 
 /// Seconds. How long a body that is put somewhere may wait for what is there; then it is held, as said.
 constexpr double longest_wait = 60.0;
+
+/// How long a thread of the pager may take to name what is not known; where all of them wait for reads it is not named.
+constexpr std::chrono::milliseconds longest_naming{200};
 
 /// Metres and triangles. Pieces of a way are checked against a store together as long as they stay so near to each
 /// other that what lies around them fits in memory.
@@ -146,6 +151,16 @@ void OpenScene::follow(const Walker& walker) {
 SourceTriangle OpenScene::source(TriangleId triangle) const {
   if (store_) return store_->source(triangle);
   return {"", triangle, triangle, loaded_.world.object_name(triangle)};
+}
+
+std::string OpenScene::why_unknown(TriangleId unknown) const {
+  const auto until = std::chrono::steady_clock::now() + longest_naming;
+  std::string why = space().object_name(unknown);
+  while (why.empty() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    why = space().object_name(unknown);
+  }
+  return why;
 }
 
 Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {

@@ -51,6 +51,9 @@ class OpenScene {
   /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
 
+  /// Why the unknown that a contact names is not known; waits a moment for what is found out beside.
+  [[nodiscard]] std::string why_unknown(TriangleId unknown) const;
+
   /// The triangles of the store, as stored, around these pieces. There must be a store. What cannot be read is left
   /// out, and told on standard error.
   [[nodiscard]] Mesh stored_triangles(std::span<const Piece> pieces, double reach) const;

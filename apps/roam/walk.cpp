@@ -219,8 +219,8 @@ ExitStatus walk(WalkOptions options) {
   if (report.result.blocked_at) {
     // What was not known has no number in the scene: it is named by why it is not.
     const TriangleId triangle = report.result.blocked_at->triangle;
-    if (walker.report().met_unknown) {
-      report.object = scene.space().object_name(triangle);
+    if (report.result.outcome == Outcome::held) {
+      report.object = scene.why_unknown(triangle);
     } else {
       const SourceTriangle source = scene.source(triangle);
       report.object = source.object;

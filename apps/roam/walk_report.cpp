@@ -39,6 +39,17 @@ std::string explain_blocked(const WalkReport& report) {
   return text;
 }
 
+/// Why a body did not go on though no wall was in its way.
+std::string explain_wait(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  if (!result.blocked_at) {
+    return fmt::format("at {} what lies ahead does not come fast enough; go slower, or read it from a faster disk",
+                       at(result.end));
+  }
+  return fmt::format("at {} what lies ahead is solid until it is read, from {} on: {}", at(result.end),
+                     at(result.blocked_at->point), report.object.empty() ? "not loaded yet" : report.object);
+}
+
 }  // namespace
 
 std::string explain(const WalkReport& report) {
@@ -60,12 +71,17 @@ std::string explain(const WalkReport& report) {
                          at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
     }
     case Outcome::held:
+      if (result.steps == 0 && first(result, EventKind::met_unknown)) {
+        return fmt::format("where it starts, {}, what is there cannot be read, or has not been in time",
+                           at(result.end));
+      }
       if (result.steps == 0) {
         return fmt::format(
             "it does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close "
             "by; move the first waypoint or take a smaller radius",
             at(result.end));
       }
+      if (!first(result, EventKind::held)) return explain_wait(report);
       return fmt::format("at {} there is no ground below to stand on; move the waypoint onto the ground, or fly",
                          at(result.end));
   }

@@ -23,7 +23,7 @@ struct WalkReport {
   RouteResult result;
   std::size_t waypoints = 0;  ///< of the path; 0 when wandering
   Vec3 eye{0.0};              ///< the camera at the end
-  std::string object;         ///< the name of what blocked, if it was blocked by a contact
+  std::string object;         ///< the name of what blocked, if it was blocked by a contact; or why that is not known
   StepTimes times;
   std::optional<Verification> verified;
   double verify_seconds = 0.0;

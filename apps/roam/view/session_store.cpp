@@ -108,7 +108,7 @@ void Session::tell_of_failures(const PagerStats& paging) {
 
 void Session::name_blockage(ViewReport& report) const {
   Blockage& blockage = *report.result->blocked_at;
-  if (!pager_ || roamer_->report().met_unknown) {
+  if (!pager_ || report.result->outcome == Outcome::held) {
     report.object = roamer_->space()->object_name(blockage.triangle);
     return;
   }
