@@ -67,7 +67,7 @@ std::string explain(const WalkReport& report) {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       const WalkerSettings& s = report.settings;
       const bool foot = s.support_radius > s.radius;
-      return fmt::format("at {} the ground ends, or has a gap that a {} of {} m does not bridge; a larger one may",
+      return fmt::format("at {} the ground ends, or has a gap that a {} of {:g} m does not bridge; a larger one may",
                          at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
     }
     case Outcome::held:
@@ -168,10 +168,10 @@ std::string text_report(const WalkReport& report) {
          fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}", at(*freed)));
   }
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
-  line("body",
-       fmt::format("{}, radius {} m, height {} m", name(report.mode), report.settings.radius, report.settings.height));
+  line("body", fmt::format("{}, radius {:g} m, height {:g} m", name(report.mode), report.settings.radius,
+                           report.settings.height));
   if (report.settings.support_radius > 0.0)
-    line("", fmt::format("support radius {} m", report.settings.support_radius));
+    line("", fmt::format("support radius {:g} m", report.settings.support_radius));
   if (!report.profile.empty()) line("profile", report.profile);
   line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
   if (report.mode != Mode::ghost) {
@@ -193,8 +193,8 @@ std::string text_report(const WalkReport& report) {
                                  v.pieces, short_time(report.verify_seconds)));
     if (v.overstated > 0) line("", fmt::format("{} steps claim more clearance than there is", v.overstated));
     if (v.worst) {
-      line("", fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {} m", v.worst->step, v.worst->distance,
-                           v.worst->triangle, v.worst->radius));
+      line("", fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {:g} m", v.worst->step,
+                           v.worst->distance, v.worst->triangle, v.worst->radius));
     }
   }
   return text;

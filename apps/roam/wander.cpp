@@ -146,7 +146,7 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
   }
   if (best.room < 0.0) {
     throw Error(
-        fmt::format("found no free place for a body of radius {} m and height {} m; is the up axis right (--up)? "
+        fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
                     "Else take a smaller body, or lead it with --path",
                     settings.radius, settings.height));
   }
