@@ -14,6 +14,9 @@ namespace {
 // Of the picture, in its own units.
 constexpr double width = 810.0, left = 200.0, right = 240.0, top = 56.0, row = 20.0, gap = 34.0, bottom = 24.0;
 
+/// Three digits, and more only before the point.
+std::string figure(double value) { return fmt::format(fmt::runtime(value < 1000.0 ? "{:.3g}" : "{:.0f}"), value); }
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -67,7 +70,7 @@ std::string drawn(const Bar& bar, const Axis& axis, double y) {
   };
   if (bar.p99 > 0) out += bar_to(bar.p99, light);
   if (bar.p50 > 0) out += bar_to(bar.p50, dark);
-  const std::string figures = bar.p99 > 0 ? fmt::format("{:.3g} / {:.3g}", bar.p50, bar.p99) : "";
+  const std::string figures = bar.p99 > 0 ? figure(bar.p50) + " / " + figure(bar.p99) : "";
   return out + text(axis.x(bar.p99) + 6, y + 14, "start", figures + (bar.note.empty() ? "" : "  " + bar.note));
 }
 

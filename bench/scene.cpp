@@ -55,9 +55,12 @@ Scene make_scene(const SceneChoice& choice, const std::function<bool()>& goes_on
     scene.meshes = read(choice.scene, goes_on);
   }
   center_at(scene.meshes, choice.origin);
-  scene.name = std::filesystem::path(choice.scene).filename().string() + ", " + std::to_string(scene.triangles()) +
-               " triangles, centre at (" + std::to_string(choice.origin.x) + ", " + std::to_string(choice.origin.y) +
-               ", " + std::to_string(choice.origin.z) + ") m";
+  scene.name =
+      std::filesystem::path(choice.scene).filename().string() + ", " + std::to_string(scene.triangles()) + " triangles";
+  if (choice.origin != Vec3(0.0)) {
+    scene.name += ", centre at (" + std::to_string(choice.origin.x) + ", " + std::to_string(choice.origin.y) + ", " +
+                  std::to_string(choice.origin.z) + ") m";
+  }
   return scene;
 }
 
