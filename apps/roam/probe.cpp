@@ -1,4 +1,6 @@
 // roam probe: whether a body of a given size gets from one place to another.
+#include "roam/probe.h"
+
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -9,11 +11,10 @@
 
 #include "interrupt.h"
 #include "picture/draw.h"
-#include "probe_answer.h"
 #include "probe_picture.h"
+#include "probe_text.h"
 #include "progress.h"
 #include "recorded_body.h"
-#include "roam/error.h"
 #include "surveyed.h"
 #include "validators.h"
 #include "verbs.h"
@@ -30,6 +31,8 @@ struct ProbeOptions {
   std::optional<std::string> matrix;  ///< sizes, or a file of them
   std::optional<std::filesystem::path> picture, path;
   bool json = false;
+
+  [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
 };
 
 /// Sizes in lines, with comments behind #.
@@ -77,7 +80,7 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   }
   for (const ProbedSize& size : sizes) {
     try {
-      static_cast<void>(settings_of(o.question, size));
+      static_cast<void>(probed_body(o.question, size, o.slope_degrees()));
     } catch (const Error& error) {
       throw UsageError(o.matrix ? fmt::format("--matrix, size {:g}x{:g}: {}", size.radius, size.height, error.what())
                                 : error.what());
@@ -104,7 +107,6 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   if (q.mode == Mode::fly && (o.step || o.slope || o.support_radius))
     throw UsageError("--mode fly: --step, --slope and --support-radius are for walking; leave them out");
   q.step = o.step.value_or(q.step);
-  q.slope_degrees = o.slope.value_or(q.slope_degrees);
   q.support_radius = o.support_radius.value_or(q.support_radius);
   q.spacing = o.spacing.value_or(q.spacing);
   return q;
@@ -133,18 +135,18 @@ std::string file_names(const SceneOptions& scene) {
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::ofstream out(*o.path);
   out << "# " << explain(o.question, answer) << "\n";
-  out << body_line(settings_of(o.question, answer.size), o.question.mode) << "\n";
-  for (const Vec3& p : centres(survey, o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  out << body_line(probed_body(o.question, answer.size, o.slope_degrees()), o.question.mode) << "\n";
+  for (const Vec3& p : probed_path(survey, o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
   out.close();
   if (!out) throw Error(o.path->string() + ": cannot be written; is its folder yours, and the disk not full?");
 }
 
-Json json_report(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
+Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},          {"triangles", scene.survey.triangles()},
-               {"mode", name(o.question.mode)},     {"from", to_json(o.question.from)},
-               {"to", to_json(o.question.to)},      {"step", o.question.step},
-               {"slope", o.question.slope_degrees}, {"support_radius", o.question.support_radius},
+  Json json = {{"scene", o.scene.names()},      {"triangles", scene.survey.triangles()},
+               {"mode", name(o.question.mode)}, {"from", to_json(o.question.from)},
+               {"to", to_json(o.question.to)},  {"step", o.question.step},
+               {"slope", o.slope_degrees()},    {"support_radius", o.question.support_radius},
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
@@ -170,11 +172,17 @@ ExitStatus probe(ProbeOptions o) {
   }
   std::optional<picture::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
-  const Surveyed scene = survey_scene(o.scene, o.question.slope_degrees);
+  const Surveyed scene = survey_scene(o.scene, o.slope_degrees());
   std::vector<ProbeAnswer> answers;
   {
     Progress progress("looking for a way", "places");
-    answers = probe(scene.survey, o.question, sizes, [&](std::uint64_t places) { return progress.goes_on(places, 0); });
+    o.question.progress = [&](std::uint64_t places) { return progress.goes_on(places, 0); };
+    try {
+      answers = roam::probe(scene.survey, o.question, sizes);
+    } catch (const NoRoomAtEnd& error) {
+      throw Error(std::string("--") + error.what());  // it begins with "from" or "to", as the options are called
+    }
+    o.question.progress = {};
   }
   const ProbeAnswer& first = answers.front();
   if (o.path && first.wide_enough) write_path(o, scene.survey, first);
@@ -182,7 +190,7 @@ ExitStatus probe(ProbeOptions o) {
     fmt::print(stderr, "roam: {}: there is no way, so it was not written\n", o.path->string());
   if (drawing) drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first));
   if (o.json) {
-    print(json_report(o, scene, answers));
+    print(report_of(o, scene, answers));
   } else {
     print(o.matrix ? table(o.question, answers) : explain(o.question, first) + "\n");
   }

@@ -7,18 +7,18 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "interrupt.h"
 #include "picture/opening.h"
-#include "probe_search.h"
-#include "train/on_way.h"
+#include "probe_text.h"
 
 namespace roam::app {
 namespace {
 
 using picture::OpeningView;
 using picture::Overview;
-using Kind = Limit::Kind;
+using Kind = ProbeLimit::Kind;
 
 /// Metres.
 constexpr double sample = 0.01;       ///< between rays that measure an opening's depth, or a gap of the floor
@@ -59,7 +59,7 @@ void centre(const Survey& survey, OpeningView& view) {
 }
 
 OpeningView empty_view(const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const WalkerSettings body = settings_of(question, answer.size);
+  const WalkerSettings body = probed_body(question, answer.size);
   OpeningView view;
   view.mode = question.mode;
   view.radius = body.radius;
@@ -71,7 +71,7 @@ OpeningView empty_view(const ProbeQuestion& question, const ProbeAnswer& answer)
 
 /// What decides, with the body in it.
 OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const Limit& limit = *answer.limit;
+  const ProbeLimit& limit = *answer.limit;
   OpeningView view = empty_view(question, answer);
   view.heading =
       text_of(limit) + ", at " + fmt::format("({:.2f}, {:.2f}, {:.2f})", limit.point.x, limit.point.y, limit.point.z);
@@ -82,7 +82,7 @@ OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const P
   view.heading_to = limit.heading;
   view.fits = answer.wide_enough;
   view.floor = question.mode == Mode::fly ? limit.point.z - view.radius : limit.feet.z;
-  if ((is_end(limit.kind) && !limit.too_low) || limit.kind == Kind::edge) {
+  if (((limit.kind == Kind::start || limit.kind == Kind::target) && !limit.too_low) || limit.kind == Kind::edge) {
     view.kind = OpeningView::Kind::beside;
     view.body = limit.feet;
   } else if (limit.kind == Kind::step) {
@@ -101,8 +101,7 @@ OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const P
 
 /// The gap of the floor into which the walker fell: where it is narrowest there. None where the floor just ends.
 std::optional<OpeningView> gap_view(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const training::OnWay on = training::nearest_on(answer.passage.way, answer.walk->at, Mode::walk);
-  const Vec3 place(answer.walk->at.x, answer.walk->at.y, on.place.z);
+  const Vec3 place(answer.walk->at.x, answer.walk->at.y, answer.walk->on_way.z);
   const double step = question.step;
   const auto floor_at = [&](const Vec3& p) {
     return survey.floor().ray(p + Vec3(0.0, 0.0, step), {0.0, 0.0, -2.0 * step}).hit;
@@ -134,27 +133,6 @@ std::optional<OpeningView> gap_view(const Survey& survey, const ProbeQuestion& q
   return view;
 }
 
-/// What is reached from both ends.
-void reach(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer, Overview& overview) {
-  const ProbeProgress no_progress = [](std::uint64_t) { return true; };
-  const ProbeSearch search{survey, question, no_progress, options_for(question, answer.size)};
-  training::WidestTree tree(survey, search.measure(), question.spacing);
-  const auto grown = [&](const Vec3& end) {
-    std::vector<Vec3> places;
-    const auto root = tree.seed(end);
-    if (!root) return places;
-    const std::uint64_t until = tree.size() + most_reached;
-    static_cast<void>(tree.grow(*root, training::no_node,
-                                [&](std::uint64_t places_now) { return !interrupted() && places_now < until; }));
-    for (training::NodeId id = 0; id < static_cast<training::NodeId>(tree.size()); ++id) {
-      if (tree.root(id) == *root) places.push_back(tree.node(id).place);
-    }
-    return places;
-  };
-  overview.from_start = grown(answer.start);
-  overview.from_target = grown(answer.target);
-}
-
 Overview overview_of(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   Overview overview;
   overview.mode = question.mode;
@@ -168,7 +146,13 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
   if (answer.limit) overview.marks.push_back({answer.limit->point, text_of(*answer.limit), answer.wide_enough});
   if (answer.walk && !answer.passable)
     overview.marks.push_back({answer.walk->at, std::string("walker ") + name(answer.walk->outcome), false});
-  if (overview.way.empty()) reach(survey, question, answer, overview);
+  if (overview.way.empty()) {
+    ProbeQuestion asked = question;
+    asked.progress = [](std::uint64_t) { return !interrupted(); };
+    ProbeReach reach = probed_reach(survey, asked, answer, most_reached);
+    overview.from_start = std::move(reach.from_start);
+    overview.from_target = std::move(reach.from_target);
+  }
   return overview;
 }
 

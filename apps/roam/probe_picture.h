@@ -5,7 +5,7 @@
 #include <string>
 
 #include "picture/sheet.h"
-#include "probe_answer.h"
+#include "roam/probe.h"
 
 namespace roam::app {
 

@@ -1,21 +1,33 @@
 // What `roam probe` says: sentences, a table, JSON.
+#include "probe_text.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "probe_answer.h"
+#include "exit_status.h"
 
 namespace roam::app {
 namespace {
 
-using Kind = Limit::Kind;
+using Kind = ProbeLimit::Kind;
 
 /// Metres: an end that stands farther than that from the place that was asked for is told.
 constexpr double moved_aside = 0.05;
 constexpr double tall = 2.0;  ///< eyes are at most that far above the feet
 
 std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
+
+bool is_number(const std::string& text, double& value) {
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && after == end;
+}
+
+bool is_end(Kind kind) { return kind == Kind::start || kind == Kind::target; }
 
 /// Millimetres where metres would show little of it.
 std::string metres(double length) {
@@ -28,7 +40,7 @@ std::string body_text(const ProbedSize& size) {
 }
 
 /// Which way it is measured.
-const char* extent(const Limit& limit) { return std::abs(limit.direction.z) > 0.7 ? "high" : "wide"; }
+const char* extent(const ProbeLimit& limit) { return std::abs(limit.direction.z) > 0.7 ? "high" : "wide"; }
 
 const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target"; }
 
@@ -36,7 +48,7 @@ const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target
 std::string narrowest(const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   if (!answer.limit) return fmt::format("nothing on it leaves less than {}", metres(2.0 * p.radius));
-  const Limit& limit = *answer.limit;
+  const ProbeLimit& limit = *answer.limit;
   const std::string where = fmt::format("at {}, {:.1f} m on the way", at(limit.point), limit.along);
   if (is_end(limit.kind)) {
     return fmt::format("nothing on it is narrower than the {} itself, which stands {} from a wall",
@@ -74,7 +86,7 @@ std::string stopped_by(const ProbeAnswer& answer) {
     }
     return text;
   }
-  const Limit& limit = *answer.limit;
+  const ProbeLimit& limit = *answer.limit;
   const std::string missing =
       answer.missing < 1e-3 ? "less than 1 mm is missing" : metres(answer.missing) + " are missing";
   switch (limit.kind) {
@@ -118,10 +130,16 @@ std::string stopped_by(const ProbeAnswer& answer) {
                      missing);
 }
 
+/// Of a search that came to its most places.
+std::string ended(const Passage& p) {
+  return fmt::format(
+      " the search ended after {} places, the most that are looked at. A wider --spacing looks at fewer.", p.places);
+}
+
 /// How sure a no is.
 std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
-  if (!p.complete) return " The search was ended early: a wider way may exist.";
+  if (!p.complete) return " A wider way may exist:" + ended(p);
   if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
   if (answer.proven) return p.found ? " That none wider exists is certified." : " That is certified.";
   return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
@@ -153,30 +171,26 @@ std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode m
 
 }  // namespace
 
-const char* name(Limit::Kind kind) {
-  switch (kind) {
-    case Kind::door:
-      return "door";
-    case Kind::lintel:
-      return "lintel";
-    case Kind::gap:
-      return "gap";
-    case Kind::edge:
-      return "edge";
-    case Kind::start:
-    case Kind::target:
-      return "end";
-    case Kind::height:
-      return "height";
-    case Kind::step:
-      return "step";
-    case Kind::apart:
-      return "apart";
+std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where) {
+  std::vector<ProbedSize> sizes;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t begin = text.find_first_not_of(", \t\r", i);
+    if (begin == std::string::npos) break;
+    const std::size_t end = std::min(text.find_first_of(", \t\r", begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    const std::size_t cross = item.find('x');
+    ProbedSize size;
+    bool good = is_number(item.substr(0, cross), size.radius);
+    size.height = 2.0 * size.radius;
+    if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
+    if (!good) throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where, item));
+    sizes.push_back(size);
+    i = end;
   }
-  return "unknown";
+  return sizes;
 }
 
-std::string text_of(const Limit& limit) {
+std::string text_of(const ProbeLimit& limit) {
   switch (limit.kind) {
     case Kind::door:
     case Kind::gap:
@@ -219,6 +233,8 @@ std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
         "Not shown: the walker that was sent along the way {} at {}. By its measures {} gets {} on a way of {:.1f} m; "
         "{}.",
         how, walked_to(question, answer), body, ways, p.length, narrowest(answer));
+  } else if (!p.complete && !p.found && !answer.proven) {
+    text = fmt::format("Not known: no way was found on which {} gets {}, but", body, ways) + ended(p);
   } else {
     text = fmt::format("No: {} does not get {}. {}", body, ways, stopped_by(answer)) + sureness(question, answer);
   }
@@ -239,7 +255,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   }
   json["opening"] = nullptr;
   if (answer.limit) {
-    const Limit& limit = *answer.limit;
+    const ProbeLimit& limit = *answer.limit;
     Json& opening = json["opening"];
     opening = {{"kind", name(limit.kind)}, {"point", to_json(limit.point)}};
     if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);

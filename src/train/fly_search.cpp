@@ -42,8 +42,10 @@ FlySearch::FlySearch(const Survey& survey, const Measure& measure, double spacin
 double FlySearch::least_closed() const { return through_wall * finest_share * spacing_; }
 double FlySearch::side_for(double radius) const { return std::max(finest_share * spacing_, side_share * radius); }
 
+/// A cube whose middle is free never reaches through a wall: it may be twice as large.
 bool FlySearch::is_fine(CellId cell) const {
-  return cells_.side(cell) <= side_limit_ || cells_.most(cell) < radius_ || cells_.is_open(cell, radius_);
+  const double limit = cells_.free(cell) >= radius_ ? 2.0 * side_limit_ : side_limit_;
+  return cells_.side(cell) <= limit || cells_.most(cell) < radius_ || cells_.is_open(cell, radius_);
 }
 
 /// Whether the centre of the sphere may be in a cube, as this search takes it.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <tuple>
 
+#include "train/fly_way.h"
 #include "train/inside.h"
 #include "train/refine.h"
 
@@ -84,6 +85,11 @@ void refine_paths(const Survey& survey, double spacing, Layout& layout, Stages& 
     PlannedPath& path = layout.paths[i];
     if (!stages.ended()) {
       path.passage = plan_path(survey, layout, spacing, path.ends);
+      if (layout.measure.mode == Mode::fly) {
+        FlyOptions options{.spacing = spacing};
+        options.goes_on = [&](std::uint64_t) { return !stages.ended(); };
+        path.passage = widened_flight(survey, layout.measure, std::move(path.passage), options);
+      }
     }
     stages.at(static_cast<double>(++done) / static_cast<double>(layout.paths.size()));
   });

@@ -1,22 +1,21 @@
 #pragma once
 /// \file
-/// What `roam probe` asks besides the widest way: where the ends stand, and what it is that stops a body.
+/// What a probe asks besides the widest way: where the ends stand, and what it is that stops a body.
 
 #include <optional>
 
-#include "probe_answer.h"
+#include "roam/probe.h"
 #include "train/lattice.h"
 
-namespace roam::app {
+namespace roam::training {
 
 /// One search's kind of body: its height and step as the searches take them.
 struct ProbeSearch {
   const Survey& survey;
   const ProbeQuestion& question;
-  const ProbeProgress& progress;
   PassageOptions options;  ///< all but `progress`
 
-  [[nodiscard]] training::Measure measure() const;
+  [[nodiscard]] Measure measure() const;
   /// The widest way between both ends. Throws roam::Cancelled.
   [[nodiscard]] Passage widest() const;
 };
@@ -27,6 +26,10 @@ struct ProbeSearch {
   return options_for(question, size, size.radius);
 }
 
+[[nodiscard]] inline bool is_end(ProbeLimit::Kind kind) {
+  return kind == ProbeLimit::Kind::start || kind == ProbeLimit::Kind::target;
+}
+
 /// Where a body stands for a place that was asked for; none where none of options.narrowest can.
 [[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked);
 
@@ -35,10 +38,10 @@ struct ProbeSearch {
 [[nodiscard]] std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius);
 
 /// How high a body of `narrowest` may be at the place that was asked for; none where none can stand there.
-[[nodiscard]] std::optional<Limit> low_end(const ProbeSearch& search, const Vec3& asked, Limit::Kind end);
+[[nodiscard]] std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end);
 
 /// Says why nobody can be at an end, and where one could be.
-[[noreturn]] void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* option, double radius);
+[[noreturn]] void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius);
 
 /// Where bodies stand for both ends.
 struct ProbeEnds {
@@ -46,15 +49,15 @@ struct ProbeEnds {
 };
 
 /// What decides a way that was found; of one that was not, an end without room for the body, or where it breaks off.
-[[nodiscard]] std::optional<Limit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
-                                            double radius);
+[[nodiscard]] std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage,
+                                                 const ProbeEnds& ends, double radius);
 
 /// Where a body of that radius is too high, and a lower one gets through: the height of the largest that does, to a
 /// millimetre. None where no height helps.
-[[nodiscard]] std::optional<Limit> headroom(const ProbeSearch& search, double radius);
+[[nodiscard]] std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius);
 
 /// Where a body of that radius would get through if it climbed more: what it would have to. `broken`: the passage that
 /// was not found. None where no step helps.
-[[nodiscard]] std::optional<Limit> step_up(const ProbeSearch& search, const Passage& broken, double radius);
+[[nodiscard]] std::optional<ProbeLimit> step_up(const ProbeSearch& search, const Passage& broken, double radius);
 
-}  // namespace roam::app
+}  // namespace roam::training

@@ -1,20 +1,19 @@
-#include "probe_answer.h"
-
-#include <fmt/format.h>
+#include "roam/probe.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 
-#include "exit_status.h"
-#include "probe_search.h"
-#include "roam/error.h"
+#include "train/on_way.h"
 #include "train/open_space.h"
+#include "train/probe_search.h"
 
-namespace roam::app {
+namespace roam {
+
+using namespace training;
+
 namespace {
 
 /// Wider ways than this, metres, or than this many times the body, are not told apart.
@@ -27,12 +26,6 @@ constexpr double narrow_part = 0.5;
 constexpr double beside_scene = 1.9;
 
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
-
-bool is_number(const std::string& text, double& value) {
-  const char* const end = text.data() + text.size();
-  const auto [after, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && after == end;
-}
 
 /// The nearest place of a box.
 Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lower, box.upper); }
@@ -64,25 +57,25 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
 
 /// Sends the walker along the way.
 ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const std::vector<Vec3> path = centres(survey, question, answer);
+  const std::vector<Vec3> path = probed_path(survey, question, answer);
   // Flying, an end may lie over the scene or beside it.
   Box box;
   for (const Vec3& place : path) box.include(place);
-  const training::OpenSpace space(survey.world(), question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
-  Walker walker(space, settings_of(question, answer.size), question.mode, path.front());
+  const OpenSpace space(survey.world(), question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(space, probed_body(question, answer.size, survey.slope_degrees()), question.mode, path.front());
   const RouteResult result = follow(walker, path);
-  ProbeWalk walk{result.outcome, result.end};
-  if (result.outcome != Outcome::fell) return walk;
+  ProbeWalk walk{result.outcome, result.end, Vec3(0.0)};
   // Where the ground ended, not how deep it was then.
   for (const RouteEvent& e : result.events) {
+    if (result.outcome != Outcome::fell || e.event.kind == EventKind::fell) break;
     if (e.event.kind == EventKind::airborne) walk.at = e.event.point;
-    if (e.event.kind == EventKind::fell) break;
   }
+  walk.on_way = nearest_on(answer.passage.way, walk.at, question.mode).place;
   return walk;
 }
 
-bool falls_short(const Limit& limit) {
-  return limit.kind == Limit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
+bool falls_short(const ProbeLimit& limit) {
+  return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
 }
 
 /// What decides for one size of a search.
@@ -95,7 +88,7 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
     if (!other && !answer.passage.found) other = step_up(search, answer.passage, radius);
     if (other) answer.limit = other;
   }
-  if (!answer.limit || answer.limit->kind == Limit::Kind::apart) return;
+  if (!answer.limit || answer.limit->kind == ProbeLimit::Kind::apart) return;
   if (!answer.wide_enough && falls_short(*answer.limit))
     answer.missing = std::abs(answer.limit->needed - answer.limit->size);
   if (at_end && !answer.wide_enough) answer.room = nearest_room(search, answer.limit->feet, radius);
@@ -103,45 +96,51 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
 
 }  // namespace
 
-std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where) {
-  std::vector<ProbedSize> sizes;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t begin = text.find_first_not_of(", \t\r", i);
-    if (begin == std::string::npos) break;
-    const std::size_t end = std::min(text.find_first_of(", \t\r", begin), text.size());
-    const std::string item = text.substr(begin, end - begin);
-    const std::size_t cross = item.find('x');
-    ProbedSize size;
-    bool good = is_number(item.substr(0, cross), size.radius);
-    size.height = 2.0 * size.radius;
-    if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
-    if (!good) throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where, item));
-    sizes.push_back(size);
-    i = end;
+const char* name(ProbeLimit::Kind kind) {
+  using Kind = ProbeLimit::Kind;
+  switch (kind) {
+    case Kind::door:
+      return "door";
+    case Kind::lintel:
+      return "lintel";
+    case Kind::gap:
+      return "gap";
+    case Kind::edge:
+      return "edge";
+    case Kind::start:
+    case Kind::target:
+      return "end";
+    case Kind::height:
+      return "height";
+    case Kind::step:
+      return "step";
+    case Kind::apart:
+      return "apart";
   }
-  return sizes;
+  return "unknown";
 }
 
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {
   return std::min(question.step, is_sphere(size) ? size.radius : size.height - 2.0 * size.radius);
 }
 
-WalkerSettings settings_of(const ProbeQuestion& question, const ProbedSize& size) {
+WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {
   WalkerSettings settings;
   settings.radius = size.radius;
   settings.height = size.height;
   settings.eye = std::min(settings.eye, settings.height);
   settings.step = std::min(question.step, 0.5 * settings.height);
-  settings.slope_degrees = question.slope_degrees;
+  settings.slope_degrees = slope_degrees;
   settings.support_radius = question.support_radius;
   check(settings);
   return settings;
 }
 
-PassageOptions options_for(const ProbeQuestion& question, const ProbedSize& largest, double smallest) {
+PassageOptions training::options_for(const ProbeQuestion& question, const ProbedSize& largest, double smallest) {
   PassageOptions options;
   options.mode = question.mode;
   options.spacing = question.spacing;
+  options.most_places = question.most_places;
   options.widest = std::max(wide, wide_times * largest.radius);
   options.narrowest = std::min(narrow, narrow_part * smallest);
   if (question.mode == Mode::fly) return options;
@@ -150,15 +149,15 @@ PassageOptions options_for(const ProbeQuestion& question, const ProbedSize& larg
   return options;
 }
 
-std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes,
-                               const ProbeProgress& progress) {
+std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
+  for (const ProbedSize& size : sizes) static_cast<void>(probed_body(question, size));
   // Bodies that are measured alike, each with its largest and smallest radius.
   struct Group {
     double least = std::numeric_limits<double>::infinity();
     ProbedSize largest{0.0, 0.0};
     std::optional<ProbeSearch> search;
     Vec3 start{0.0}, target{0.0};
-    std::optional<Limit> low;  ///< an end where none of them can stand upright
+    std::optional<ProbeLimit> low;  ///< an end where none of them can stand upright
     Passage passage;
   };
   using Kind = std::pair<double, double>;  // height, or 0 for spheres; step
@@ -174,17 +173,17 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
   }
   for (auto& [kind, group] : groups) {
     const PassageOptions options = options_for(question, group.largest, group.least);
-    group.search.emplace(ProbeSearch{survey, question, progress, options});
-    const auto stand = [&](const Vec3& asked, Limit::Kind end, const char* option) {
+    group.search.emplace(ProbeSearch{survey, question, options});
+    const auto stand = [&](const Vec3& asked, ProbeLimit::Kind end, const char* name) {
       const auto place = stand_for(*group.search, asked);
       if (place) return *place;
       const auto low = low_end(*group.search, asked, end);
-      if (!low) refuse_end(*group.search, asked, option, group.least);
+      if (!low) refuse_end(*group.search, asked, name, group.least);
       if (!group.low) group.low = low;
       return low->feet;
     };
-    group.start = stand(question.from, Limit::Kind::start, "--from");
-    group.target = stand(question.to, Limit::Kind::target, "--to");
+    group.start = stand(question.from, ProbeLimit::Kind::start, "from");
+    group.target = stand(question.to, ProbeLimit::Kind::target, "to");
     if (!group.low) group.passage = group.search->widest();
   }
   std::vector<ProbeAnswer> answers;
@@ -214,7 +213,7 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
   return answers;
 }
 
-std::vector<Vec3> centres(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
+std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   std::vector<Vec3> path = answer.passage.way;
   if (question.mode == Mode::fly)
     return taken_to(survey.world().bounds().grown(beside_scene * answer.size.radius), path);
@@ -222,4 +221,28 @@ std::vector<Vec3> centres(const Survey& survey, const ProbeQuestion& question, c
   return path;
 }
 
-}  // namespace roam::app
+ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const ProbedSize& size) {
+  return probe(survey, question, std::span(&size, 1)).front();
+}
+
+ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer,
+                        std::uint64_t most) {
+  const ProbeSearch search{survey, question, options_for(question, answer.size)};
+  WidestTree tree(survey, search.measure(), question.spacing);
+  const auto grown = [&](const Vec3& end) {
+    std::vector<Vec3> places;
+    const auto root = tree.seed(end);
+    if (!root) return places;
+    const std::uint64_t until = tree.size() + most;
+    static_cast<void>(tree.grow(*root, no_node, [&](std::uint64_t now) {
+      return now < until && (!question.progress || question.progress(now));
+    }));
+    for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
+      if (tree.root(id) == *root) places.push_back(tree.node(id).place);
+    }
+    return places;
+  };
+  return {grown(answer.start), grown(answer.target)};
+}
+
+}  // namespace roam

@@ -7,16 +7,13 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "probe_search.h"
-#include "roam/error.h"
 #include "roam/sweep.h"
+#include "train/probe_search.h"
 #include "train/walk_lattice_place.h"
 #include "train/way_ends.h"
 
-namespace roam::app {
+namespace roam::training {
 namespace {
-
-using training::Measure;
 
 /// Metres.
 constexpr double ring = 0.05;         ///< from one circle of places that are tried to the next
@@ -29,7 +26,7 @@ constexpr std::size_t most_floors = 48;           ///< points of floors that are
 
 /// The floor that a foot near a place comes to; flying, the place.
 std::optional<Vec3> placed(const ProbeSearch& search, const Measure& measure, const Vec3& near) {
-  return measure.mode == Mode::walk ? training::foot_at(search.survey, measure, near) : std::optional(near);
+  return measure.mode == Mode::walk ? foot_at(search.survey, measure, near) : std::optional(near);
 }
 
 /// Where one looks out from: on foot over what is stepped on.
@@ -79,7 +76,7 @@ std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, do
         const Vec3 off = away * glm::normalize(Vec3(std::cos(angle), std::sin(angle), layer));
         const auto there = placed(search, measure, place + off);
         if (!there) continue;
-        const double clearance = training::clearance_at(search.survey, measure, *there);
+        const double clearance = clearance_at(search.survey, measure, *there);
         const Vec3 eye = eye_of(measure, place);
         if (clearance < radius || clearance <= widest) continue;
         if (seen && search.survey.world().ray(eye, eye_of(measure, *there) - eye).hit) continue;
@@ -115,7 +112,7 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& ask
 }  // namespace
 
 std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked) {
-  return training::free_end(search.survey, search.measure(), asked);
+  return free_end(search.survey, search.measure(), asked);
 }
 
 std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius) {
@@ -123,20 +120,20 @@ std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, d
   return room ? room : nearest_from_afar(search, place, radius);
 }
 
-std::optional<Limit> low_end(const ProbeSearch& search, const Vec3& asked, Limit::Kind end) {
+std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end) {
   Measure measure = search.measure();
   if (measure.mode != Mode::walk || measure.height == 0.0) return std::nullopt;
   const double tall = measure.height;
   double low = measure.step + 2.0 * measure.narrowest, high = tall;
   measure.height = low;
-  const auto place = training::free_end(search.survey, measure, asked);
+  const auto place = free_end(search.survey, measure, asked);
   if (!place) return std::nullopt;
   constexpr double precision = 1e-4;  // m
   while (high - low > precision) {
     measure.height = 0.5 * (low + high);
-    (training::clearance_at(search.survey, measure, *place) > 0.0 ? low : high) = measure.height;
+    (clearance_at(search.survey, measure, *place) > 0.0 ? low : high) = measure.height;
   }
-  Limit limit;
+  ProbeLimit limit;
   limit.kind = end;
   limit.too_low = true;
   limit.feet = *place;
@@ -147,13 +144,13 @@ std::optional<Limit> low_end(const ProbeSearch& search, const Vec3& asked, Limit
   return limit;
 }
 
-void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* option, double radius) {
+void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius) {
   const Box bounds = search.survey.world().bounds();
   const bool walks = search.options.mode == Mode::walk;
   const auto outside = [&](int axis) { return asked[axis] < bounds.lower[axis] || asked[axis] > bounds.upper[axis]; };
   std::string why;
   if (search.survey.triangles() == 0) {
-    throw Error(fmt::format("{} {}: the scene has no triangles", option, text_of(asked)));
+    throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(asked)), std::nullopt);
   }
   const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(asked.z, bounds.lower.z));
   if (outside(0) || outside(1) || (outside(2) && (!walks || asked.z < bounds.lower.z))) {
@@ -165,12 +162,15 @@ void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* option
     why = "what is around it leaves no room, as within a wall";
   }
   const auto place = nearest_from_afar(search, asked, radius);
-  throw Error(fmt::format(
-      "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", option, text_of(asked),
-      search.options.narrowest, why,
-      place ? fmt::format("The nearest place found for a radius of {:g} m is {}", radius, text_of(*place))
-            : fmt::format("No place for a radius of {:g} m was found near it; choose one with free space around it{}",
-                          radius, walks ? " and floor below" : "")));
+  throw NoRoomAtEnd(
+      fmt::format(
+          "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", end, text_of(asked),
+          search.options.narrowest, why,
+          place
+              ? fmt::format("The nearest place found for a radius of {:g} m is {}", radius, text_of(*place))
+              : fmt::format("No place for a radius of {:g} m was found near it; choose one with free space around it{}",
+                            radius, walks ? " and floor below" : "")),
+      place);
 }
 
-}  // namespace roam::app
+}  // namespace roam::training

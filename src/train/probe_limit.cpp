@@ -5,15 +5,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "exit_status.h"
-#include "probe_search.h"
 #include "train/on_way.h"
+#include "train/probe_search.h"
 #include "train/walk_lattice_place.h"
 
-namespace roam::app {
+namespace roam::training {
 namespace {
-
-using training::Measure;
 
 /// Metres.
 constexpr double same_clearance = 1e-3;  ///< an end with no more than that beyond the way's decides it
@@ -48,35 +45,33 @@ bool has_room_aside(const ProbeSearch& search, const Vec3& place, double clearan
     for (int k = 0; k < directions; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / directions;
       const Vec3 there = place + aside * glm::normalize(Vec3(std::cos(angle), std::sin(angle), layer));
-      const auto foot =
-          measure.mode == Mode::walk ? training::foot_at(search.survey, measure, there) : std::optional(there);
-      if (foot && training::clearance_at(search.survey, measure, *foot) > clearance + one_sided * aside) return true;
+      const auto foot = measure.mode == Mode::walk ? foot_at(search.survey, measure, there) : std::optional(there);
+      if (foot && clearance_at(search.survey, measure, *foot) > clearance + one_sided * aside) return true;
     }
   }
   return false;
 }
 
 /// The end as what decides, if the wall beside it does.
-std::optional<Limit> end_limit(const ProbeSearch& search, const Passage& passage, const Vec3& place, Limit::Kind kind,
-                               double radius) {
+std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& passage, const Vec3& place,
+                                    ProbeLimit::Kind kind, double radius) {
   const Measure measure = search.measure();
-  const double clearance = training::clearance_at(search.survey, measure, place);
+  const double clearance = clearance_at(search.survey, measure, place);
   if (passage.found) {
     if (!passage.opening || clearance > passage.radius + same_clearance || !has_room_aside(search, place, clearance))
       return std::nullopt;
   } else if (clearance >= radius) {
     return std::nullopt;
   }
-  training::Stand stand{clearance, 0.0};
+  Stand stand{clearance, 0.0};
   if (measure.mode == Mode::walk)
-    stand = training::stand_at(search.survey, measure, place, clearance, 0.99 * clearance).value_or(stand);
-  const Vec3 centre = training::centre_of(measure, place, stand);
+    stand = stand_at(search.survey, measure, place, clearance, 0.99 * clearance).value_or(stand);
+  const Vec3 centre = centre_of(measure, place, stand);
   std::array<Contact, 1> wall;
-  if (search.survey.world().contacts(training::body_of(measure, clearance), centre, Vec3(0.0), 5.0 * same_clearance,
-                                     wall) == 0)
+  if (search.survey.world().contacts(body_of(measure, clearance), centre, Vec3(0.0), 5.0 * same_clearance, wall) == 0)
     return std::nullopt;
   if (measure.mode == Mode::walk && std::abs(wall[0].normal.z) >= upright) return std::nullopt;
-  Limit limit;
+  ProbeLimit limit;
   limit.kind = kind;
   limit.feet = place;
   limit.direction = measure.mode == Mode::walk ? -level(wall[0].normal) : -wall[0].normal;
@@ -84,7 +79,7 @@ std::optional<Limit> end_limit(const ProbeSearch& search, const Passage& passage
   limit.needed = radius;
   limit.point = Vec3(place.x, place.y, measure.mode == Mode::walk ? wall[0].point.z : place.z) +
                 0.5 * clearance * limit.direction;
-  limit.along = kind == Limit::Kind::start ? 0.0 : passage.length;
+  limit.along = kind == ProbeLimit::Kind::start ? 0.0 : passage.length;
   return limit;
 }
 
@@ -92,11 +87,10 @@ std::optional<Limit> end_limit(const ProbeSearch& search, const Passage& passage
 bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& opening) {
   const Measure measure = search.measure();
   const double radius = 0.5 * opening.width;
-  const training::Stand stand =
-      training::stand_at(search.survey, measure, place, radius, 0.9 * radius).value_or(training::Stand{radius, 0.0});
+  const Stand stand = stand_at(search.survey, measure, place, radius, 0.9 * radius).value_or(Stand{radius, 0.0});
   std::array<Contact, 64> near;
-  const std::size_t count = search.survey.world().contacts(
-      training::body_of(measure, radius), training::centre_of(measure, place, stand), Vec3(0.0), side_reach, near);
+  const std::size_t count = search.survey.world().contacts(body_of(measure, radius), centre_of(measure, place, stand),
+                                                           Vec3(0.0), side_reach, near);
   bool ahead = false, behind = false;
   for (std::size_t i = 0; i < count; ++i) {
     const double facing = glm::dot(near[i].normal, opening.direction);
@@ -108,9 +102,9 @@ bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& ope
 
 /// The headroom of a way: the least height of a body of that radius that something above lets through. Looks for it up
 /// to `most`.
-Limit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
-  Limit limit;
-  limit.kind = Limit::Kind::height;
+ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
+  ProbeLimit limit;
+  limit.kind = ProbeLimit::Kind::height;
   limit.direction = {0.0, 0.0, 1.0};
   limit.size = most;
   const Body body{radius - slack, 0.0};
@@ -151,9 +145,9 @@ std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) 
 }
 
 /// The place of a way where the floor below it changes its height by as much as `most` within a stride.
-Limit steepest(const ProbeSearch& search, const Passage& passage, double most) {
-  Limit limit;
-  limit.kind = Limit::Kind::step;
+ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double most) {
+  ProbeLimit limit;
+  limit.kind = ProbeLimit::Kind::step;
   limit.direction = {0.0, 0.0, 1.0};
   std::vector<Vec3> floor;
   for (std::size_t i = 0; i + 1 < passage.way.size(); ++i) {
@@ -178,7 +172,7 @@ Limit steepest(const ProbeSearch& search, const Passage& passage, double most) {
       limit.heading = level(run);
     }
   }
-  limit.along = training::nearest_on(passage.way, limit.point, Mode::walk).along;
+  limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
   return limit;
 }
 
@@ -196,24 +190,25 @@ Measure ProbeSearch::measure() const {
 Passage ProbeSearch::widest() const {
   PassageOptions asked = options;
   bool wanted = true;
-  asked.progress = [&](std::uint64_t places) { return wanted = progress(places); };
+  asked.progress = [&](std::uint64_t places) { return wanted = !question.progress || question.progress(places); };
   Passage passage = widest_way(survey, question.from, question.to, asked);
   if (!wanted) throw Cancelled();
   return passage;
 }
 
-std::optional<Limit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends, double radius) {
-  auto end = end_limit(search, passage, ends.start, Limit::Kind::start, radius);
-  if (!end) end = end_limit(search, passage, ends.target, Limit::Kind::target, radius);
+std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
+                                   double radius) {
+  auto end = end_limit(search, passage, ends.start, ProbeLimit::Kind::start, radius);
+  if (!end) end = end_limit(search, passage, ends.target, ProbeLimit::Kind::target, radius);
   if (end) return end;
   if (!passage.opening) return std::nullopt;
   const Opening& opening = *passage.opening;
-  Limit limit;
-  limit.kind = !passage.found                          ? Limit::Kind::apart
-               : opening.kind == Opening::Kind::lintel ? Limit::Kind::lintel
-               : opening.kind == Opening::Kind::gap    ? Limit::Kind::gap
-                                                       : Limit::Kind::door;
-  const training::OnWay on = training::nearest_on(passage.way, opening.point, search.options.mode);
+  ProbeLimit limit;
+  limit.kind = !passage.found                          ? ProbeLimit::Kind::apart
+               : opening.kind == Opening::Kind::lintel ? ProbeLimit::Kind::lintel
+               : opening.kind == Opening::Kind::gap    ? ProbeLimit::Kind::gap
+                                                       : ProbeLimit::Kind::door;
+  const OnWay on = nearest_on(passage.way, opening.point, search.options.mode);
   limit.point = opening.point;
   limit.direction = opening.direction;
   limit.size = opening.width;
@@ -221,25 +216,25 @@ std::optional<Limit> limit_of(const ProbeSearch& search, const Passage& passage,
   limit.along = on.along;
   limit.heading = level(on.heading);
   limit.feet = passage.found ? on.place : opening.point;
-  if (limit.kind == Limit::Kind::door && !is_between(search, on.place, opening)) {
-    limit.kind = Limit::Kind::edge;
+  if (limit.kind == ProbeLimit::Kind::door && !is_between(search, on.place, opening)) {
+    limit.kind = ProbeLimit::Kind::edge;
     limit.size = 0.5 * opening.width;
     limit.needed = radius;
   }
   return limit;
 }
 
-std::optional<Limit> headroom(const ProbeSearch& search, double radius) {
+std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   const double tall = search.options.height;
   double low = search.options.step + 2.0 * radius + precision, high = tall;
   if (search.options.mode != Mode::walk || tall == 0.0 || low >= tall) return std::nullopt;
   ProbeSearch lower = search;
-  std::optional<Limit> best;
+  std::optional<ProbeLimit> best;
   const auto passes = [&](double height) {
     lower.options.height = height;
     const Passage passage = lower.widest();
     if (!passage.found || passage.radius < radius) return false;
-    const Limit found = lowest(lower, passage.way, radius, tall + headroom_beyond);
+    const ProbeLimit found = lowest(lower, passage.way, radius, tall + headroom_beyond);
     if (!best || found.size > best->size) best = found;
     low = std::max(height, best->size < tall ? best->size : 0.0);
     return true;
@@ -258,7 +253,7 @@ std::optional<Limit> headroom(const ProbeSearch& search, double radius) {
   return best;
 }
 
-std::optional<Limit> step_up(const ProbeSearch& search, const Passage& broken, double radius) {
+std::optional<ProbeLimit> step_up(const ProbeSearch& search, const Passage& broken, double radius) {
   const PassageOptions& o = search.options;
   if (o.mode != Mode::walk || o.height == 0.0 || !broken.opening) return std::nullopt;
   const std::vector<double> heights = floors_around(search, broken.opening->point);
@@ -272,10 +267,10 @@ std::optional<Limit> step_up(const ProbeSearch& search, const Passage& broken, d
   if (higher.options.step > 0.5 * o.height || higher.options.step + 2.0 * radius > o.height) return std::nullopt;
   const Passage passage = higher.widest();
   if (!passage.found || passage.radius < radius) return std::nullopt;
-  Limit limit = steepest(higher, passage, higher.options.step);
+  ProbeLimit limit = steepest(higher, passage, higher.options.step);
   if (limit.size <= o.step) return std::nullopt;
   limit.needed = o.step;
   return limit;
 }
 
-}  // namespace roam::app
+}  // namespace roam::training

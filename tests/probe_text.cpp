@@ -1,0 +1,108 @@
+// What roam probe says of answers that no scene gives as asked: walkers that contradict a way, searches that ended.
+#include "probe_text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace roam;
+using Kind = ProbeLimit::Kind;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const ProbeQuestion question{.from = {2, 0, 1}, .to = {18, 0, 1}};
+
+/// Of a body 0.3 m wide to both sides and 1.8 m high, on a way that is wide enough.
+ProbeAnswer wide_enough(Outcome outcome) {
+  ProbeAnswer answer;
+  answer.size = {0.3, 1.8};
+  answer.wide_enough = true;
+  answer.passable = outcome == Outcome::reached;
+  answer.passage.found = answer.passage.limited = true;
+  answer.passage.radius = 0.4;
+  answer.passage.length = 16.0;
+  answer.passage.way = {{2, 0, 0}, {18, 0, 0}};
+  answer.start = {2, 0, 0};
+  answer.target = {18, 0, 0};
+  answer.limit = ProbeLimit{};
+  answer.limit->size = 0.8;
+  answer.limit->direction = {0, 1, 0};
+  answer.walk = ProbeWalk{outcome, {9, 0.25, 0.9}, {9, 0, 0}};
+  return answer;
+}
+
+TEST(ProbeText, SaysNotShownWhereTheWalkerContradictsTheWay) {
+  const std::vector<std::pair<Outcome, std::string>> outcomes{{Outcome::blocked, "was blocked at (9.00, 0.25, 0.00)"},
+                                                              {Outcome::held, "was held at (9.00, 0.25, 0.00)"}};
+  for (const auto& [outcome, how] : outcomes) {
+    const ProbeAnswer answer = wide_enough(outcome);
+    const std::string text = app::explain(question, answer);
+    EXPECT_TRUE(text.starts_with("Not shown: ")) << text;
+    EXPECT_TRUE(contains(text, how)) << text;
+    const app::Json json = app::json_report(answer, false);
+    EXPECT_EQ(json["passable"], false);
+    EXPECT_EQ(json["wide_enough"], true);
+    EXPECT_EQ(json["walked"]["outcome"], name(outcome));
+    const std::vector<ProbeAnswer> answers{answer};
+    EXPECT_TRUE(contains(app::table(question, answers), " ? ")) << app::table(question, answers);
+  }
+}
+
+TEST(ProbeText, SaysOfFlyingThatTheWalkerLeftTheScene) {
+  ProbeQuestion flying = question;
+  flying.mode = Mode::fly;
+  ProbeAnswer answer = wide_enough(Outcome::left_scene);
+  answer.size.height = 0.6;
+  const std::string text = app::explain(flying, answer);
+  EXPECT_TRUE(text.starts_with("Not shown: ") && contains(text, "left the scene at (9.00, 0.25, 0.90)")) << text;
+  // On foot it fell over the side of the scene.
+  EXPECT_TRUE(app::explain(question, wide_enough(Outcome::left_scene)).starts_with("No: "));
+}
+
+TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
+  ProbeAnswer answer;
+  answer.size = {0.3, 1.8};
+  answer.passage.complete = false;
+  answer.passage.places = 4'000'000;
+  const std::string text = app::explain(question, answer);
+  EXPECT_TRUE(text.starts_with("Not known: ")) << text;
+  EXPECT_TRUE(contains(text, "ended after 4000000 places")) << text;
+  EXPECT_FALSE(contains(text, "There is no way")) << text;
+  EXPECT_EQ(app::json_report(answer, false)["complete"], false);
+  // A way that is too narrow was found, and a wider one may be there.
+  answer.passage.found = answer.passage.limited = true;
+  answer.passage.radius = 0.2;
+  answer.limit = ProbeLimit{};
+  answer.limit->size = 0.4;
+  answer.limit->needed = 0.6;
+  answer.missing = 0.2;
+  const std::string narrow = app::explain(question, answer);
+  EXPECT_TRUE(narrow.starts_with("No: ") && contains(narrow, "A wider way may exist")) << narrow;
+}
+
+TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {
+  const std::vector<std::pair<Kind, std::string>> members{
+      {Kind::door, "width_m"},    {Kind::gap, "width_m"},      {Kind::lintel, "width_m"},
+      {Kind::edge, "distance_m"}, {Kind::start, "distance_m"}, {Kind::target, "distance_m"},
+      {Kind::height, "height_m"}, {Kind::step, "step_m"},      {Kind::apart, ""}};
+  for (const auto& [kind, member] : members) {
+    ProbeAnswer answer = wide_enough(Outcome::reached);
+    answer.limit->kind = kind;
+    const app::Json opening = app::json_report(answer, true)["opening"];
+    EXPECT_EQ(opening["kind"], name(kind));
+    for (const char* other : {"width_m", "distance_m", "height_m", "step_m"})
+      EXPECT_EQ(opening.contains(other), member == other) << name(kind) << " " << other;
+    EXPECT_EQ(opening["missing_m"].is_null(), kind == Kind::apart) << name(kind);
+    EXPECT_EQ(opening.contains("end"), kind == Kind::start || kind == Kind::target) << name(kind);
+    EXPECT_EQ(opening.contains("room"), kind == Kind::start || kind == Kind::target) << name(kind);
+  }
+  ProbeAnswer low = wide_enough(Outcome::reached);
+  low.limit->kind = Kind::start;
+  low.limit->too_low = true;
+  EXPECT_TRUE(app::json_report(low, false)["opening"].contains("height_m"));
+}
+
+}  // namespace

@@ -1,0 +1,183 @@
+// Whether a body gets from one place to another, as a program asks it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "roam/probe.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace scenes;
+using namespace roam;
+using Kind = ProbeLimit::Kind;
+
+Survey survey_of(const Mesh& mesh) {
+  return Survey::build({mesh}, {.slope_degrees = 45.0, .threads = 1, .lossless = true, .progress = {}});
+}
+
+/// From x = 0 to 20, 4 m wide and 3 m high, with a wall across it at x = 10 that has a door of `width`, 2.1 m high.
+Mesh room(double width) {
+  Mesh m;
+  add_box(m, {0.0, -2.0, 0.0}, {20.0, 2.0, 3.0});
+  add_wall(m, 10.0, -2.0, 10.0, -0.5 * width, 0.0, 3.0);
+  add_wall(m, 10.0, 0.5 * width, 10.0, 2.0, 0.0, 3.0);
+  add_wall(m, 10.0, -0.5 * width, 10.0, 0.5 * width, 2.1, 3.0);
+  return m;
+}
+const ProbeQuestion across{.from = {2.0, 0.3, 1.0}, .to = {18.0, -0.4, 1.0}};
+ProbeQuestion flying(ProbeQuestion question) {
+  question.mode = Mode::fly;
+  return question;
+}
+
+TEST(Probe, SaysYesOfAWayThatAWalkerHasGone) {
+  const Survey survey = survey_of(room(0.84));
+  const ProbeAnswer answer = probe(survey, across, {.radius = 0.3, .height = 1.8});
+  EXPECT_TRUE(answer.passable && answer.wide_enough);
+  ASSERT_TRUE(answer.limit && answer.walk);
+  EXPECT_EQ(answer.limit->kind, Kind::door);
+  EXPECT_NEAR(answer.limit->size, 0.84, 1e-3);
+  EXPECT_EQ(answer.missing, 0.0);
+  EXPECT_EQ(answer.walk->outcome, Outcome::reached);
+  EXPECT_LT(glm::distance(answer.walk->on_way, answer.target), 0.05);
+  const std::vector<Vec3> path = probed_path(survey, across, answer);
+  ASSERT_GE(path.size(), 2u);
+  EXPECT_NEAR(path.front().z, 0.9, 1e-3) << "of the centre";
+  Walker walker(survey.world(), probed_body(across, answer.size), Mode::walk, path.front());
+  EXPECT_EQ(follow(walker, path).outcome, Outcome::reached);
+}
+
+TEST(Probe, SaysNoAndWhatIsMissing) {
+  const ProbeAnswer answer = probe(survey_of(room(0.5)), across, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passable || answer.wide_enough || answer.walk);
+  EXPECT_NEAR(answer.missing, 0.1, 1e-3);
+}
+
+TEST(Probe, CallsWhatIsBetweenTwoSidesAGapWhenFlyingAndProvesIt) {
+  const ProbeAnswer answer = probe(survey_of(room(0.5)), flying(across), {.radius = 0.3, .height = 0.6});
+  EXPECT_FALSE(answer.passable);
+  ASSERT_TRUE(answer.limit);
+  EXPECT_EQ(answer.limit->kind, Kind::gap);
+  EXPECT_NEAR(answer.limit->size, 0.5, 1e-3);
+  EXPECT_NEAR(answer.missing, 0.1, 1e-3);
+  EXPECT_TRUE(answer.proven);
+  EXPECT_GE(answer.passage.bound, answer.passage.radius);
+  EXPECT_LT(answer.passage.bound, 0.3);
+}
+
+TEST(Probe, CallsASphereUnderSomethingLowALintel) {
+  Mesh m;
+  add_box(m, {0.0, -2.0, 0.0}, {20.0, 2.0, 3.0});
+  add_wall(m, 10.0, -2.0, 10.0, 2.0, 0.5, 3.0);
+  const ProbeAnswer answer = probe(survey_of(m), across, {.radius = 0.3, .height = 0.6});
+  EXPECT_FALSE(answer.passable);
+  ASSERT_TRUE(answer.limit);
+  EXPECT_EQ(answer.limit->kind, Kind::lintel);
+  EXPECT_NEAR(answer.limit->size, 0.5, 2e-3);
+  EXPECT_NEAR(answer.missing, 0.1, 2e-3);
+}
+
+TEST(Probe, TellsWhichEndIsInTheWayAndWhereThereIsRoom) {
+  ProbeQuestion question = across;
+  question.to = {18.0, 1.75, 1.0};
+  const ProbeAnswer answer = probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8});
+  ASSERT_TRUE(answer.limit && answer.room);
+  EXPECT_EQ(answer.limit->kind, Kind::target);
+  EXPECT_NEAR(answer.limit->size, 0.25, 1e-3);
+  EXPECT_NEAR(answer.missing, 0.05, 1e-3);
+  EXPECT_LE(answer.room->y, 1.7);
+  EXPECT_LT(glm::distance(*answer.room, answer.target), 0.2);
+}
+
+TEST(Probe, MeasuresAStepDownAsOneUp) {
+  for (const bool down : {false, true}) {
+    Mesh m;
+    add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
+    add_floor(m, 10.0, -2.0, 20.0, 2.0, 0.5);
+    add_wall(m, 10.0, -2.0, 10.0, 2.0, 0.0, 0.5);
+    ProbeQuestion question{.from = {2.0, 0.0, 0.2}, .to = {18.0, 0.0, 0.7}};
+    if (down) std::swap(question.from, question.to);
+    const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
+    ASSERT_TRUE(answer.limit) << down;
+    EXPECT_EQ(answer.limit->kind, Kind::step) << down;
+    EXPECT_NEAR(answer.limit->size, 0.5, 1e-3) << down;
+    EXPECT_NEAR(answer.missing, 0.2, 1e-3) << down;
+  }
+}
+
+TEST(Probe, NamesNoPlaceWhereWhatIsReachedIsFarApart) {
+  Mesh m;
+  add_floor(m, 0.0, -2.0, 5.0, 2.0, 0.0);
+  add_floor(m, 15.0, -2.0, 20.0, 2.0, 0.0);
+  const ProbeAnswer answer = probe(survey_of(m), across, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passage.found);
+  EXPECT_FALSE(answer.limit);
+  EXPECT_EQ(answer.missing, 0.0);
+}
+
+TEST(Probe, SharesOneSearchAmongSizesOfOneHeight) {
+  const Survey survey = survey_of(room(0.7));
+  const std::vector<ProbedSize> sizes{{0.4, 1.8}, {0.2, 1.8}, {0.3, 1.8}, {0.3, 1.7}};
+  const std::vector<ProbeAnswer> answers = probe(survey, across, sizes);
+  ASSERT_EQ(answers.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(answers[i].size.radius, sizes[i].radius);
+    EXPECT_EQ(answers[i].passable, sizes[i].radius < 0.35);
+    EXPECT_EQ(answers[i].passage.places, answers[0].passage.places);
+  }
+  EXPECT_EQ(answers[3].size.height, 1.7);
+}
+
+TEST(Probe, SaysWhyNobodyCanBeAtAnEndAndWhereOneCould) {
+  ProbeQuestion question = across;
+  question.to = {500.0, 0.0, 1.0};
+  try {
+    static_cast<void>(probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8}));
+    FAIL() << "somebody stands off the scene";
+  } catch (const NoRoomAtEnd& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("to (500.00, 0.00, 1.00): ")) << error.what();
+    ASSERT_TRUE(error.nearest);
+    EXPECT_NEAR(error.nearest->x, 20.0, 1.0);
+  }
+}
+
+TEST(Probe, EndsWhenItIsToldTo) {
+  const Survey survey = survey_of(room(0.84));
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    ProbeQuestion question = across;
+    question.mode = mode;
+    question.progress = [](std::uint64_t) { return false; };
+    EXPECT_THROW(static_cast<void>(probe(survey, question, {.radius = 0.3, .height = 0.6})), Cancelled);
+    question.progress = {};
+    question.most_places = 64;
+    const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.6});
+    EXPECT_FALSE(answer.passable);
+    EXPECT_FALSE(answer.passage.complete);
+  }
+}
+
+TEST(Probe, RefusesASizeThatNoWalkerHas) {
+  EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), across, {.radius = 0.3, .height = 0.5})), Error);
+}
+
+TEST(Probe, LetsASphereClimbItsRadiusAndACapsuleWhatIsBelowItsHead) {
+  EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.2, .height = 0.4}), 0.2);
+  EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.3, .height = 0.8}), 0.2);
+  EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.3, .height = 1.8}), 0.3);
+}
+
+TEST(Probe, ShowsWhatIsReachedFromBothEnds) {
+  const Survey survey = survey_of(room(0.0));
+  const ProbeAnswer answer = probe(survey, across, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passage.found);
+  const ProbeReach reach = probed_reach(survey, across, answer, 100'000);
+  ASSERT_FALSE(reach.from_start.empty() || reach.from_target.empty());
+  for (const Vec3& place : reach.from_start) EXPECT_LT(place.x, 10.0);
+  for (const Vec3& place : reach.from_target) EXPECT_GT(place.x, 10.0);
+}
+
+}  // namespace
