@@ -116,23 +116,33 @@ HWY_INLINE void Triangles::prepare() {
 struct Support {
   V3 away;
   VF length, bound;
+  VF most;  ///< how far some point of the axis is from one of the triangle, but for rounding
 };
 
-HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_height, int projections) {
+HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_height) {
   Support s;
   if (half_height == 0.0F) {
     s.away = t.away(centre);
+    s.length = s.most = hn::Sqrt(dot(s.away, s.away));
   } else {
-    const VF h = set(half_height), minus_h = set(-half_height);
+    const VF lowest = hn::Sub(centre.z, set(half_height)), highest = hn::Add(centre.z, set(half_height));
+    const VF foot = hn::Min(hn::Min(t.a.z, t.b.z), t.c.z), head = hn::Max(hn::Max(t.a.z, t.b.z), t.c.z);
     V3 p = centre;
-    for (int i = 0; i < projections; ++i) {
-      s.away = t.away(p);
-      const VF closest_z = hn::Sub(p.z, s.away.z);
-      p.z = hn::Add(centre.z, clamp(hn::Sub(closest_z, centre.z), minus_h, h));
-    }
+    p.z = clamp(clamp(p.z, foot, head), lowest, highest);
     s.away = t.away(p);
+    // Where the nearest place of the axis does not change, nothing does any more.
+    for (int i = 0; i < kProjections; ++i) {
+      const VF nearest = clamp(hn::Sub(p.z, s.away.z), lowest, highest);
+      if (hn::AllTrue(kF, hn::Eq(nearest, p.z))) break;
+      p.z = nearest;
+      s.away = t.away(p);
+    }
+    s.most = hn::Sqrt(dot(s.away, s.away));
+    // Between its ends the axis is nearest straight across. What rests of w along it would count times its height.
+    const MF between = hn::And(hn::Gt(p.z, lowest), hn::Lt(p.z, highest));
+    s.away.z = hn::IfThenZeroElse(between, s.away.z);
+    s.length = hn::Sqrt(dot(s.away, s.away));
   }
-  s.length = hn::Sqrt(dot(s.away, s.away));
   s.bound = hn::Min(hn::Min(dot(s.away, centre - t.a), dot(s.away, centre - t.b)), dot(s.away, centre - t.c));
   if (half_height != 0.0F) s.bound = hn::Sub(s.bound, hn::Mul(set(half_height), hn::Abs(s.away.z)));
   return s;
@@ -195,7 +205,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
     for (int round = 0; round < kRounds; ++round) {
       const V3 centre = scale(way, time);
-      const Support s = support(t, centre, motion.half_height, round == 0 ? kFirstProjections : kLaterProjections);
+      const Support s = support(t, centre, motion.half_height);
       const VF error = leaf_error(t, hn::Mul(time, set(motion.longest)), frame, motion.half_height);
       const VF slack = hn::Sub(s.bound, hn::Mul(hn::Add(keep, error), s.length));
       const VF speed = hn::Sub(hn::Mul(set(kSpeedRoundings * kUnit * motion.longest), s.length), dot(s.away, way));
@@ -204,7 +214,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       active = hn::AndNot(missed, active);
       const VF reached = hn::Min(hn::Add(keep, hn::Add(set(kArrival), hn::Add(error, error))), set(hit_limit));
       // At time 0 a body that is not certainly apart may be touching: that is for double precision to say.
-      const MF near = hn::And(hn::Le(hn::Add(s.length, error), reached), hn::Or(apart, hn::Gt(time, zero)));
+      const MF near = hn::And(hn::Le(hn::Add(s.most, error), reached), hn::Or(apart, hn::Gt(time, zero)));
       const MF hit = hn::And(active, near);
       arrived = hn::Or(arrived, hit);
       active = hn::AndNot(hit, active);
@@ -240,7 +250,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     const VF error =
         hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(kSpeedRoundings * kUnit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
-    MF active = triangle;
+    MF active = triangle, unsettled = triangle;
     VF least = zero, time = zero, height = zero, nearest = set(std::numeric_limits<float>::max());
     // The place of the axis that is nearest to a point, one after the other along its way and along itself.
     const auto approach = [&](const V3& p) {
@@ -257,7 +267,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     for (int round = 0;; ++round) {
       const V3 centre = scale(m, time), place{centre.x, centre.y, hn::Add(centre.z, height)};
       V3 w = t.away(place);
-      nearest = hn::Min(nearest, dot(w, w));
+      nearest = hn::IfThenElse(unsettled, hn::Min(nearest, dot(w, w)), nearest);
       const V3 closest = place - w;
       VF inverse = set(way.inverse_square);
       V3 across = m;
@@ -279,12 +289,16 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
       VF bound = hn::Min(hn::Min(dot(w, centre - t.a), dot(w, centre - t.b)), dot(w, centre - t.c));
       if (way.half_height > 0.0F) bound = hn::Sub(bound, hn::Mul(h, hn::Abs(w.z)));
       bound = hn::Sub(bound, lost);
-      const MF sure = hn::And(active, hn::Gt(length, set(kShortest)));
+      const MF sure = hn::And(unsettled, hn::Gt(length, set(kShortest)));
       const VF apart = hn::Sub(
           hn::Mul(hn::Div(bound, hn::IfThenElse(sure, length, one)), set(1.0F - kTimeRoundings * kUnit)), error);
       least = hn::IfThenElse(hn::And(sure, hn::Gt(apart, least)), apart, least);
       active = hn::AndNot(hn::Gt(least, set(reach)), active);
-      if (round + 1 == rounds || hn::AllFalse(kF, active)) break;
+      if (round + 1 == rounds) break;
+      // Another place of the way would not be told apart from this one.
+      const VF enough = hn::Add(least, set(kSettled));
+      unsettled = hn::And(active, hn::AndNot(hn::Le(nearest, hn::Mul(enough, enough)), unsettled));
+      if (hn::AllFalse(kF, unsettled)) break;
       approach(closest);
     }
     const MF out_of_reach = hn::AndNot(active, triangle);

@@ -62,12 +62,14 @@ inline constexpr double kFarthestSteps = 0x1p31 - 0x1p17;
 /// Rounds of advance in single precision; what has not arrived by then is decided in double precision.
 inline constexpr int kRounds = 4;
 
-/// Alternating projections between triangle and axis for a capsule: in the first round and in the others.
-inline constexpr int kFirstProjections = 3;
-inline constexpr int kLaterProjections = 2;
+/// Alternating projections between triangle and axis for a capsule, at most.
+inline constexpr int kProjections = 3;
 
 /// Rounds in which the place of a body's way that is nearest to a triangle is looked for in single precision.
 inline constexpr int kNearRounds = 3;
+
+/// Metres. A bound that is so little below a distance that was found is not made any better.
+inline constexpr float kSettled = 1e-4F;
 
 /// 1 / 0 stands for this many per metre: larger than any length over any motion that can matter, and finite, so that
 /// 0 / 0 does not arise.
