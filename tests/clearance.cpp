@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "clutter.h"
+#include "counted_allocations.h"
 #include "oracle.h"
 #include "roam/world.h"
 
@@ -160,6 +161,29 @@ TEST(Clearance, OfAWallWithTrianglesOfManySizes) {
     ask_beside(random, wall, false, 150);
     if (testing::Test::HasFatalFailure()) return;
   }
+}
+
+TEST(Queries, DoNotAllocate) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer counts allocations itself";
+#endif
+  Random random(64);
+  const Wall wall(random, Vec3(0.0), 60, 2.5, 0.02);
+  const World world = World::build({&wall.mesh, 1});
+  std::vector<roam::Contact> contacts(16);
+  const long before = allocations;
+  std::size_t met = 0, near = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Body body{random.between(0.0, 0.3), i % 2 == 0 ? 0.0 : 0.5};
+    const Vec3 from = random.in_box(1.0), motion = random.between(0.1, 100.0) * random.direction();
+    met += world.sweep(body, from, motion).hit ? 1U : 0U;
+    near += world.gap(body, from, motion, 1.0) < 1.0 ? 1U : 0U;
+    near += world.clearance(body, from, motion, 1.0).found ? 1U : 0U;
+    near += world.contacts(body, from, motion, 0.5, contacts);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(met, 100U);
+  EXPECT_GT(near, 1000U);
 }
 
 }  // namespace

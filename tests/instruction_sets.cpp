@@ -11,6 +11,7 @@ namespace {
 struct Answers {
   std::vector<roam::Impact> sweeps;
   std::vector<roam::Clearance> clearances;
+  std::vector<double> gaps;
 };
 
 Answers ask(const roam::World& world) {
@@ -21,7 +22,9 @@ Answers ask(const roam::World& world) {
     const roam::Vec3 from = random.in_box(22.0),
                      motion = random.direction() * std::pow(10.0, random.between(-3.0, 1.5));
     out.sweeps.push_back(world.sweep(body, from, motion));
-    out.clearances.push_back(world.clearance(body, from, q % 3 == 0 ? roam::Vec3(0.0) : motion, 0.5));
+    const roam::Vec3 way = q % 3 == 0 ? roam::Vec3(0.0) : motion;
+    out.clearances.push_back(world.clearance(body, from, way, 0.5));
+    out.gaps.push_back(world.gap(body, from, way, 0.5));
   }
   return out;
 }
@@ -47,6 +50,7 @@ TEST(InstructionSets, GiveTheSameBits) {
       ASSERT_EQ(a.point, b.point) << q;
       ASSERT_EQ(best.clearances[q].distance, other.clearances[q].distance) << q;
       ASSERT_EQ(best.clearances[q].triangle, other.clearances[q].triangle) << q;
+      ASSERT_EQ(best.gaps[q], other.gaps[q]) << q;
     }
     ++tried;
   }
