@@ -13,7 +13,8 @@
 /// at least r everywhere; a body "cannot get through" when no way does, not when some walker stopped.
 ///
 /// The way that is answered is certified: sweeps along it with `radius` less 0.5 mm meet nothing. That nothing wider
-/// exists is known only as far as Passage::proven says.
+/// exists is known only as far as Passage::proven says. probe.h says of a body of one size whether it gets through, and
+/// what stops it.
 ///
 /// Lengths are metres, up is +z. Same input, same bits, on every machine and for any number of threads.
 
@@ -36,7 +37,8 @@ struct PassageOptions {
   double narrowest = 0.05;   ///< > 0, < widest: ways for no larger radius than this are not looked for
   double support_max = 1.0;  ///< > 0: where a disc of this radius fits into a gap of the floor, no way leads over it
   double spacing = 0.2;      ///< of the places that are looked at, > 0. Openings under 0.7 of it may be overlooked.
-  /// Places looked at, at most; then what was found so far is answered and Passage::complete is false.
+  /// Places looked at, at most (100 bytes each on foot; flying they are cubes of air, 60 bytes each); then what was
+  /// found so far is answered and Passage::complete is false.
   std::uint64_t most_places = 20'000'000;
   /// Called now and then with the number of places looked at. Returning false ends the search: as most_places.
   std::function<bool(std::uint64_t)> progress = {};
@@ -72,7 +74,8 @@ struct Passage {
   /// looked at whole, only so much of the other is.
   std::optional<Opening> opening;
   /// No way for a radius larger than `bound` exists: certified, by what fits at the ends and under the height, and in
-  /// the air by cells as large as `spacing`, to 0.87 of it. Infinite where nothing is known.
+  /// the air by cubes that nobody of that radius fits into: 4 mm more than `radius`, or 16, 64, ... where that could
+  /// not be said. Infinite where nothing is known.
   double bound = 0.0;
   bool proven = false;       ///< `bound` is within 5 mm of `radius`
   bool complete = true;      ///< false: most_places or progress ended it early
