@@ -11,6 +11,11 @@ async function start() {
   delete globalThis.process;
   try {
     PhysX = await factory({
+      // Without memory it goes on, and never ends.
+      printErr(text) {
+        console.error(text);
+        if (text.startsWith('Cannot enlarge memory')) throw new Error('this mesh is too large for PhysX in WebAssembly');
+      },
       instantiateWasm(imports, done) {
         WebAssembly.instantiate(wasm, imports).then((instance) => {
           memory = Object.values(instance.exports).find((e) => e instanceof WebAssembly.Memory)
