@@ -2,7 +2,9 @@
 // read.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -93,6 +95,25 @@ TEST(StoreBuildDisk, AFileThatMayNotBeReadAsksForTheRightToReadIt) {
   }
   EXPECT_NE(text.find("right to read it"), std::string::npos) << text;
   EXPECT_EQ(text.find("write"), std::string::npos) << text;
+}
+
+TEST(StoreBuildDisk, WaitsForTheLockOfAProcessThatWasEndedWhileItStartedAnother) {
+  const TestFolder folder;
+  const pid_t ended = ::fork();
+  if (ended == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
+  // What it was starting holds the lock as it inherited it, for a moment.
+  const std::string file = folder.write("LOCK", std::to_string(ended) + "\n");
+  const int descriptor = ::open(file.c_str(), O_RDWR);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
+  const pid_t started = ::fork();
+  if (started == 0) {
+    ::usleep(300'000);
+    ::_exit(0);
+  }
+  ::close(descriptor);
+  EXPECT_EQ(refusal([&] { const roam::store::BuildLock lock(folder.file("")); }), "");
+  ::waitpid(started, nullptr, 0);
 }
 
 }  // namespace

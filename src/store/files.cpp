@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,7 +12,11 @@
 #include <atomic>
 #include <bit>
 #include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <thread>
 #include <utility>
 
 #include "roam/error.h"
@@ -218,30 +223,55 @@ std::string PackWriter::commit() { return file_.commit_by_hash(); }
 
 // --------------------------------------------------------------------------------------------------------------- lock
 
+namespace {
+
+/// A process that is ended while it starts another leaves its locks to that one until it begins its program.
+constexpr std::chrono::seconds longest_remainder{5};
+constexpr std::chrono::milliseconds remainder_period{10};
+
+/// The number of the process that a lock's file names; empty: it does not.
+std::string process_in(int descriptor) {
+  std::array<char, 32> text{};
+  const ssize_t got = ::pread(descriptor, text.data(), text.size() - 1, 0);
+  std::string process(text.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+  process.erase(std::find_if(process.begin(), process.end(), [](char c) { return c < '0' || c > '9'; }), process.end());
+  return process;
+}
+
+/// Whether it is certain that there is no such process on this machine.
+bool has_ended(const std::string& process) {
+  const long number = process.empty() ? 0 : std::strtol(process.c_str(), nullptr, 10);
+  return number > 0 && number <= std::numeric_limits<pid_t>::max() && ::kill(static_cast<pid_t>(number), 0) != 0 &&
+         errno == ESRCH;
+}
+
+}  // namespace
+
 BuildLock::BuildLock(const fs::path& store) {
   const fs::path file = store / "LOCK";
   descriptor_ = again([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
   if (descriptor_ < 0) fail("write", file, errno);
-  if (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) {
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || status.st_nlink == 0) {
-      ::close(std::exchange(descriptor_, -1));
-      throw Error(fmt::format("{} was given up by another build just now; build again", store.string()));
+  const auto until = std::chrono::steady_clock::now() + longest_remainder;
+  while (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) != 0) {
+    const int error = errno;
+    const std::string process = process_in(descriptor_);
+    if (error == EWOULDBLOCK && has_ended(process) && std::chrono::steady_clock::now() < until) {
+      std::this_thread::sleep_for(remainder_period);
+      continue;
     }
-    const std::string process = std::to_string(::getpid()) + "\n";
-    // Only for people: whoever comes next reads it.
-    if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(!::pwrite(descriptor_, process.data(), process.size(), 0));
-    return;
+    ::close(std::exchange(descriptor_, -1));
+    if (error != EWOULDBLOCK) fail("lock", file, error);
+    throw Error(fmt::format("{} is being built by {}: wait for it, or end it; what it has done is kept", store.string(),
+                            process.empty() ? "another process" : "process " + process));
   }
-  const int error = errno;
-  std::array<char, 32> text{};
-  const ssize_t got = ::pread(descriptor_, text.data(), text.size() - 1, 0);
-  ::close(std::exchange(descriptor_, -1));
-  if (error != EWOULDBLOCK) fail("lock", file, error);
-  std::string process(text.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
-  process.erase(std::find_if(process.begin(), process.end(), [](char c) { return c < '0' || c > '9'; }), process.end());
-  throw Error(fmt::format("{} is being built by {}: wait for it, or end it; what it has done is kept", store.string(),
-                          process.empty() ? "another process" : "process " + process));
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || status.st_nlink == 0) {
+    ::close(std::exchange(descriptor_, -1));
+    throw Error(fmt::format("{} was given up by another build just now; build again", store.string()));
+  }
+  const std::string process = std::to_string(::getpid()) + "\n";
+  // Only for people, and for has_ended: whoever comes next reads it.
+  if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(!::pwrite(descriptor_, process.data(), process.size(), 0));
 }
 
 BuildLock::~BuildLock() {

@@ -94,7 +94,7 @@ inline constexpr std::uint64_t pack_header_bytes = 64;
 [[nodiscard]] std::shared_ptr<StoreBytes> files_of(const std::filesystem::path& folder);
 
 /// One process at a time builds a store: a lock on <store>/LOCK that ends with the process. Throws roam::Error naming
-/// the other process.
+/// the other process; where that one has ended and a child that it was starting still holds the lock, waits for it.
 class BuildLock {
  public:
   explicit BuildLock(const std::filesystem::path& store);
