@@ -69,6 +69,32 @@ TEST(Flight, IsProvenToSomeMillimetres) {
   EXPECT_EQ(open.bound, std::numeric_limits<double>::infinity());
 }
 
+TEST(Flight, DoesNotDependOnWhereTheSceneLies) {
+  for (const Vec3& by : {Vec3(-13739.0, 253.0, 182.0), Vec3(1e5, -1e5, 0.0)}) {
+    Mesh m = rooms(-0.1, 0.5, 0.0, 2.0);
+    for (Vec3& v : m.vertices) v += by;
+    const Passage p = roam::widest_way(survey_of(m), one_end + by, other_end + by, flying);
+    EXPECT_NEAR(p.radius, 0.3, wanted_error);
+    EXPECT_TRUE(p.proven);
+  }
+}
+
+TEST(Flight, ComesFromFarOutsideTheScene) {
+  // Down by the roof that is not there, and in by the door.
+  const Mesh m = rooms(-0.1, 0.5, 0.0, 2.0, false);
+  const Passage down = roam::widest_way(survey_of(m), {40.0, -70.0, 90.0}, other_end, flying);
+  EXPECT_TRUE(down.found);
+  EXPECT_FALSE(down.limited);
+  EXPECT_LT(down.places, 100'000u);
+  const Passage closed =
+      roam::widest_way(survey_of(rooms(-0.1, 0.5, 0.0, 2.0)), {40.0, -70.0, 90.0}, other_end, flying);
+  EXPECT_FALSE(closed.found);
+  EXPECT_LT(closed.bound, 0.2);
+  const Passage nothing = roam::widest_way(survey_of({}), {0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}, flying);
+  EXPECT_TRUE(nothing.found);
+  EXPECT_FALSE(nothing.limited);
+}
+
 TEST(Flight, IsHalfTheSmallerSideOfAWindow) {
   const Passage p = roam::widest_way(survey_of(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
   ASSERT_TRUE(p.found);
@@ -82,8 +108,10 @@ TEST(Flight, IsHalfTheNarrowestDoorOfSeededGalleries) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const seeded::Gallery g = seeded::gallery(seed);
     const Vec3 up(0.0, 0.0, 1.2);
-    EXPECT_NEAR(roam::widest_way(survey_of(g.mesh), g.from + up, g.to + up, flying).radius, g.upper(), wanted_error)
-        << seed;
+    const Passage p = roam::widest_way(survey_of(g.mesh), g.from + up, g.to + up, flying);
+    EXPECT_NEAR(p.radius, g.upper(), wanted_error) << seed;
+    EXPECT_TRUE(p.proven) << seed;
+    EXPECT_GE(p.bound, g.upper()) << seed;
   }
 }
 

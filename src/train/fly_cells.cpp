@@ -9,7 +9,7 @@
 namespace roam::training {
 namespace {
 
-/// Times `widest`: farther than this from all triangles nobody flies.
+/// Times `widest`: farther than this from the box of all triangles and both ends nobody flies.
 constexpr double outside_reach = 2.0;
 /// m: nothing is looked for farther from the middle of a cube.
 constexpr double farthest_look = 0.5 * Space::reach_limit;
@@ -25,9 +25,11 @@ float rounded_up(double value) {
 
 }  // namespace
 
-FlyCells::FlyCells(const Survey& survey, const Measure& measure, double spacing) : survey_(survey), measure_(measure) {
-  within_ = survey.world().bounds();
-  if (within_.empty()) within_ = {Vec3(0.0), Vec3(0.0)};
+FlyCells::FlyCells(const Survey& survey, const Measure& measure, double spacing, const Vec3& from, const Vec3& to)
+    : survey_(survey), measure_(measure), within_(survey.world().bounds()) {
+  // Outside a box that holds all triangles and both ends no way leads anywhere that does not lead along its sides.
+  within_.include(from);
+  within_.include(to);
   within_ = within_.grown(outside_reach * measure.widest);
   const Vec3 size = within_.size();
   const double most = std::max({size.x, size.y, size.z});

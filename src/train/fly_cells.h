@@ -17,8 +17,8 @@ inline constexpr CellId no_cell = ~CellId(0);
 /// are from everything; what has been asked is kept. Not safe to use from several threads.
 class FlyCells {
  public:
-  /// `survey` must outlive it. Sides are `spacing` times powers of two.
-  FlyCells(const Survey& survey, const Measure& measure, double spacing);
+  /// Of ways from one place to another; `survey` must outlive it. Sides are `spacing` times powers of two.
+  FlyCells(const Survey& survey, const Measure& measure, double spacing, const Vec3& from, const Vec3& to);
 
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// The cube that a place lies in, of those that are not split; no_cell where nobody flies.
@@ -27,6 +27,8 @@ class FlyCells {
   [[nodiscard]] double side(CellId id) const { return unit_ * size_of(id); }
   [[nodiscard]] double half_diagonal(CellId id) const;
   [[nodiscard]] bool is_split(CellId id) const { return cells_[id].parts != no_cell; }
+  /// Too small to be split.
+  [[nodiscard]] bool is_smallest(CellId id) const { return cells_[id].depth == deepest; }
 
   /// m, certified: how far the middle of a cube is from everything.
   [[nodiscard]] double free(CellId id) const { return cells_[id].free; }
@@ -61,7 +63,7 @@ class FlyCells {
   void on_face(CellId id, int axis, bool upper, const Cell& of, const std::function<bool(CellId)>& is_fine,
                const std::function<void(CellId)>& found);
 
-  static constexpr int deepest = 24;  ///< times that the whole may be halved
+  static constexpr int deepest = 28;  ///< times that the whole may be halved
 
   const Survey& survey_;
   const Measure measure_;

@@ -33,7 +33,7 @@ FlySearch::FlySearch(const Survey& survey, const Measure& measure, double spacin
     : survey_(survey),
       measure_(measure),
       spacing_(spacing),
-      cells_(survey, measure, spacing),
+      cells_(survey, measure, spacing, from, to),
       goes_on_(std::move(goes_on)) {
   sides_[0].end = sides_[1].goal = from;
   sides_[1].end = sides_[0].goal = to;
@@ -45,7 +45,8 @@ double FlySearch::side_for(double radius) const { return std::max(finest_share *
 /// A cube whose middle is free never reaches through a wall: it may be twice as large.
 bool FlySearch::is_fine(CellId cell) const {
   const double limit = cells_.free(cell) >= radius_ ? 2.0 * side_limit_ : side_limit_;
-  return cells_.side(cell) <= limit || cells_.most(cell) < radius_ || cells_.is_open(cell, radius_);
+  return cells_.side(cell) <= limit || cells_.most(cell) < radius_ || cells_.is_open(cell, radius_) ||
+         cells_.is_smallest(cell);
 }
 
 /// Whether the centre of the sphere may be in a cube, as this search takes it.
@@ -210,7 +211,7 @@ bool FlySearch::split_unsure(const std::vector<CellId>& cells) {
   }
   bool any = false;
   for (const CellId id : unsure) {
-    if (cells_.is_split(id) || cells_.side(id) < 2.0 * least_side) continue;
+    if (cells_.is_split(id) || cells_.side(id) < 2.0 * least_side || cells_.is_smallest(id)) continue;
     cells_.split(id);
     any = true;
   }

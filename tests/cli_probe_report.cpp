@@ -1,0 +1,91 @@
+// What roam probe promises of its report, its table and its exit statuses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "door_rooms.h"
+#include "program.h"
+
+namespace {
+
+using Json = nlohmann::json;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+ProgramResult ask(const std::string& scene, const std::string& from, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"probe", scene, "--from", from, "--to", "18,-0.4,1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(ROAM_PROGRAM, arguments);
+}
+const std::vector<std::string> of_a_size{
+    "scene",   "triangles", "mode",        "from",        "to",      "step",   "slope",  "spacing",       "radius",
+    "height",  "passable",  "wide_enough", "clearance_m", "limited", "start",  "target", "way",           "length_m",
+    "opening", "proven",    "bound_m",     "complete",    "places",  "walked", "answer", "support_radius"};
+
+TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
+  const TestFolder folder;
+  const std::string open = folder.write("open.obj", door_obj(0.84)), closed = folder.write("closed.obj", door_obj(0.0));
+  for (const std::string& scene : {open, closed}) {
+    for (const char* mode : {"walk", "fly"}) {
+      const ProgramResult result = ask(scene, "2,0.3,1", {"--radius", "0.3", "--mode", mode, "--json"});
+      EXPECT_EQ(result.status, scene == open ? 0 : 3) << result.err;
+      const Json report = Json::parse(result.out, nullptr, false);
+      for (const std::string& member : of_a_size) EXPECT_TRUE(report.contains(member)) << member;
+      EXPECT_EQ(report.size(), of_a_size.size()) << "a member that is not documented";
+      EXPECT_EQ(report["walked"].is_null(), scene == closed);
+      EXPECT_EQ(report["complete"], true);
+    }
+  }
+  const Json sizes = Json::parse(ask(open, "2,0.3,1", {"--matrix", "0.3,0.5", "--json"}).out, nullptr, false)["sizes"];
+  ASSERT_EQ(sizes.size(), 2u);
+  EXPECT_FALSE(sizes[0].contains("way") || sizes[0].contains("length_m"));
+}
+
+TEST(ProbeReport, BoundsAndProvesWhatFlies) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.5));
+  const ProgramResult result = ask(scene, "2,0.3,1", {"--radius", "0.3", "--mode", "fly", "--json"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  const Json report = Json::parse(result.out, nullptr, false);
+  EXPECT_EQ(report["opening"]["kind"], "gap");
+  EXPECT_NEAR(report["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
+  EXPECT_EQ(report["proven"], true);
+  EXPECT_GE(report["bound_m"].get<double>(), report["clearance_m"].get<double>());
+  EXPECT_LE(report["bound_m"].get<double>(), report["clearance_m"].get<double>() + 5e-3);
+  EXPECT_TRUE(contains(report["answer"], "That none wider exists is certified.")) << report["answer"];
+}
+
+TEST(ProbeReport, ListsSizesInTheirOrder) {
+  const TestFolder folder;
+  const ProgramResult result = ask(folder.write("room.obj", door_obj(0.7)), "2,0.3,1", {"--matrix", "0.4x1.8,0.3x1.8"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  const std::size_t first = result.out.find("0.400 m"), second = result.out.find("0.300 m");
+  ASSERT_TRUE(first != std::string::npos && second != std::string::npos) << result.out;
+  EXPECT_LT(first, second);
+  EXPECT_TRUE(contains(result.out.substr(first, second - first), " no ")) << result.out;
+  EXPECT_TRUE(contains(result.out.substr(second), " yes ")) << result.out;
+}
+
+TEST(ProbeReport, SaysWhereAnEndWasMovedTo) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.84));
+  // On the outer wall, where nobody has room.
+  const ProgramResult result = ask(scene, "2,1.99,1", {"--radius", "0.2", "--height", "1.8", "--json"});
+  const Json report = Json::parse(result.out, nullptr, false);
+  EXPECT_TRUE(contains(report["answer"], "The start has no room where it was asked for: (")) << report["answer"];
+  EXPECT_LT(report["start"][1].get<double>(), 1.99);
+  EXPECT_GE(report["start"][1].get<double>(), -0.01);
+}
+
+TEST(ProbeReport, FailsWithStatusOneWhereAFileCannotBeReadOrWritten) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.84));
+  EXPECT_EQ(ask(folder.file("none.obj"), "2,0,1", {"--radius", "0.3"}).status, 1);
+  const ProgramResult path = ask(scene, "2,0,1", {"--radius", "0.3", "--path", folder.file("none/way.path")});
+  EXPECT_EQ(path.status, 1);
+  EXPECT_TRUE(contains(path.err, "way.path") && contains(path.err, "cannot be written")) << path.err;
+  EXPECT_EQ(ask(scene, "2,0,1", {"--radius", "0.3", "--picture", folder.file("none/door.svg")}).status, 1);
+}
+
+}  // namespace
