@@ -36,7 +36,7 @@ TEST(FlyRealScenes, CrossesATunnelInFewPlaces) {
   EXPECT_FALSE(wide.limited);
   EXPECT_NEAR(wide.length, 60.0, 1.0);
   EXPECT_LT(wide.places, 100'000u);
-  // Down a ramp that ends under a lower roof.
+  // Down a ramp, from beside its roof: that decides.
   const Passage ramp = flown(survey, {20.0, 0.0, -3.4}, {80.0, 0.0, -18.4});
   ASSERT_TRUE(ramp.limited && ramp.opening);
   EXPECT_NEAR(ramp.radius, 0.8547, 1e-3);
