@@ -81,6 +81,9 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.missing = 0.2;
   const std::string narrow = app::explain(question, answer);
   EXPECT_TRUE(narrow.starts_with("No: ") && contains(narrow, "A wider way may exist")) << narrow;
+  // Nothing wider leads off an end that has no room.
+  answer.limit->kind = Kind::start;
+  EXPECT_FALSE(contains(app::explain(question, answer), "may exist")) << app::explain(question, answer);
 }
 
 TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {

@@ -139,8 +139,8 @@ std::string ended(const Passage& p) {
 /// How sure a no is.
 std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
-  if (!p.complete) return " A wider way may exist:" + ended(p);
   if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
+  if (!p.complete) return " A wider way may exist:" + ended(p);
   if (answer.proven) return p.found ? " That none wider exists is certified." : " That is certified.";
   return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
                      p.found ? " wider" : "", question.spacing, 0.7 * question.spacing);
