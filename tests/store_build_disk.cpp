@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <functional>
 
 #include "store/files.h"
 #include "store_builds.h"
@@ -97,23 +98,89 @@ TEST(StoreBuildDisk, AFileThatMayNotBeReadAsksForTheRightToReadIt) {
   EXPECT_EQ(text.find("write"), std::string::npos) << text;
 }
 
-TEST(StoreBuildDisk, WaitsForTheLockOfAProcessThatWasEndedWhileItStartedAnother) {
-  const TestFolder folder;
+/// Holds the lock of a store that names another process.
+class HeldLock {
+ public:
+  HeldLock(const TestFolder& folder, pid_t named) {
+    fs::create_directory(folder.file("s"));
+    const std::string file = folder.write("s/LOCK", std::to_string(named) + "\n");
+    descriptor_ = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    EXPECT_EQ(::flock(descriptor_, LOCK_EX | LOCK_NB), 0);
+  }
+  ~HeldLock() { end(); }
+  HeldLock(const HeldLock&) = delete;
+  HeldLock& operator=(const HeldLock&) = delete;
+  void end() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+  }
+
+ private:
+  int descriptor_ = -1;
+};
+
+pid_t ended_process() {
   const pid_t ended = ::fork();
   if (ended == 0) ::_exit(0);
+  return ended;
+}
+
+TEST(StoreBuildDisk, WaitsForTheLockOfAProcessThatWasEndedWhileItStartedAnother) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(10, 1.0, {0.0, 0.0, 0.0}));
+  const pid_t ended = ended_process();
   ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
-  // What it was starting holds the lock as it inherited it, for a moment.
-  const std::string file = folder.write("LOCK", std::to_string(ended) + "\n");
-  const int descriptor = ::open(file.c_str(), O_RDWR);
-  ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
+  HeldLock held(folder, ended);
+  // What it was starting holds the lock as it inherited it, for a moment: longer than a living holder is waited for.
   const pid_t started = ::fork();
   if (started == 0) {
-    ::usleep(300'000);
+    ::usleep(2'000'000);
     ::_exit(0);
   }
-  ::close(descriptor);
-  EXPECT_EQ(refusal([&] { const roam::store::BuildLock lock(folder.file("")); }), "");
+  held.end();
+  EXPECT_EQ(refusal([&] { roam::build_store(options({scene}, folder.file("s"))); }), "");
   ::waitpid(started, nullptr, 0);
+}
+
+TEST(StoreBuildDisk, SaysThatTheHolderOfALockHasEndedAndAsksMeanwhileWhetherToGoOn) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(10, 1.0, {0.0, 0.0, 0.0}));
+  const pid_t ended = ended_process();
+  ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
+  const HeldLock held(folder, ended);
+  auto asking = options({scene}, folder.file("s"));
+  int asked = 0;
+  asking.progress = [&](const roam::StoreBuildProgress&) { return ++asked > 0; };
+  const std::string text = refusal([&] { roam::build_store(asking); });
+  EXPECT_NE(text.find("still locked, though process " + std::to_string(ended)), std::string::npos) << text;
+  EXPECT_GT(asked, 5);
+  EXPECT_LT(asked, 150) << "50 ms each: one wait, not many";
+  for (const auto& build : std::initializer_list<std::function<void()>>{[&] { roam::build_store(asking); },
+                                                                        [&] {
+                                                                          roam::StoreBuildReport report;
+                                                                          roam::merge_store(asking, report);
+                                                                        }}) {
+    asked = 0;
+    asking.progress = [&](const roam::StoreBuildProgress&) { return ++asked < 3; };
+    EXPECT_THROW(build(), roam::Cancelled);
+    EXPECT_EQ(asked, 3);
+  }
+}
+
+TEST(StoreBuildDisk, TakesAProcessThatNobodyHasWaitedForForEnded) {
+  const TestFolder folder;
+  const pid_t ended = ended_process();
+  siginfo_t how{};
+  ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(ended), &how, WEXITED | WNOWAIT), 0);
+  const HeldLock held(folder, ended);
+  bool knows = false;
+  try {
+    const roam::store::BuildLock lock(folder.file("s"));
+  } catch (const roam::store::LockedError& error) {
+    knows = error.holder_ended;
+  }
+  EXPECT_TRUE(knows);
+  ::waitpid(ended, nullptr, 0);
 }
 
 }  // namespace

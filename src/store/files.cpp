@@ -12,11 +12,10 @@
 #include <atomic>
 #include <bit>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "roam/error.h"
@@ -225,10 +224,6 @@ std::string PackWriter::commit() { return file_.commit_by_hash(); }
 
 namespace {
 
-/// A process that is ended while it starts another leaves its locks to that one until it begins its program.
-constexpr std::chrono::seconds longest_remainder{5};
-constexpr std::chrono::milliseconds remainder_period{10};
-
 /// The number of the process that a lock's file names; empty: it does not.
 std::string process_in(int descriptor) {
   std::array<char, 32> text{};
@@ -238,11 +233,33 @@ std::string process_in(int descriptor) {
   return process;
 }
 
-/// Whether it is certain that there is no such process on this machine.
+/// Whether nobody but its parent knows the process any more, who has not asked how it ended.
+bool is_dead(long process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(file, line);
+  const auto name_end = line.rfind(')');  // a name may hold anything, and the state comes after it and a blank
+  if (name_end == std::string::npos || name_end + 2 >= line.size()) return false;
+  const char state = line[name_end + 2];
+  return state == 'Z' || state == 'X';
+}
+
+/// Whether it is certain that no such process runs here.
 bool has_ended(const std::string& process) {
   const long number = process.empty() ? 0 : std::strtol(process.c_str(), nullptr, 10);
-  return number > 0 && number <= std::numeric_limits<pid_t>::max() && ::kill(static_cast<pid_t>(number), 0) != 0 &&
-         errno == ESRCH;
+  if (number <= 0 || number > std::numeric_limits<pid_t>::max()) return false;
+  return (::kill(static_cast<pid_t>(number), 0) != 0 && errno == ESRCH) || is_dead(number);
+}
+
+std::string held_by(const fs::path& store, const std::string& process, bool ended) {
+  if (ended) {
+    return fmt::format(
+        "{} is still locked, though process {}, which built it, has ended here; it may run on another machine or in a "
+        "container: wait for it, or end it; what it has done is kept",
+        store.string(), process);
+  }
+  return fmt::format("{} is being built by {}: wait for it, or end it; what it has done is kept", store.string(),
+                     process.empty() ? "another process" : "process " + process);
 }
 
 }  // namespace
@@ -251,23 +268,18 @@ BuildLock::BuildLock(const fs::path& store) {
   const fs::path file = store / "LOCK";
   descriptor_ = again([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
   if (descriptor_ < 0) fail("write", file, errno);
-  const auto until = std::chrono::steady_clock::now() + longest_remainder;
-  while (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) != 0) {
+  if (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) != 0) {
     const int error = errno;
     const std::string process = process_in(descriptor_);
-    if (error == EWOULDBLOCK && has_ended(process) && std::chrono::steady_clock::now() < until) {
-      std::this_thread::sleep_for(remainder_period);
-      continue;
-    }
     ::close(std::exchange(descriptor_, -1));
     if (error != EWOULDBLOCK) fail("lock", file, error);
-    throw Error(fmt::format("{} is being built by {}: wait for it, or end it; what it has done is kept", store.string(),
-                            process.empty() ? "another process" : "process " + process));
+    const bool ended = has_ended(process);
+    throw LockedError(held_by(store, process, ended), ended);
   }
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || status.st_nlink == 0) {
     ::close(std::exchange(descriptor_, -1));
-    throw Error(fmt::format("{} was given up by another build just now; build again", store.string()));
+    throw LockedError(fmt::format("{} was given up by another build just now; build again", store.string()), false);
   }
   const std::string process = std::to_string(::getpid()) + "\n";
   // Only for people, and for has_ended: whoever comes next reads it.

@@ -93,10 +93,17 @@ inline constexpr std::uint64_t pack_header_bytes = 64;
 /// have open.
 [[nodiscard]] std::shared_ptr<StoreBytes> files_of(const std::filesystem::path& folder);
 
-/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process. Throws roam::Error naming
-/// the other process; where that one has ended and a child that it was starting still holds the lock, waits for it.
+/// Another process holds the lock of a store.
+class LockedError : public Error {
+ public:
+  LockedError(const std::string& what, bool ended) : Error(what), holder_ended(ended) {}
+  bool holder_ended;  ///< the process that the lock names runs here no more
+};
+
+/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process.
 class BuildLock {
  public:
+  /// Tries once. Throws LockedError naming the other process, and FileError.
   explicit BuildLock(const std::filesystem::path& store);
   ~BuildLock();
   BuildLock(const BuildLock&) = delete;

@@ -193,7 +193,7 @@ void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
   check_output(options);
-  OutputFolder output(work.store);
+  OutputFolder output(work.store, options.progress);
   const auto plan = plan_output(work, output, report);
   return plan ? plan->to_build().size() : 0;
 }
@@ -217,7 +217,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
     throw Error(fmt::format("{} is no folder of a store{}{}", work.store.string(), error ? ": " : "",
                             error ? error.message() : ""));
   }
-  const auto lock = locked(work.store);
+  const auto lock = locked(work.store, options.progress);
   const Plan plan = read_plan(work.store);
   describe(plan, report);
   merge_locked(work, plan, report);
@@ -227,7 +227,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   StoreBuildReport report;
   Work work(options);
   check_output(options);
-  OutputFolder output(work.store);
+  OutputFolder output(work.store, options.progress);
   const auto plan = plan_output(work, output, report);
   if (!plan) return report;
   build_shards(work, *plan, plan->to_build(), report);
@@ -237,7 +237,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 
 StoreBuildReport repair_store(const StoreBuildOptions& options) {
   if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
-  const auto lock = locked(options.output);
+  const auto lock = locked(options.output, options.progress);
   const RootMending root = mend_root(options.output);
   if (!root.wrong.empty() && !root.mended) {
     // A repair must give the store that was: how that was read, nothing tells.

@@ -39,16 +39,18 @@ bool holds_results(const fs::path& store) {
 
 }  // namespace
 
-std::unique_ptr<BuildLock> locked(const fs::path& store) {
-  constexpr int tries = 20;
-  constexpr auto pause = std::chrono::milliseconds(50);
-  for (int i = 1;; ++i) {
+std::unique_ptr<BuildLock> locked(const fs::path& store, const BuildProgress& progress) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds longest{1}, longest_remainder{5};
+  constexpr std::chrono::milliseconds period{50};
+  for (const Clock::time_point start = Clock::now();;) {
     try {
       return std::make_unique<BuildLock>(store);
-    } catch (const Error&) {
-      if (i == tries) throw;
-      std::this_thread::sleep_for(pause);
+    } catch (const LockedError& error) {
+      if (Clock::now() - start > (error.holder_ended ? longest_remainder : longest)) throw;
     }
+    if (progress && !progress({})) throw Cancelled();
+    std::this_thread::sleep_for(period);
   }
 }
 
@@ -62,7 +64,7 @@ std::string other_thing_in(const fs::path& folder) {
   return "";
 }
 
-OutputFolder::OutputFolder(fs::path store) : store_(std::move(store)) {
+OutputFolder::OutputFolder(fs::path store, const BuildProgress& progress) : store_(std::move(store)) {
   std::error_code error;
   fs::path path = fs::absolute(store_, error).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
@@ -74,8 +76,8 @@ OutputFolder::OutputFolder(fs::path store) : store_(std::move(store)) {
   const bool had_lock = fs::exists(store_ / lock_name, error);
   try {
     make_folder(store_);
-    lock_ = locked(store_);
-  } catch (const Error&) {
+    lock_ = locked(store_, progress);
+  } catch (...) {
     remove_made_folders();
     throw;
   }

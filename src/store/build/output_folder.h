@@ -3,24 +3,30 @@
 /// The folder that a build writes into.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 
+#include "roam/store_build.h"
 #include "store/files.h"
 
 namespace roam::store {
 
+/// As in StoreBuildOptions.
+using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
+
 /// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
-/// has become the reader: that is waited for.
-[[nodiscard]] std::unique_ptr<BuildLock> locked(const std::filesystem::path& store);
+/// has become the reader: that is waited for, up to 5 s, and 1 s for any other holder. While it waits it asks
+/// `progress` whether to go on. Throws roam::Error naming the holder, and roam::Cancelled.
+[[nodiscard]] std::unique_ptr<BuildLock> locked(const std::filesystem::path& store, const BuildProgress& progress);
 
 /// The folder of a store, made where it is not there, and locked. What builds put there goes again with this, unless
 /// keep() was called, it was there before, or there is something that a later build goes on from.
 class OutputFolder {
  public:
-  /// Throws roam::Error.
-  explicit OutputFolder(std::filesystem::path store);
+  /// Throws as `locked`.
+  OutputFolder(std::filesystem::path store, const BuildProgress& progress);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
