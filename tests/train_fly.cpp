@@ -95,6 +95,28 @@ TEST(Flight, ComesFromFarOutsideTheScene) {
   EXPECT_FALSE(nothing.limited);
 }
 
+TEST(Flight, BreaksOffWhereBothSidesAreNearest) {
+  Mesh m = rooms(0.2, 0.2, 0.0, 2.0);
+  const Passage flat = roam::widest_way(survey_of(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
+  EXPECT_FALSE(flat.found);
+  ASSERT_TRUE(flat.opening);
+  EXPECT_NEAR(flat.opening->point.x, 0.0, 0.1);
+  EXPECT_GT(std::abs(flat.opening->direction.x), 0.99);
+  // Nothing comes near what is 2.4 m away.
+  m = rooms(0.2, 0.2, 0.0, 2.0);
+  add_box(m, {-1.2, -1.5, 0.0}, {1.2, 1.5, 2.6});
+  const Passage far = roam::widest_way(survey_of(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
+  EXPECT_FALSE(far.found || far.opening);
+}
+
+TEST(Flight, LooksForTheWidestThatIsAskedFor) {
+  // The door is 2 mm narrower than what is looked for at most.
+  const Passage p =
+      roam::widest_way(survey_of(rooms(-0.1, 0.5, 0.0, 2.0)), one_end, other_end, {.mode = Mode::fly, .widest = 0.302});
+  EXPECT_TRUE(p.found && p.limited && p.proven);
+  EXPECT_LE(p.bound, 0.302);
+}
+
 TEST(Flight, IsHalfTheSmallerSideOfAWindow) {
   const Passage p = roam::widest_way(survey_of(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
   ASSERT_TRUE(p.found);

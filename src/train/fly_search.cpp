@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <tuple>
+#include <span>
 #include <utility>
 
 namespace roam::training {
@@ -25,6 +24,87 @@ constexpr double least_side = 2e-3;
 constexpr double roomy = 1.5;
 /// A cube that may be closed costs as much as so many that are free.
 constexpr double unsure_cost = 8.0;
+/// m: the middles of cubes that are farther apart are not near each other, and nor are those of cubes as large.
+constexpr double near = 2.0;
+constexpr double largest_near = 1.0;
+
+/// The middle of a cube.
+struct Middle {
+  Vec3 place;
+  CellId cell;
+};
+
+double distance_between(const Box& a, const Box& b) {
+  return glm::length(glm::max(glm::max(a.lower - b.upper, b.lower - a.upper), Vec3(0.0)));
+}
+
+/// The two nearest of two sets of middles. Both are halved, and halves that are farther apart than a pair that is known
+/// are left out: what is reached on both sides of a wall may be ten thousands.
+class NearestPair {
+ public:
+  /// `goes_on` is asked now and then; false ends the search, with no pair.
+  explicit NearestPair(std::function<bool()> goes_on) : goes_on_(std::move(goes_on)) {}
+
+  void look(std::span<Middle> one, std::span<Middle> other) {
+    if (ended_ || one.empty() || other.empty()) return;
+    const Box box = box_of(one), other_box = box_of(other);
+    if (distance_between(box, other_box) >= least_) return;
+    if (one.size() <= few && other.size() <= few) {
+      look_at_all(one, other);
+      return;
+    }
+    const bool first = one.size() >= other.size();
+    auto [near_half, far_half] = first ? halves(one, box) : halves(other, other_box);
+    const Box& rest = first ? other_box : box;
+    if (distance_between(box_of(far_half), rest) < distance_between(box_of(near_half), rest))
+      std::swap(near_half, far_half);
+    for (const std::span<Middle>& half : {near_half, far_half}) first ? look(half, other) : look(one, half);
+  }
+
+  [[nodiscard]] std::optional<std::array<Vec3, 2>> pair() const { return ended_ || !(least_ > 0.0) ? std::nullopt : pair_; }
+
+ private:
+  static constexpr std::size_t few = 8;
+
+  static Box box_of(std::span<const Middle> middles) {
+    Box box;
+    for (const Middle& m : middles) box.include(m.place);
+    return box;
+  }
+
+  /// Across the longest side of their box. Which are in which half depends on nothing else.
+  static std::pair<std::span<Middle>, std::span<Middle>> halves(std::span<Middle> all, const Box& box) {
+    const Vec3 size = box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t half = all.size() / 2;
+    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(half), all.end(),
+                     [axis](const Middle& a, const Middle& b) {
+                       return a.place[axis] != b.place[axis] ? a.place[axis] < b.place[axis] : a.cell < b.cell;
+                     });
+    return {all.first(half), all.subspan(half)};
+  }
+
+  void look_at_all(std::span<const Middle> one, std::span<const Middle> other) {
+    if (++looks_ % between_questions == 0 && !goes_on_()) ended_ = true;
+    for (const Middle& a : one) {
+      for (const Middle& b : other) {
+        const double apart = glm::distance(a.place, b.place);
+        const std::pair cells{a.cell, b.cell};
+        if (apart > least_ || (apart == least_ && (!pair_ || cells >= cells_))) continue;
+        least_ = apart;
+        cells_ = cells;
+        pair_ = {a.place, b.place};
+      }
+    }
+  }
+
+  std::function<bool()> goes_on_;
+  double least_ = near;
+  std::optional<std::array<Vec3, 2>> pair_;
+  std::pair<CellId, CellId> cells_{no_cell, no_cell};
+  std::uint64_t looks_ = 0;
+  bool ended_ = false;
+};
 
 }  // namespace
 
@@ -243,7 +323,6 @@ Flight FlySearch::look_where_free(double radius) {
 }
 
 std::optional<std::array<Vec3, 2>> FlySearch::nearest_approach() {
-  constexpr double near = 1.0;  // m: pairs farther apart than one or two of these are not looked for
   std::uint64_t enough = std::max(sides_[0].done, sides_[1].done);
   for (int s = 0; s < 2; ++s) {
     Side& side = sides_[static_cast<std::size_t>(s)];
@@ -251,33 +330,16 @@ std::optional<std::array<Vec3, 2>> FlySearch::nearest_approach() {
       if (side.done % between_questions == 0 && goes_on_ && !goes_on_(cells_.size())) break;
     }
   }
-  using Key = std::tuple<long, long, long>;
-  const auto key_of = [&](const Vec3& p) {
-    return Key(std::lround(p.x / near), std::lround(p.y / near), std::lround(p.z / near));
-  };
-  std::map<Key, std::vector<CellId>> of_goal;
-  const auto each = [&](std::size_t s, const auto& what) {
+  std::array<std::vector<Middle>, 2> reached;
+  for (std::size_t s = 0; s < 2; ++s) {
     for (CellId id = 0; id < sides_[s].visits.size(); ++id)
-      if (sides_[s].visits[id].search == search_ && cells_.side(id) < near) what(id, cells_.centre(id));
-  };
-  each(1, [&](CellId id, const Vec3& place) { of_goal[key_of(place)].push_back(id); });
-  double least = std::numeric_limits<double>::infinity();
-  std::array<Vec3, 2> pair{};
-  each(0, [&](CellId, const Vec3& place) {
-    const auto [x, y, z] = key_of(place);
-    for (long k = 0; k < 27; ++k) {
-      const auto found = of_goal.find(Key(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
-      if (found == of_goal.end()) continue;
-      for (const CellId other : found->second) {
-        const double apart = glm::distance(cells_.centre(other), place);
-        if (apart >= least) continue;
-        least = apart;
-        pair = {place, cells_.centre(other)};
+      if (sides_[s].visits[id].search == search_ && cells_.side(id) < largest_near) {
+        reached[s].push_back({cells_.centre(id), id});
       }
-    }
-  });
-  if (!(least > 0.0) || !std::isfinite(least)) return std::nullopt;
-  return pair;
+  }
+  NearestPair nearest([this] { return !goes_on_ || goes_on_(cells_.size()); });
+  nearest.look(reached[0], reached[1]);
+  return nearest.pair();
 }
 
 }  // namespace roam::training
