@@ -71,15 +71,13 @@ class WidestFlight {
     for (int turn = 0; turn < most_improvements && best.limited && !ended_; ++turn) {
       double more = wider;
       Flight flight = Flight::unsure;
-      while (flight == Flight::unsure && best.radius + more < std::min(bound_, measure_.widest)) {
-        const double radius = best.radius + more;
+      double radius = best.radius;
+      while (flight == Flight::unsure && radius < measure_.widest) {
+        radius = std::min(best.radius + more, measure_.widest);
+        if (radius >= bound_) break;
         if (radius >= search_.least_closed()) flight = search_.look(radius, more_splits);
         if (flight == Flight::none) bound_ = std::min(bound_, radius);
-        if (flight == Flight::found) {
-          Passage passage = taken(radius);
-          if (passage.radius <= best.radius) flight = Flight::none;
-          if (passage.radius > best.radius) best = std::move(passage);
-        }
+        if (flight == Flight::found) best = taken(radius);
         more *= coarser;
       }
       if (flight != Flight::found) break;
@@ -106,6 +104,7 @@ class WidestFlight {
     Passage passage = refine(survey_, measure_, std::max(options_.spacing, search_.side_for(radius)), way);
     if (passage.found && passage.radius >= radius) return passage;
     // What it was found for is certified as it is.
+    passage = Passage{};
     Stations stations;
     double least = unknown;
     Vec3 narrowest = way.front();
