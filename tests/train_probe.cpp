@@ -164,6 +164,50 @@ TEST(Probe, RefusesASizeThatNoWalkerHas) {
   EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), across, {.radius = 0.3, .height = 0.5})), Error);
 }
 
+TEST(Probe, RefusesToFlyWhatIsNoSphereBeforeItSearches) {
+  ProbeQuestion question = flying(across);
+  bool asked = false;
+  question.progress = [&](std::uint64_t) { return asked = true; };
+  EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8})), Error);
+  EXPECT_FALSE(asked);
+}
+
+TEST(Probe, ProvesANoOnlyOfBodiesThatTheBoundShutsOut) {
+  // The widest way is known to some millimetres: a body between it and the bound may still get through.
+  const Survey survey = survey_of(room(0.5));
+  const Passage widest = probe(survey, flying(across), {.radius = 0.3, .height = 0.6}).passage;
+  ASSERT_TRUE(widest.proven);
+  ASSERT_GT(widest.bound, widest.radius + 1e-3);
+  const double between = 0.5 * (widest.radius + widest.bound);
+  const ProbeAnswer open = probe(survey, flying(across), {.radius = between, .height = 2.0 * between});
+  EXPECT_FALSE(open.wide_enough);
+  ASSERT_GT(open.passage.bound, between);
+  EXPECT_FALSE(open.proven);
+  const double wider = widest.bound + 1e-3;
+  EXPECT_TRUE(probe(survey, flying(across), {.radius = wider, .height = 2.0 * wider}).proven);
+  // A yes is about the widest way.
+  EXPECT_TRUE(probe(survey, flying(across), {.radius = 0.2, .height = 0.4}).proven);
+}
+
+TEST(Probe, FliesStraightWhereThereIsNothing) {
+  const Survey nothing = survey_of({});
+  const ProbeAnswer answer = probe(nothing, flying(across), {.radius = 0.3, .height = 0.6});
+  EXPECT_TRUE(answer.passable);
+  const std::vector<Vec3> path = probed_path(nothing, flying(across), answer);
+  ASSERT_GE(path.size(), 2u);
+  EXPECT_EQ(path.front(), across.from);
+  EXPECT_EQ(path.back(), across.to);
+  for (const Vec3& place : path) EXPECT_LE(glm::distance(place, across.from), 17.0);
+}
+
+TEST(Probe, HasNoPathOfANo) {
+  const Survey survey = survey_of(room(0.0));
+  for (const ProbeQuestion& question : {across, flying(across)}) {
+    const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.6});
+    EXPECT_TRUE(probed_path(survey, question, answer).empty());
+  }
+}
+
 TEST(Probe, LetsASphereClimbItsRadiusAndACapsuleWhatIsBelowItsHead) {
   EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.2, .height = 0.4}), 0.2);
   EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.3, .height = 0.8}), 0.2);
@@ -178,6 +222,9 @@ TEST(Probe, ShowsWhatIsReachedFromBothEnds) {
   ASSERT_FALSE(reach.from_start.empty() || reach.from_target.empty());
   for (const Vec3& place : reach.from_start) EXPECT_LT(place.x, 10.0);
   for (const Vec3& place : reach.from_target) EXPECT_GT(place.x, 10.0);
+  ProbeQuestion cancelled = across;
+  cancelled.progress = [](std::uint64_t) { return false; };
+  EXPECT_THROW(static_cast<void>(probed_reach(survey, cancelled, answer, 100'000)), Cancelled);
 }
 
 }  // namespace

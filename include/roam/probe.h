@@ -45,7 +45,7 @@ struct ProbeQuestion {
 
 struct ProbedSize {
   double radius = 0.3;
-  double height = 0.6;  ///< at least twice the radius; exactly that, as flying always: a sphere
+  double height = 0.6;  ///< at least twice the radius; exactly that, as flying must be: a sphere
 };
 
 /// What a body of that size climbs: a sphere at most its radius, a capsule at most what is below its round head when it
@@ -96,7 +96,8 @@ struct ProbeAnswer {
   bool wide_enough = false;  ///< there is one, whatever the walker did
   Passage passage;           ///< the widest way for bodies that are as high and climb as much
   double narrowest = 0.0;    ///< no way for a body of a radius up to that was looked for
-  /// That no wider way exists, or none that is wide enough, is certified; of an end that is too low, that it is.
+  /// Where a way is wide enough: as Passage::proven. Else: that none for a body of this radius exists is certified; of
+  /// an end that is too low, that it is.
   bool proven = false;
   Vec3 start{0.0}, target{0.0};     ///< where a body stands for `from` and `to`: at most 2 m aside, in sight
   std::optional<ProbeLimit> limit;  ///< none where nothing on the way is as narrow as is looked for
@@ -113,19 +114,21 @@ class NoRoomAtEnd : public Error {
 };
 
 /// The answers for all sizes, in their order. Sizes of one height that climb alike share one search. Throws Error for
-/// sizes that no walker has and what widest_way throws, NoRoomAtEnd, and Cancelled when `progress` says so.
+/// sizes that no walker has, and flying for one that is no sphere, what widest_way throws, NoRoomAtEnd, and Cancelled
+/// when `progress` says so.
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
                                              std::span<const ProbedSize> sizes);
 /// The answer for one.
 [[nodiscard]] ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const ProbedSize& size);
 
-/// The way as places of the body's centre, for follow(). Flying, it keeps so near the scene, as far as the ends allow,
-/// that who goes it has not left it.
+/// The way as places of the body's centre, for follow(); empty where none was found. Flying, it keeps so near the
+/// scene, as far as the ends allow, that who goes it has not left it.
 [[nodiscard]] std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question,
                                             const ProbeAnswer& answer);
 
 /// Places that the smallest bodies come to from both ends, at most `most` from each, for a picture of a no: of the
-/// feet, flying of the centre.
+/// feet, flying of the centre. Flying, none farther beyond the box of the scene than some metres, nor from an end that
+/// lies there. Throws Cancelled when `progress` says so.
 struct ProbeReach {
   std::vector<Vec3> from_start, from_target;
 };

@@ -1,5 +1,7 @@
 #include "roam/probe.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -150,7 +152,12 @@ PassageOptions training::options_for(const ProbeQuestion& question, const Probed
 }
 
 std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
-  for (const ProbedSize& size : sizes) static_cast<void>(probed_body(question, size));
+  for (const ProbedSize& size : sizes) {
+    static_cast<void>(probed_body(question, size));
+    if (question.mode == Mode::fly && !is_sphere(size))
+      throw Error(fmt::format("what flies is a sphere: a height of {:g} m is not twice the radius of {:g} m",
+                              size.height, size.radius));
+  }
   // Bodies that are measured alike, each with its largest and smallest radius.
   struct Group {
     double least = std::numeric_limits<double>::infinity();
@@ -197,7 +204,7 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
     answer.target = group.target;
     const Passage& p = answer.passage;
     answer.wide_enough = p.found && p.radius >= size.radius;
-    answer.proven = p.proven || (!answer.wide_enough && p.bound < size.radius);
+    answer.proven = answer.wide_enough ? p.proven : p.bound < size.radius;
     if (group.low) {
       answer.limit = group.low;
       answer.missing = group.low->needed - group.low->size;
@@ -215,8 +222,10 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
 
 std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   std::vector<Vec3> path = answer.passage.way;
-  if (question.mode == Mode::fly)
-    return taken_to(survey.world().bounds().grown(beside_scene * answer.size.radius), path);
+  if (question.mode == Mode::fly) {
+    const Box box = survey.world().bounds();
+    return box.empty() ? path : taken_to(box.grown(beside_scene * answer.size.radius), path);
+  }
   for (Vec3& place : path) place.z += 0.5 * answer.size.height;
   return path;
 }
@@ -234,9 +243,12 @@ ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, con
     const auto root = tree.seed(end);
     if (!root) return places;
     const std::uint64_t until = tree.size() + most;
+    bool wanted = true;
     static_cast<void>(tree.grow(*root, no_node, [&](std::uint64_t now) {
-      return now < until && (!question.progress || question.progress(now));
+      wanted = !question.progress || question.progress(now);
+      return wanted && now < until;
     }));
+    if (!wanted) throw Cancelled();
     for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
       if (tree.root(id) == *root) places.push_back(tree.node(id).place);
     }
