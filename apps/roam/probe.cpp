@@ -122,16 +122,6 @@ void check_output(const ProbeOptions& o, const char* option, const std::optional
   }
 }
 
-/// What a picture is called: its scene, without folders.
-std::string file_names(const SceneOptions& scene) {
-  std::string text;
-  for (const auto& path : scene.scenes) {
-    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
-    text += (text.empty() ? "" : ", ") + name.string();
-  }
-  return text;
-}
-
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::ofstream out(*o.path);
   out << "# " << explain(o.question, answer) << "\n";

@@ -102,4 +102,13 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
   return {Survey::build(std::move(meshes), how), std::move(identity)};
 }
 
+std::string file_names(const SceneOptions& scene) {
+  std::string text;
+  for (const auto& path : scene.scenes) {
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    text += (text.empty() ? "" : ", ") + name.string();
+  }
+  return text;
+}
+
 }  // namespace roam::app

@@ -3,6 +3,7 @@
 /// What `roam train` and `roam probe` ask: a scene, or a store, read whole and surveyed.
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "roam/profile.h"
 #include "roam/survey.h"
@@ -22,5 +23,8 @@ struct Surveyed {
 /// Throws what import_scene, Store::open and Survey::build throw, UsageError for options that mean nothing to a store,
 /// and roam::Error for a store that is larger than the memory that is free.
 [[nodiscard]] Surveyed survey_scene(const SceneOptions& options, double slope_degrees);
+
+/// What a picture is called: its scene, without folders.
+[[nodiscard]] std::string file_names(const SceneOptions& scene);
 
 }  // namespace roam::app

@@ -106,7 +106,7 @@ ExitStatus train(TrainVerbOptions o) {
   if (drawing && interrupted()) {
     fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture.string());
   } else if (drawing) {
-    drawing->write(picture::opening_sheet(report.scene, views_of(report), scene.survey.meshes()));
+    drawing->write(picture::opening_sheet(file_names(o.scene), views_of(report), scene.survey.meshes()));
   }
   if (!report.training.complete) return failed;
   return report.training.feasible ? done : answer_no;
