@@ -94,5 +94,22 @@ TEST(TrainRealScenes, EndsDoNotDependOnHowAnObstacleCourseLiesOrIsWritten) {
   }
 }
 
+TEST(TrainRealScenes, WaysInADungeonKeepOutOfAGrooveThatHoldsTheWalker) {
+  ROAM_NEEDS_TEST_DATA();
+  const Training t = trained(import_scene(test_data() / "recast/dungeon.obj", {.up = UpAxis::y}).meshes);
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  EXPECT_NE(t.answer.find("cannot be walked to"), std::string::npos) << t.answer;
+}
+
+TEST(TrainRealScenes, WaysInAHouseLeadOverNoFurnitureThatNobodyClimbs) {
+  ROAM_NEEDS_TEST_DATA();
+  const Training t = trained(import_scene(test_data() / "building/small_house.glb").meshes);
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  ASSERT_TRUE(t.largest.has_value()) << t.answer;
+  EXPECT_NEAR(*t.largest, 0.240, 1e-3);
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -196,6 +196,14 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
   if (layout.uncertain > 0)
     text += fmt::format(" {} more ways that were planned could not be certified for any size, and do not count.",
                         layout.uncertain);
+  if (!layout.unwalked.empty()) {
+    const Unwalked& first = layout.unwalked.front();
+    text += fmt::format(" {} that {} drawn cannot be walked to, and {} not count: from {} to {} a walker {} at {}.",
+                        layout.unwalked.size() == 1 ? "1 end" : fmt::format("{} ends", layout.unwalked.size()),
+                        layout.unwalked.size() == 1 ? "was" : "were", layout.unwalked.size() == 1 ? "does" : "do",
+                        at(first.from), at(first.to),
+                        judged(first.last.outcome) == Judgement::flies_off ? "falls" : "is stopped", at(first.last.at));
+  }
   for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
   if (contradictions.size() > most_told)
     text += fmt::format(" {} more trials contradict the geometry.", contradictions.size() - most_told);

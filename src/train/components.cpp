@@ -215,6 +215,21 @@ class Search {
     return closed * reversed_ratio < area - closed;
   }
 
+  /// Nobody is carried over a gap to whose bottom he walks: what hangs together only so comes apart. By id: which of
+  /// the places that hang in no tree now hung in a whole one.
+  [[nodiscard]] std::vector<bool> close_steps_down() {
+    std::vector<bool> was_whole(tree_.size(), false);
+    const std::vector<NodeId> closed = tree_.over_steps_down(was_reached_);
+    if (closed.empty()) return was_whole;
+    for (std::size_t id = 0; id < tree_.size(); ++id) {
+      const NodeId root = tree_.root(static_cast<NodeId>(id));
+      was_whole[id] = std::find(whole_.begin(), whole_.end(), root) != whole_.end();
+    }
+    tree_.close(closed);
+    for (const NodeId id : closed) was_reached_[id] = false;
+    return was_whole;
+  }
+
   /// Every place that was reached is in one of them.
   [[nodiscard]] std::vector<Component> components() {
     std::vector<Component> found;
@@ -227,6 +242,7 @@ class Search {
       found.push_back(std::move(c));
     };
     note_reached();
+    const std::vector<bool> was_whole = close_steps_down();
     for (const NodeId root : whole_)
       if (tree_.root(root) == root) add(root, true);
     // Of trees that were cut, one may have taken places from the middle of another.
@@ -234,7 +250,7 @@ class Search {
       const auto node = static_cast<NodeId>(id);
       if (!was_reached_[id] || number.contains(tree_.root(node))) continue;
       tree_.join(node, was_reached_);
-      add(node, false);
+      add(node, was_whole[id]);
     }
     for (std::size_t id = 0; id < tree_.size(); ++id) {
       if (was_reached_[id])

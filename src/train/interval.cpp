@@ -73,6 +73,14 @@ std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& opti
   return cracks;
 }
 
+void note_width(const FoundCrack& crack, double narrowest, Evidence& evidence) {
+  evidence.widest_anywhere = std::max(evidence.widest_anywhere, crack.radius);
+  // Beside a wall a foot's disc finds room where no body does.
+  const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
+  const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest : crack.radius;
+  evidence.least_foot = std::max(evidence.least_foot, foot + foot_margin);
+}
+
 /// Fills in what is found out path by path.
 class Paths {
  public:
@@ -85,26 +93,10 @@ class Paths {
     const Crossings crossings(survey_, evidence_.cracks, layout_.measure.narrowest);
     for (std::size_t i = 0; i < training_.paths.size(); ++i) cross(crossings, i);
     if (options_.paths == 0) add_crossings(crossings);
-    for (std::size_t i = 0; i < evidence_.cracks.size(); ++i) {
-      const FoundCrack& crack = evidence_.cracks[i];
-      training_.cracks.push_back(crack);
-      if (crack.kind != Crack::Kind::crack) continue;
-      if (crack.shallow_depth == 0.0)
-        note_width(crack);
-      else if (!evidence_.shallow || crack.radius > evidence_.cracks[*evidence_.shallow].radius)
-        evidence_.shallow = i;
-    }
+    training_.cracks.assign(evidence_.cracks.begin(), evidence_.cracks.end());
   }
 
  private:
-  void note_width(const FoundCrack& crack) {
-    evidence_.widest_anywhere = std::max(evidence_.widest_anywhere, crack.radius);
-    // Beside a wall a foot's disc finds room where no body does.
-    const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
-    const double foot = is_beside_wall ? crack.foot + foot_precision + layout_.measure.narrowest : crack.radius;
-    evidence_.least_foot = std::max(evidence_.least_foot, foot + foot_margin);
-  }
-
   void describe(std::size_t i) {
     const Passage& passage = layout_.paths[i].passage;
     TrainedPath path;
@@ -171,19 +163,46 @@ void describe_decisive(const Layout& layout, const Evidence& evidence, Training&
 
 }  // namespace
 
-Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Stages& stages,
-                   Training& training) {
+Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages) {
   Evidence evidence;
-  Paths paths(survey, options, layout, training, evidence);
-  if (options.mode == Mode::walk && !layout.components.empty() && !stages.ended()) {
-    stages.begin("looking for cracks");
-    evidence.cracks = cracks_of(survey, options, layout, stages);
-    paths.cross_all();
-    evidence.complete = !stages.ended();
+  if (options.mode != Mode::walk || layout.components.empty() || stages.ended()) return evidence;
+  stages.begin("looking for cracks");
+  evidence.cracks = cracks_of(survey, options, layout, stages);
+  evidence.complete = !stages.ended();
+  for (std::size_t i = 0; i < evidence.cracks.size(); ++i) {
+    const FoundCrack& crack = evidence.cracks[i];
+    if (crack.kind != Crack::Kind::crack) continue;
+    if (crack.shallow_depth == 0.0)
+      note_width(crack, layout.measure.narrowest, evidence);
+    else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius)
+      evidence.shallow = i;
   }
+  return evidence;
+}
+
+BodySize body_of_paths(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
+                       const Crossings& crossings, const Layout& layout) {
+  Training first;
+  for (const PlannedPath& planned : layout.paths) {
+    const Passage& passage = planned.passage;
+    TrainedPath& path = first.paths.emplace_back();
+    if (passage.limited) path.largest = passage.radius;
+    if (path.largest) first.largest = std::min(first.largest.value_or(passage.radius), passage.radius);
+    for (const Crossing& crossing : crossings.on(passage.way)) {
+      const FoundCrack& crack = evidence.cracks[crossing.crack];
+      if (crack.kind == Crack::Kind::crack) first.smallest = std::max(first.smallest, crack.radius);
+    }
+  }
+  choose_body(kind, options, evidence, first);
+  return {first.radius, first.support_radius};
+}
+
+void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Evidence& evidence,
+               Training& training) {
+  Paths paths(survey, options, layout, training, evidence);
+  if (!evidence.cracks.empty()) paths.cross_all();
   training.trapped_radius = trapped_below(training.smallest, options.step);
   describe_decisive(layout, evidence, training);
-  return evidence;
 }
 
 bool sinks_into(double radius, const Crack& crack) { return radius < carried_share * crack.radius; }

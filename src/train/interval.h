@@ -39,11 +39,24 @@ struct Evidence {
   bool complete = true;                  ///< false: ended before all cracks were found
 };
 
-/// Looks for the cracks of what was reached, and fills in paths, cracks, both ends, trapped_radius
-/// and decisive. Where the number of paths is left open, a crack that is wider than those on the paths and that nobody
-/// can walk around gets a path of its own.
-[[nodiscard]] Evidence find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Stages& stages,
-                                 Training& training);
+/// The cracks of what was reached.
+[[nodiscard]] Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout,
+                                   Stages& stages);
+
+/// A body and its foot, m.
+struct BodySize {
+  double radius = 0.0, support_radius = 0.0;
+  bool operator==(const BodySize&) const = default;
+};
+
+/// The body that choose_body() chooses for paths that go over those cracks, as long as no more are added.
+[[nodiscard]] BodySize body_of_paths(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
+                                     const Crossings& crossings, const Layout& layout);
+
+/// Fills in paths, cracks, both ends, trapped_radius and decisive. Where the number of paths is left open, a crack that
+/// is wider than those on the paths and that nobody can walk around gets a path of its own.
+void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Evidence& evidence,
+               Training& training);
 
 /// Whether a body is so much smaller than a crack that it sinks into it.
 [[nodiscard]] bool sinks_into(double radius, const Crack& crack);

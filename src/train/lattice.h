@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "roam/passage.h"
@@ -82,6 +83,12 @@ class WidestTree {
   /// Makes one tree, from `root`, of those of `among` (by id; all have been reached once) that hang together with it,
   /// whichever trees they hang in by now: growths that were ended take places from each other. Makes no places.
   void join(NodeId root, const std::vector<bool>& among);
+
+  /// On foot: the places of `among` (by id) that hang over a gap of the floor which is none: another place of the same
+  /// tree stands on the floor straight below, so that it is a step down, and carries nobody.
+  [[nodiscard]] std::vector<NodeId> over_steps_down(const std::vector<bool>& among) const;
+  /// Takes places out of the lattice, and all that hung in one tree with them out of that: see join.
+  void close(std::span<const NodeId> places);
 
   /// Of its lattice, metres.
   [[nodiscard]] double spacing() const;

@@ -22,6 +22,11 @@ class LatticeGraph {
   virtual bool goes(NodeId from, NodeId to) = 0;
   /// Flying: all places whose cells touch that of a place, whoever gets from one to the other. Made if need be.
   virtual Neighbours beside(NodeId id) = 0;
+  /// On foot: of a place where a foot is carried over a gap, the next one straight below that stands on floor; no_node
+  /// where there is none, or the place is on floor itself.
+  [[nodiscard]] virtual NodeId floor_under_gap(NodeId /*id*/) const { return no_node; }
+  /// Nobody can be at a place after all: it has no neighbours any more.
+  virtual void close(NodeId /*id*/) {}
   /// Those neighbours that are known.
   [[nodiscard]] virtual Neighbours neighbours(NodeId id) const = 0;
 

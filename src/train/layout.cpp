@@ -160,8 +160,12 @@ Vec3 widest_beside(const Survey& survey, const Measure& measure, double spacing,
 }  // namespace
 
 Passage plan_path(const Survey& survey, const Layout& layout, double spacing, const Ends& ends) {
+  return plan_along(survey, layout, spacing, layout.tree.way(ends.from, ends.to));
+}
+
+Passage plan_along(const Survey& survey, const Layout& layout, double spacing, std::span<const NodeId> nodes) {
   std::vector<Vec3> places;
-  for (const NodeId id : layout.tree.way(ends.from, ends.to)) places.push_back(layout.tree.node(id).place);
+  for (const NodeId id : nodes) places.push_back(layout.tree.node(id).place);
   if (places.size() > 1) {
     const auto widest = [&](const Vec3& end) { return widest_beside(survey, layout.measure, spacing, end); };
     const Vec3 first = widest(places.front()), last = widest(places.back());
@@ -173,7 +177,7 @@ Passage plan_path(const Survey& survey, const Layout& layout, double spacing, co
 
 Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages) {
   const Measure measure = measure_of(options);
-  Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, {}, {}, 0};
+  Layout layout{measure, WidestTree(survey, measure, options.spacing), {}, {}, {}, {}, 0, {}};
   stages.begin("looking for places");
   std::vector<Component> found =
       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); });

@@ -19,7 +19,15 @@ namespace roam::training {
 
 struct PlannedPath {
   Ends ends;
-  Passage passage;  ///< between them, refined
+  Passage passage;        ///< between them, refined
+  bool is_widest = true;  ///< false: planned round a place where a walker was stopped
+};
+
+/// A way that was planned and that no walker came along.
+struct Unwalked {
+  Ends ends;
+  Vec3 from{0.0}, to{0.0};  ///< of the feet
+  Trial last;               ///< that was made of it
 };
 
 struct Layout {
@@ -29,7 +37,8 @@ struct Layout {
   std::vector<Rooms> rooms;           ///< of each
   std::vector<ConnectedPart> parts;   ///< these, then those that are not, for what they were taken for
   std::vector<PlannedPath> paths;
-  std::size_t uncertain = 0;  ///< ways that were planned and then certified for no body: not among the paths
+  std::size_t uncertain = 0;       ///< ways that were planned and then certified for no body: not among the paths
+  std::vector<Unwalked> unwalked;  ///< nor are these
 };
 
 /// Why a component of that verdict is not roamed: ConnectedPart::why.
@@ -41,6 +50,10 @@ struct Layout {
 
 /// The way between two places of a component, refined.
 [[nodiscard]] Passage plan_path(const Survey& survey, const Layout& layout, double spacing, const Ends& ends);
+
+/// The same along places of the lattice.
+[[nodiscard]] Passage plan_along(const Survey& survey, const Layout& layout, double spacing,
+                                 std::span<const NodeId> nodes);
 
 /// Components, rooms and paths; where `stages` says to end, what was found by then.
 [[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);

@@ -104,6 +104,8 @@ class Proof {
     const double place = nearest_on(passage.way, passage.opening->point, kind_.mode).along;
     all.push_back({path, inside_share * largest, foot_, stretch(passage.way, place, run_up), Judgement::passed,
                    "just inside the opening"});
+    // Beside a way that was planned round something there is a wider one, and a larger body may find it.
+    if (!layout_.paths[path].is_widest) return;
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "train/answer.h"
+#include "train/confirm.h"
 #include "train/inside.h"
 #include "train/interval.h"
 #include "train/layout.h"
@@ -74,7 +75,9 @@ void leave_out_parts_without_paths(const Layout& layout, Training& training) {
 
 void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Layout& layout,
                    Stages& stages, Training& training) {
-  const Evidence evidence = find_ends(survey, options, layout, stages, training);
+  Evidence evidence = find_cracks(survey, options, layout, stages);
+  if (options.mode == Mode::walk && !stages.ended()) confirm_paths(survey, options, kind, evidence, layout, stages);
+  find_ends(survey, options, layout, evidence, training);
   choose_body(kind, options, evidence, training);
   if (!stages.ended()) add_regions(survey, options, layout, stages, training);
   if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);

@@ -54,6 +54,8 @@ class WalkLattice final : public LatticeGraph {
   Neighbours expand(NodeId id) override;
   bool goes(NodeId from, NodeId to) override;
   Neighbours beside(NodeId id) override { return expand(id); }
+  [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
+  void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:
@@ -194,6 +196,28 @@ bool WalkLattice::goes(NodeId from, NodeId to) {
   columns_[from].tried = static_cast<std::uint8_t>(columns_[from].tried | bit);
   columns_[to].tried = static_cast<std::uint8_t>(columns_[to].tried | 1U << opposite(direction));
   return true;
+}
+
+NodeId WalkLattice::floor_under_gap(NodeId id) const {
+  if (!columns_[id].carried) return no_node;
+  NodeId best = no_node;
+  for (NodeId other = table_.find(columns_[id].at); other != no_node; other = columns_[other].next) {
+    if (columns_[other].carried || columns_[other].level >= columns_[id].level || nodes_[other].clearance == 0.0F)
+      continue;
+    if (best == no_node || columns_[other].level > columns_[best].level) best = other;
+  }
+  return best;
+}
+
+void WalkLattice::close(NodeId id) {
+  constexpr std::uint8_t all_directions = 0xFF;
+  for (int direction = 0; direction < directions; ++direction) {
+    NodeId& there = columns_[id].to[static_cast<std::size_t>(direction)];
+    if (there != no_node) columns_[there].to[static_cast<std::size_t>(opposite(direction))] = no_node;
+    there = no_node;
+  }
+  columns_[id].settled = all_directions;
+  nodes_[id].clearance = 0.0F;
 }
 
 Neighbours WalkLattice::neighbours(NodeId id) const {

@@ -145,6 +145,30 @@ void WidestTree::join(NodeId root, const std::vector<bool>& among) {
   }
 }
 
+std::vector<NodeId> WidestTree::over_steps_down(const std::vector<bool>& among) const {
+  const State& s = *state_;
+  std::vector<NodeId> found;
+  for (NodeId id = 0; id < static_cast<NodeId>(s.root.size()); ++id) {
+    if (s.root[id] == no_node || !among[id]) continue;
+    const NodeId below = s.graph->floor_under_gap(id);
+    if (below != no_node && s.root[below] == s.root[id]) found.push_back(id);
+  }
+  return found;
+}
+
+void WidestTree::close(std::span<const NodeId> places) {
+  State& s = *state_;
+  s.forget_edges();
+  s.growing = no_node;
+  std::vector<bool> cut(s.root.size(), false);
+  for (const NodeId id : places) {
+    if (s.root[id] != no_node) cut[s.root[id]] = true;
+    s.graph->close(id);
+  }
+  for (NodeId id = 0; id < static_cast<NodeId>(s.root.size()); ++id)
+    if (s.root[id] != no_node && cut[s.root[id]]) s.root[id] = s.parent[id] = no_node;
+}
+
 double WidestTree::spacing() const { return state_->spacing; }
 std::size_t WidestTree::size() const { return state_->graph->size(); }
 const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }

@@ -1,0 +1,259 @@
+#include "train/confirm.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "train/crossings.h"
+#include "train/on_way.h"
+
+namespace roam::training {
+namespace {
+
+/// How often the ways are planned again.
+constexpr int most_rounds = 12;
+/// Places that a way round may be looked for beyond those that are known.
+constexpr std::uint64_t most_new_places = 100'000;
+/// m: a way that rises by more where a walker was stopped climbs something, and places at its top are shut; to this
+/// above and below.
+constexpr double climbs = 0.1;
+/// What is shut grows by so much each time that the way is stopped near by, up to so many metres.
+constexpr double growth = 1.6;
+constexpr double most_shut = 2.0;
+
+/// Where no way leads any more: a disc, seen from above, at one level.
+struct Shut {
+  Vec3 place{0.0};
+  double reach = 0.0;
+  double level = 0.0;  ///< how far above and below
+  [[nodiscard]] bool holds(const Vec3& p) const {
+    return std::hypot(p.x - place.x, p.y - place.y) <= reach && std::abs(p.z - place.z) <= level;
+  }
+};
+
+/// How a walker was stopped.
+struct Stop {
+  Trial trial;
+  double along = 0.0;  ///< m of the way
+};
+
+/// What is known of one path.
+struct Tries {
+  std::vector<NodeId> nodes;
+  std::vector<Shut> shut;
+  std::optional<Stop> stop;
+  BodySize walked;    ///< that came through
+  bool gone = false;  ///< no way is left
+};
+
+Vec3 place_at(const std::vector<Vec3>& way, double along) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length = glm::distance(way[i - 1], way[i]);
+    if (along <= length)
+      return way[i - 1] + (length > 0.0 ? std::max(along, 0.0) / length : 0.0) * (way[i] - way[i - 1]);
+    along -= length;
+  }
+  return way.back();
+}
+
+/// The first so many metres of a way.
+std::vector<Vec3> beginning(const std::vector<Vec3>& way, double along) {
+  std::vector<Vec3> first{way.front()};
+  for (std::size_t i = 1; i < way.size() && along > 0.0; ++i) {
+    const double length = glm::distance(way[i - 1], way[i]);
+    first.push_back(along < length ? way[i - 1] + along / length * (way[i] - way[i - 1]) : way[i]);
+    along -= length;
+  }
+  return first;
+}
+
+class Confirmation {
+ public:
+  Confirmation(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+               Layout& layout, Stages& stages)
+      : survey_(survey),
+        options_(options),
+        kind_(kind),
+        evidence_(evidence),
+        layout_(layout),
+        stages_(stages),
+        crossings_(survey, evidence.cracks, layout.measure.narrowest) {}
+
+  void run() {
+    std::vector<Tries> tries(layout_.paths.size());
+    for (std::size_t i = 0; i < tries.size(); ++i)
+      tries[i].nodes = layout_.tree.way(layout_.paths[i].ends.from, layout_.paths[i].ends.to);
+    for (int round = 0; walk_all(tries) && !stages_.ended(); ++round) {
+      for (std::size_t i = 0; i < tries.size(); ++i)
+        if (tries[i].stop) go_round(layout_.paths[i], tries[i], round < most_rounds);
+      plan_again(tries);
+      take_out(tries);
+      stages_.at(std::min(1.0, static_cast<double>(round) / most_rounds));
+    }
+  }
+
+ private:
+  /// Walks what has not been walked by the body that comes of the paths. False: nobody is stopped on any.
+  bool walk_all(std::vector<Tries>& tries) {
+    const BodySize body = body_of_paths(kind_, options_, evidence_, crossings_, layout_);
+    tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
+      Tries& t = tries[i];
+      const Passage& passage = layout_.paths[i].passage;
+      // Where that body does not fit, one that does.
+      BodySize fitting = body;
+      if (passage.limited && passage.radius < body.radius) fitting.radius = inside_share * passage.radius;
+      if (stages_.ended() || t.walked == fitting) return;
+      t.stop = stop_on(passage, fitting);
+      if (!t.stop) t.walked = fitting;
+    });
+    return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
+  }
+
+  /// Where a body is stopped or falls; none where it comes through, or is not meant to.
+  [[nodiscard]] std::optional<Stop> stop_on(const Passage& passage, const BodySize& body) const {
+    const auto tried = [&](const std::vector<Vec3>& way) {
+      return try_way(survey_, kind_, body.radius, body.support_radius, way, [this] { return !stages_.ended(); });
+    };
+    Stop stop{.trial = tried(passage.way)};
+    if (stop.trial.outcome == Outcome::reached || sinks_into_shallow(passage.way, body.radius)) return std::nullopt;
+    stop.along = nearest_on(passage.way, feet(stop.trial), kind_.mode).along;
+    if (judged(stop.trial.outcome) != Judgement::flies_off) return stop;
+    // Where it left the level of the way, and not where it came to lie.
+    double goes = 0.0, falls = passage.length;
+    while (falls - goes > 0.5 * options_.spacing && !stages_.ended()) {
+      const double half = 0.5 * (goes + falls);
+      (tried(beginning(passage.way, half)).outcome == Outcome::reached ? goes : falls) = half;
+    }
+    stop.along = goes;
+    return stop;
+  }
+
+  /// No foot helps over such a trench: the answer says so.
+  [[nodiscard]] bool sinks_into_shallow(const std::vector<Vec3>& way, double radius) const {
+    const std::vector<Crossing> on = crossings_.on(way);
+    return std::any_of(on.begin(), on.end(), [&](const Crossing& crossing) {
+      const FoundCrack& crack = evidence_.cracks[crossing.crack];
+      return crack.kind == Crack::Kind::crack && crack.shallow_depth > 0.0 && sinks_into(radius, crack);
+    });
+  }
+
+  [[nodiscard]] Vec3 feet(const Trial& trial) const {
+    const double height = kind_.height > 0.0 ? kind_.height : 2.0 * trial.radius;
+    return trial.at - Vec3(0.0, 0.0, 0.5 * height);
+  }
+
+  /// Shuts the lattice where the walker was stopped, and looks for another way of it.
+  void go_round(const PlannedPath& path, Tries& t, bool may_try) {
+    t.gone = true;
+    if (!may_try || t.stop->trial.outcome == Outcome::held) return;
+    shut_at(path.passage, t);
+    const Vec3 end = layout_.tree.node(path.ends.to).place;
+    const auto blocked = [&](const Node& node) {
+      return node.place != end &&
+             std::any_of(t.shut.begin(), t.shut.end(), [&](const Shut& s) { return s.holds(node.place); });
+    };
+    const std::uint64_t most = layout_.tree.size() + most_new_places;
+    t.nodes = layout_.tree.way_round(path.ends.from, path.ends.to, blocked, 0.0,
+                                     [&](std::uint64_t places) { return places < most && !stages_.ended(); });
+    t.gone = t.nodes.size() < 2;
+  }
+
+  void shut_at(const Passage& passage, Tries& t) const {
+    const double spacing = options_.spacing, from = t.stop->along, ahead = t.stop->trial.radius + spacing;
+    const Vec3 behind = place_at(passage.way, from - spacing);
+    Vec3 top = behind;
+    for (double at = 0.0; at <= ahead; at += 0.25 * spacing) {
+      const Vec3 place = place_at(passage.way, from + at);
+      if (place.z > top.z + 0.2 * climbs) top = place;
+    }
+    const bool up = top.z - behind.z > climbs;
+    Shut shut{up ? top : place_at(passage.way, from + 0.5 * ahead), (up ? 1.5 : 1.0) * spacing,
+              up ? climbs : layout_.measure.step};
+    const double most = up ? most_shut : 3.0 * spacing;
+    for (const Shut& other : t.shut) {
+      if (std::hypot(other.place.x - shut.place.x, other.place.y - shut.place.y) <= other.reach + 2.0 * spacing &&
+          std::abs(other.place.z - shut.place.z) <= shut.level)
+        shut.reach = std::max(shut.reach, std::min(most, growth * other.reach));
+    }
+    t.shut.push_back(shut);
+    // The way itself is shut in any case.
+    if (t.nodes.size() < 3) return;
+    const auto apart = [&](NodeId id) { return glm::distance(layout_.tree.node(id).place, shut.place); };
+    const NodeId nearest = *std::min_element(t.nodes.begin() + 1, t.nodes.end() - 1,
+                                             [&](NodeId a, NodeId b) { return apart(a) < apart(b); });
+    t.shut.push_back({layout_.tree.node(nearest).place, 0.01 * spacing, climbs});
+  }
+
+  void plan_again(std::vector<Tries>& tries) {
+    tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
+      Tries& t = tries[i];
+      if (!t.stop || t.gone || stages_.ended()) return;
+      Passage passage = plan_along(survey_, layout_, options_.spacing, t.nodes);
+      // A way round that is too narrow for the body that was stopped is no way of its.
+      const bool enough = passage.found && !(passage.limited && passage.radius < t.stop->trial.radius);
+      t.gone = !enough || passage.way.size() < 2;
+      if (t.gone) return;
+      layout_.paths[i].passage = std::move(passage);
+      layout_.paths[i].is_widest = false;
+      t.walked = {};
+      t.stop.reset();
+    });
+  }
+
+  void take_out(std::vector<Tries>& tries) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < tries.size(); ++i) {
+      if (tries[i].gone) {
+        const Passage& p = layout_.paths[i].passage;
+        layout_.unwalked.push_back({layout_.paths[i].ends, p.way.front(), p.way.back(), tries[i].stop->trial});
+        continue;
+      }
+      if (kept != i) {
+        tries[kept] = std::move(tries[i]);
+        layout_.paths[kept] = std::move(layout_.paths[i]);
+      }
+      ++kept;
+    }
+    tries.resize(kept);
+    layout_.paths.resize(kept);
+  }
+
+  const Survey& survey_;
+  const TrainOptions& options_;
+  const BodyKind& kind_;
+  const Evidence& evidence_;
+  Layout& layout_;
+  Stages& stages_;
+  const Crossings crossings_;
+};
+
+}  // namespace
+
+void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+                   Layout& layout, Stages& stages) {
+  stages.begin("walking the paths");
+  Confirmation(survey, options, kind, evidence, layout, stages).run();
+  if (layout.unwalked.empty() || stages.ended()) return;
+  // Other ends, once: of the parts whose ends could not be walked to.
+  const std::size_t before = layout.paths.size();
+  for (std::size_t i = 0; i < layout.components.size(); ++i) {
+    const std::vector<NodeId>& nodes = layout.components[i].nodes;
+    const auto count = std::count_if(layout.unwalked.begin(), layout.unwalked.end(), [&](const Unwalked& u) {
+      return std::binary_search(nodes.begin(), nodes.end(), u.ends.from);
+    });
+    if (count == 0) continue;
+    for (const Ends& ends : draw_paths(layout.tree, layout.components[i], layout.rooms[i], static_cast<int>(count),
+                                       options.seed + i + layout.components.size())) {
+      Passage passage = plan_path(survey, layout, options.spacing, ends);
+      if (passage.found && passage.way.size() > 1) layout.paths.push_back({ends, std::move(passage)});
+    }
+  }
+  if (layout.paths.size() > before) Confirmation(survey, options, kind, evidence, layout, stages).run();
+}
+
+}  // namespace roam::training

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Planned ways are confirmed by the real Walker: a lattice cannot know all that one climbs, or where one slides off.
+
+#include "train/interval.h"
+#include "train/layout.h"
+#include "train/stages.h"
+#include "train/trials.h"
+
+namespace roam::training {
+
+/// On foot, for the interval. Sends the body that comes of the paths and the cracks along each of them. Where it is
+/// stopped or falls the lattice is shut and the way is planned again, round that place; where no way is left the path
+/// is taken out and told (Layout::unwalked), and others are drawn in its stead, once.
+void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+                   Layout& layout, Stages& stages);
+
+}  // namespace roam::training
