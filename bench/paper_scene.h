@@ -16,7 +16,7 @@ struct PaperOptions {
   double split_radius = 0.7;            ///< metres: over a split of 1.25 m
   double patience = 60.0;               ///< seconds a way may take
   double loading = 600.0;               ///< seconds a row may take until it can move
-  std::uint64_t memory = 0;             ///< bytes a row may take, with the programs it starts; 0: memory_for_rows()
+  std::uint64_t memory = 0;             ///< bytes a row may take, with the programs it starts; 0: 3/4 of what is free
   std::string wasm;                     ///< folder of the npm packages; empty: rows that need it are left out
   std::string scratch;                  ///< folder; empty: the system's temporary one
 };

@@ -91,6 +91,15 @@ std::uint64_t bytes_now(pid_t process) {
   return bytes;
 }
 
+/// Bytes that rows may take unless told otherwise: three quarters of what the machine has free now.
+std::uint64_t memory_for_rows() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("MemAvailable:")) return 1024 * std::stoull(line.substr(13)) / 4 * 3;
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
 /// What a row says, and why it was ended before it had said all.
 struct Heard {
   std::string text;
@@ -99,9 +108,12 @@ struct Heard {
 
 /// Listens until the other end is closed, or the row takes more than it may. Empty after Ctrl-C, and when reading
 /// fails.
-std::optional<Heard> listen(int end, pid_t row, const PaperOptions& options) {
+std::optional<Heard> listen(int end, pid_t row, std::size_t ways, const PaperOptions& options) {
   constexpr int look_up = 50;  // ms: a signal may come just before the call that it is to end, and memory grows fast
-  const auto start = std::chrono::steady_clock::now();
+  // A way looks at the clock between its steps only; the minute is for what comes before, between and after the ways.
+  const std::chrono::duration<double> walking(static_cast<double>(ways) * options.patience + 60.0);
+  const std::chrono::duration<double> loading(options.loading);
+  auto start = std::chrono::steady_clock::now();  // of what the row does now
   const std::uint64_t memory = options.memory > 0 ? options.memory : memory_for_rows();
   Heard heard;
   std::array<char, 65536> buffer{};
@@ -112,9 +124,10 @@ std::optional<Heard> listen(int end, pid_t row, const PaperOptions& options) {
       heard.stopped = fmt::format("it takes more than {} MiB of memory", memory >> 20);
       return heard;
     }
-    if (heard.text.empty() &&
-        std::chrono::steady_clock::now() - start > std::chrono::duration<double>(options.loading)) {
-      heard.stopped = fmt::format("it has not loaded the scene in {:g} s", options.loading);
+    const bool loads = heard.text.empty();
+    if (std::chrono::steady_clock::now() - start > (loads ? loading : walking)) {
+      heard.stopped =
+          loads ? fmt::format("it has not loaded the scene in {:g} s", options.loading) : "a step did not end";
       return heard;
     }
     if (count == 0 || (count < 0 && errno == EINTR)) continue;
@@ -122,13 +135,15 @@ std::optional<Heard> listen(int end, pid_t row, const PaperOptions& options) {
     if (got == 0) return heard;
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return std::nullopt;
+    if (loads) start = std::chrono::steady_clock::now();
     heard.text.append(buffer.data(), static_cast<std::size_t>(got));
   }
   return std::nullopt;
 }
 
+/// With the programs that it has started.
 void end_process(pid_t process) {
-  for (const pid_t child : children_of(process)) ::kill(child, SIGKILL);
+  for (const pid_t child : children_of(process)) end_process(child);
   ::kill(process, SIGKILL);
 }
 
@@ -151,14 +166,6 @@ json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& optio
 }
 
 }  // namespace
-
-std::uint64_t memory_for_rows() {
-  std::ifstream info("/proc/meminfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("MemAvailable:")) return 1024 * std::stoull(line.substr(13)) / 4 * 3;
-  }
-  return std::numeric_limits<std::uint64_t>::max();
-}
 
 RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options) {
   std::vector<std::string> arguments{"roam-bench",
@@ -189,7 +196,8 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
     ::close(ends[0]);
     throw Error(std::string("cannot start a row: ") + ::strerror(failed));
   }
-  const std::optional<Heard> heard = listen(ends[0], child, options);
+  const std::optional<Heard> heard =
+      listen(ends[0], child, paper_ways(options.radius, options.split_radius).size(), options);
   ::close(ends[0]);
   // Ctrl-C reaches the row as well; a signal to this process alone does not.
   if (!heard || !heard->stopped.empty()) end_process(child);
@@ -214,6 +222,7 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
 
 int row_main(int argc, char** argv) {
   constexpr int expected = 12;
+  ::fcntl(result_end, F_SETFD, FD_CLOEXEC);  // it is not for the programs that the row starts
   std::string text;
   int status = 1;
   try {

@@ -14,12 +14,9 @@ struct RowResult {
   std::vector<Walked> ways;      ///< as paper_ways
 };
 
-/// Bytes that rows may take unless told otherwise: three quarters of what the machine has free now.
-[[nodiscard]] std::uint64_t memory_for_rows();
-
 /// Starts this program again with the row's name, and waits. A row that takes more memory than it may, or longer until
-/// it can move, is ended: then `failure` says so. Throws roam::Error when it cannot be started, and roam::Cancelled
-/// after Ctrl-C: then the row has ended, too.
+/// it can move, or does not come out of a step, is ended: then `failure` says so. Throws roam::Error when it cannot be
+/// started, and roam::Cancelled after Ctrl-C: then the row has ended, too.
 [[nodiscard]] RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options);
 
 /// What the child does: walks all ways and writes the result to the descriptor `out`. `argv` as run_row passes it.
