@@ -2,6 +2,7 @@
 // is one row's.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench_verbs.h"

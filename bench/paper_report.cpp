@@ -136,8 +136,9 @@ std::string table_2(const PaperFindings& findings) {
 }  // namespace
 
 std::string paper_tables(const PaperFindings& findings) {
-  std::string out = fmt::format("{}, laid out in {:.1f} s; us of the thread's own time a step\n\n", findings.scene,
-                                findings.prepared);
+  std::string out = fmt::format(
+      "{}, laid out in {:.1f} s; us of the thread's own time a step; PhysX's by the clock of its process\n\n",
+      findings.scene, findings.prepared);
   out += "Table 1: the ways. Time: the way at its speed and the time of its steps.\n" + table_1(findings);
   out +=
       "Table 2: the rows. Steps of ways 1 and 2; a jam is a step of over 16 ms; flew off: fell, or went through a "

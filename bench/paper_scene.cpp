@@ -102,11 +102,10 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
 }
 
 void stream_laid_out(const PaperScene& scene, const std::function<void(const Mesh&)>& take) {
-  ImportOptions import;
-  import.progress = [](const auto&) { return !app::interrupted();
-};
-const fs::path path = scene.scene;
-stream_scene({&path, 1}, import, [&](const Mesh& piece, bool) { take(piece); });
-}  // namespace roam::bench
+  ImportOptions import_options;
+  import_options.progress = [](const auto&) { return !app::interrupted(); };
+  const fs::path path = scene.scene;
+  stream_scene({&path, 1}, import_options, [&](const Mesh& piece, bool) { take(piece); });
+}
 
 }  // namespace roam::bench

@@ -31,7 +31,12 @@ std::string wasm_package_missing(const std::string& package, const std::string& 
 
 WasmDriver::WasmDriver(std::string name, const std::string& script, std::string modules) : name_(std::move(name)) {
   std::array<int, 2> in{}, out{};
-  if (::pipe2(in.data(), O_CLOEXEC) != 0 || ::pipe2(out.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
+  if (::pipe2(in.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
+  if (::pipe2(out.data(), O_CLOEXEC) != 0) {
+    ::close(in[0]);
+    ::close(in[1]);
+    throw Error("cannot make a pipe");
+  }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in[0], requests_end);
