@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,78 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   // Nothing wider leads off an end that has no room.
   answer.limit->kind = Kind::start;
   EXPECT_FALSE(contains(app::explain(question, answer), "may exist")) << app::explain(question, answer);
+}
+
+/// Of a body that no way was found for, where none for a radius over 0.1252 m exists.
+ProbeAnswer none_found() {
+  ProbeAnswer answer;
+  answer.size = {0.3, 0.6};
+  answer.narrowest = 0.05;
+  answer.proven = true;
+  answer.passage.bound = 0.1252;
+  return answer;
+}
+
+TEST(ProbeText, SaysThatNobodyPassesOnlyWhereThatIsCertified) {
+  ProbeAnswer answer = none_found();
+  answer.limit = ProbeLimit{};
+  answer.limit->kind = Kind::apart;
+  for (const bool apart : {true, false}) {
+    if (!apart) answer.limit.reset();
+    answer.passage.bound = 0.1252;
+    const std::string text = app::explain(question, answer);
+    EXPECT_TRUE(contains(text, "No way was found, not even for a radius of 0.050 m")) << text;
+    EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified;")) << text;
+    EXPECT_TRUE(contains(text, "openings under 0.14 m may be overlooked")) << text;
+    EXPECT_FALSE(contains(text, "no way at all") || contains(text, "That is certified")) << text;
+    EXPECT_FALSE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
+    answer.passage.bound = 0.05;
+    const std::string shut = app::explain(question, answer);
+    EXPECT_TRUE(contains(shut, "There is no way at all") && contains(shut, "That is certified.")) << shut;
+  }
+  EXPECT_TRUE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
+}
+
+TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
+  ProbeAnswer answer = none_found();
+  answer.passage.complete = false;
+  answer.passage.places = 84'571;
+  const std::string text = app::explain(question, answer);
+  EXPECT_TRUE(text.starts_with("No: ")) << text;
+  EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << text;
+  EXPECT_TRUE(contains(text, "ended after 84571 places")) << text;
+  EXPECT_FALSE(contains(text, "no way at all") || contains(text, "do not meet")) << text;
+  const std::string row = app::table(question, std::span(&answer, 1));
+  EXPECT_TRUE(contains(row, " no ") && contains(row, "none that wide: certified")) << row;
+  // A narrow way was found before.
+  answer.passage.found = answer.passage.limited = true;
+  answer.passage.radius = 0.1;
+  answer.limit = ProbeLimit{};
+  answer.limit->size = 0.2;
+  answer.limit->needed = 0.6;
+  answer.missing = 0.4;
+  const std::string narrow = app::explain(question, answer);
+  EXPECT_TRUE(contains(narrow, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << narrow;
+}
+
+TEST(ProbeText, CallsInATableUnknownWhatIsNotKnown) {
+  ProbeAnswer answer = none_found();
+  answer.proven = false;
+  answer.passage.complete = false;
+  const std::string row = app::table(question, std::span(&answer, 1));
+  EXPECT_TRUE(contains(row, " ? ") && contains(row, "the search ended")) << row;
+  EXPECT_FALSE(contains(row, " no ") || contains(row, "none") || contains(row, "no way at all")) << row;
+}
+
+TEST(ProbeText, TellsTheBoundOfABodyThatMayStillGetThrough) {
+  ProbeAnswer answer = wide_enough(Outcome::blocked);
+  answer.walk.reset();
+  answer.wide_enough = false;
+  answer.size = {0.402, 0.804};
+  answer.passage.proven = true;
+  answer.passage.bound = 0.404;
+  const std::string text = app::explain(question, answer);
+  EXPECT_TRUE(contains(text, "That none for a radius over 0.404 m exists is certified.")) << text;
 }
 
 TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {

@@ -64,13 +64,22 @@ std::string narrowest(const ProbeAnswer& answer) {
                      where);
 }
 
-/// Of what cannot be passed by anybody.
+/// That nobody who was looked for passes is certified.
+bool is_shut(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  return !p.found && p.complete && answer.proven && p.bound <= answer.narrowest;
+}
+
+/// The search ended before it came to an answer.
+bool is_unknown(const ProbeAnswer& answer) {
+  return !answer.wide_enough && !answer.passage.found && !answer.passage.complete && !answer.proven;
+}
+
+/// Of what nobody was found to pass.
 std::string no_way(const ProbeAnswer& answer) {
   return fmt::format(
-      "There is no way at all, not even for a radius of {}: what is reached from the start and what is reached from "
-      "the "
-      "target do not meet",
-      metres(answer.narrowest));
+      "{}, not even for a radius of {}: what is reached from the start and what is reached from the target do not meet",
+      is_shut(answer) ? "There is no way at all" : "No way was found", metres(answer.narrowest));
 }
 
 /// What stops the body.
@@ -136,14 +145,25 @@ std::string ended(const Passage& p) {
       " the search ended after {} places, the most that are looked at. A wider --spacing looks at fewer.", p.places);
 }
 
+/// What is certified of ways, to a millimetre that is not too few.
+std::string certified(const Passage& p) {
+  return fmt::format("That none for a radius over {:.3f} m exists is certified", std::ceil(1e3 * p.bound - 1e-6) / 1e3);
+}
+
 /// How sure a no is.
 std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
-  if (!p.complete) return " A wider way may exist:" + ended(p);
-  if (answer.proven) return p.found ? " That none wider exists is certified." : " That is certified.";
+  if (!p.complete && !answer.proven) return " A wider way may exist:" + ended(p);
+  if (!p.complete) return fmt::format(" {}; of narrower ones not all were looked for:", certified(p)) + ended(p);
+  if (is_shut(answer)) return " That is certified.";
+  // Within what the proof leaves open, the body's radius may lie.
+  if (p.found && (answer.proven || p.proven)) return fmt::format(" {}.", certified(p));
+  const double overlooked = 0.7 * question.spacing;
+  if (answer.proven)
+    return fmt::format(" {}; for smaller ones, openings under {:.2g} m may be overlooked.", certified(p), overlooked);
   return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
-                     p.found ? " wider" : "", question.spacing, 0.7 * question.spacing);
+                     p.found ? " wider" : "", question.spacing, overlooked);
 }
 
 /// Over the side of the scene one falls too.
@@ -233,8 +253,10 @@ std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
         "Not shown: the walker that was sent along the way {} at {}. By its measures {} gets {} on a way of {:.1f} m; "
         "{}.",
         how, walked_to(question, answer), body, ways, p.length, narrowest(answer));
-  } else if (!p.complete && !p.found && !answer.proven) {
+  } else if (is_unknown(answer)) {
     text = fmt::format("Not known: no way was found on which {} gets {}, but", body, ways) + ended(p);
+  } else if (!p.complete && !p.found && !answer.limit) {
+    text = fmt::format("No: {} does not get {}.", body, ways) + sureness(question, answer);
   } else {
     text = fmt::format("No: {} does not get {}. {}", body, ways, stopped_by(answer)) + sureness(question, answer);
   }
@@ -283,17 +305,20 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
                                  "missing", "what decides");
   for (const ProbeAnswer& answer : answers) {
     const Passage& p = answer.passage;
-    std::string width = p.found ? metres(2.0 * p.radius) : "none";
+    const bool ended_early = !p.found && !p.complete;
+    std::string width = p.found ? metres(2.0 * p.radius) : ended_early ? "not known" : "none";
     if (p.found && !p.limited) width = ">= " + width;
     std::string what;
-    if (answer.walk && !answer.passable)
+    if (is_unknown(answer))
+      what = "the search ended";
+    else if (answer.walk && !answer.passable)
       what = fmt::format("walker {} at {}", name(answer.walk->outcome), at(answer.walk->at));
     else if (answer.limit)
       what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
     else if (!p.found)
-      what = "no way at all";
+      what = is_shut(answer) ? "no way at all" : ended_early ? "none that wide: certified" : "no way was found";
     const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
-    const char* const word = answer.passable ? "yes" : contradicts ? "?" : "no";
+    const char* const word = answer.passable ? "yes" : contradicts || is_unknown(answer) ? "?" : "no";
     text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
                         word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
   }
