@@ -22,19 +22,25 @@ struct Tiles {
 /// The first touch that is not along the surface. A body that is nearer than 1 mm touches at once, says Bullet, also
 /// where it goes along the wall that it has just slid off: for that its floats, 0.06 mm apart at 600 m from the origin,
 /// need only turn the motion a little towards the wall. Who slides by its answers is then held for good. Its own
-/// btKinematicCharacterController disregards hits by their normals, too, and pushes the body out in every step.
+/// btKinematicCharacterController disregards hits by their normals, too, and pushes the body out in every step. Nothing
+/// does that here: so that many small steps do not add up to one into the wall, only a motion that ends outside of it
+/// is let go on.
 struct Ahead : btCollisionWorld::ClosestConvexResultCallback {
-  using ClosestConvexResultCallback::ClosestConvexResultCallback;
+  Ahead(const btTransform& from, const btTransform& to, btScalar body_radius)
+      : ClosestConvexResultCallback(from.getOrigin(), to.getOrigin()), radius(body_radius) {}
 
   btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool in_world) override {
     constexpr btScalar along = 1e-4F;  // m: a whole motion that comes no nearer than that
+    constexpr btScalar least = 1e-4F;  // m: some roundings
+    const btTransform& object = result.m_hitCollisionObject->getWorldTransform();
     const btVector3 motion = m_convexToWorld - m_convexFromWorld;
-    const btVector3 normal =
-        in_world ? result.m_hitNormalLocal
-                 : result.m_hitCollisionObject->getWorldTransform().getBasis() * result.m_hitNormalLocal;
-    if (normal.dot(motion) > -along) return m_closestHitFraction;
+    const btVector3 normal = in_world ? result.m_hitNormalLocal : object.getBasis() * result.m_hitNormalLocal;
+    const btScalar left = normal.dot(m_convexToWorld - result.m_hitPointLocal) - radius;
+    if (normal.dot(motion) > -along && left > least) return m_closestHitFraction;
     return ClosestConvexResultCallback::addSingleResult(result, in_world);
   }
+
+  btScalar radius;
 };
 
 }  // namespace
@@ -49,7 +55,7 @@ Mover osg_bullet(const PaperScene& scene) {
       [tiles](double radius, const Vec3& from, const Vec3& motion) -> std::optional<Touch> {
         const btSphereShape sphere(static_cast<float>(radius));
         const btTransform start = at(from), end = at(from + motion);
-        Ahead result(start.getOrigin(), end.getOrigin());
+        Ahead result(start, end, sphere.getRadius());
         tiles->world.convexSweepTest(&sphere, start, end, result, 0.0F);
         if (!result.hasHit()) return std::nullopt;
         const btVector3& n = result.m_hitNormalWorld;
