@@ -53,7 +53,6 @@ class FlyLattice final : public LatticeGraph {
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
   bool goes(NodeId, NodeId) override { return true; }
-  Neighbours beside(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:
@@ -113,15 +112,6 @@ Neighbours FlyLattice::expand(NodeId id) {
     cells_[there].linked |= back;
   }
   return neighbours(id);
-}
-
-Neighbours FlyLattice::beside(NodeId id) {
-  Neighbours found;
-  for (const LatticePoint& step : to_neighbour) {
-    const LatticePoint at = sum(cells_[id].at, step);
-    if (covers(at)) found.push(find_or_make(at));
-  }
-  return found;
 }
 
 Neighbours FlyLattice::neighbours(NodeId id) const {

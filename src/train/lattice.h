@@ -46,8 +46,6 @@ struct Measure {
 /// Of the spacing: how much narrower than it is a place may look on a lattice on foot. Every place is within half a
 /// diagonal of one of the lattice.
 inline constexpr double lattice_error = 0.72;
-/// The same in the air, where half a diagonal is longer.
-inline constexpr double cubic_error = 0.87;
 
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = ~NodeId(0);
@@ -103,10 +101,6 @@ class WidestTree {
   /// without changing it. Makes and measures places that it needs; `goes_on` as in grow, and empty when that ends it.
   [[nodiscard]] std::vector<NodeId> way_round(NodeId from, NodeId to, const std::function<bool(const Node&)>& blocked,
                                               double least, const std::function<bool(std::uint64_t)>& goes_on = {});
-  /// Flying: no sphere of a larger radius gets from one place to the other, certified by the cells about the places of
-  /// the lattice, so at best to cubic_error of the spacing. Infinite where nothing as narrow as `widest` lies between,
-  /// and when `goes_on` ended it.
-  [[nodiscard]] double bound(NodeId from, NodeId to, const std::function<bool(std::uint64_t)>& goes_on = {});
   /// The neighbours that a body of `narrowest` can go to straight: all of them where the tree has grown past the place,
   /// else those that were looked at so far. Who is a neighbour of whom is mutual.
   [[nodiscard]] Neighbours neighbours(NodeId id) const;

@@ -20,8 +20,6 @@ class LatticeGraph {
   /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
   /// is to be gone, for on foot walkers are sent over gaps.
   virtual bool goes(NodeId from, NodeId to) = 0;
-  /// Flying: all places whose cells touch that of a place, whoever gets from one to the other. Made if need be.
-  virtual Neighbours beside(NodeId id) = 0;
   /// On foot: of a place where a foot is carried over a gap, the next one straight below that stands on floor; no_node
   /// where there is none, or the place is on floor itself.
   [[nodiscard]] virtual NodeId floor_under_gap(NodeId /*id*/) const { return no_node; }

@@ -53,7 +53,6 @@ class WalkLattice final : public LatticeGraph {
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
   bool goes(NodeId from, NodeId to) override;
-  Neighbours beside(NodeId id) override { return expand(id); }
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
   void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <queue>
 
 #include "train/lattice_graph.h"
@@ -33,8 +31,7 @@ struct WidestTree::State {
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
   std::uint64_t pushed = 0;
-  double spacing = 0.0, narrowest = 0.0;
-  float widest = 0.0F;  ///< no clearance is larger
+  double spacing = 0.0;
 
   void cover() {
     root.resize(graph->size(), no_node);
@@ -90,9 +87,6 @@ struct WidestTree::State {
 WidestTree::WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within)
     : state_(std::make_shared<State>()) {
   state_->spacing = spacing;
-  state_->narrowest = measure.narrowest;
-  state_->widest = static_cast<float>(measure.widest);
-  if (state_->widest > measure.widest) state_->widest = std::nextafter(state_->widest, 0.0F);
   state_->graph = measure.mode == Mode::fly ? fly_lattice(survey, measure, spacing, within)
                                             : walk_lattice(survey, measure, spacing, within);
 }
@@ -205,39 +199,6 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
   while (way.back() != from) way.push_back(before[way.back()]);
   std::reverse(way.begin(), way.end());
   return way;
-}
-
-double WidestTree::bound(NodeId from, NodeId to, const std::function<bool(std::uint64_t)>& goes_on) {
-  // A way passes from cell to touching cell, and in each is at most half a diagonal from a place of the lattice. The
-  // ends lie in cells that touch those of `from` and `to`, so these two themselves do not count.
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  State& s = *state_;
-  LatticeGraph& graph = *s.graph;
-  std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
-  std::vector<bool> seen(graph.size(), false);
-  std::uint64_t pushed = 0;
-  float narrowest = s.widest;
-  seen[from] = true;
-  for (NodeId at = from;;) {
-    const Neighbours beside = graph.beside(at);
-    seen.resize(graph.size(), false);
-    for (const NodeId next : beside) {
-      if (next == to) {
-        s.cover();
-        return narrowest >= s.widest ? unknown : std::max<double>(narrowest, s.narrowest) + cubic_error * s.spacing;
-      }
-      if (seen[next]) continue;
-      seen[next] = true;
-      edges.push({graph.node(next).clearance, pushed++, at, next});
-    }
-    if (edges.empty() || (goes_on && pushed % places_between_questions < beside.size() && !goes_on(graph.size()))) {
-      s.cover();
-      return unknown;
-    }
-    at = edges.top().to;
-    narrowest = std::min(narrowest, edges.top().width);
-    edges.pop();
-  }
 }
 
 std::vector<NodeId> WidestTree::way(NodeId from, NodeId to) const {
