@@ -106,7 +106,10 @@ ExitStatus train(TrainVerbOptions o) {
   if (drawing && interrupted()) {
     fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture.string());
   } else if (drawing) {
-    drawing->write(picture::opening_sheet(file_names(o.scene), views_of(report), scene.survey.meshes()));
+    const std::vector<picture::OpeningView> views = views_of(report);
+    // Where nothing decides there is nothing to draw but what was found.
+    drawing->write(picture::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
+                                          views.empty() ? report.training.answer : std::string()));
   }
   if (!report.training.complete) return failed;
   return report.training.feasible ? done : answer_no;
