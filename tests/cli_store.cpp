@@ -198,6 +198,19 @@ TEST_F(StoreVerbs, OptionsThatMeanNothingForAStoreOrASceneAreRefused) {
   EXPECT_TRUE(contains(itself.err, "--verify")) << itself.err;
 }
 
+TEST_F(StoreVerbs, AWalkCheckedAgainstAnotherSceneSaysSo) {
+  const TestFolder folder;
+  const std::string other = folder.write("far.obj", "v 9e3 0 0\nv 9e3 1 0\nv 9e3 0 1\nf 1 2 3\n");
+  const ProgramResult walked =
+      run({"walk", store(), "--path", path(), "--mode", "fly", "--speed", "20", "--against", other});
+  EXPECT_TRUE(contains(walked.err, "far.obj: 1; of the store: ")) << walked.err;
+  EXPECT_TRUE(contains(walked.out, "no triangle came near any of them")) << walked.out;
+  const ProgramResult right =
+      run({"walk", store(), "--path", path(), "--mode", "fly", "--speed", "20", "--against", scene()});
+  EXPECT_FALSE(contains(right.err, "of the store")) << right.err;
+  EXPECT_FALSE(contains(right.out, "no triangle came near")) << right.out;
+}
+
 TEST_F(StoreVerbs, WhatIsNotThereOrNotCompleteIsSaidSo) {
   const TestFolder folder;
   const std::string missing = folder.file("nothing.ply");

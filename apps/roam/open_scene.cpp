@@ -194,7 +194,7 @@ void check_against(const SceneOptions& scene) {
   scene.check_there();
 }
 
-Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,
+Verification verify_against(const SceneOptions& scene, std::uint64_t triangles, std::span<const Piece> pieces,
                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   Verifier verifier(pieces);
   ImportOptions reading = scene.import_options();
@@ -204,6 +204,10 @@ Verification verify_against(const SceneOptions& scene, std::span<const Piece> pi
     verifier.check({&piece, 1}, first);
     first += piece.triangles.size();
   });
+  if (first != triangles) {
+    fmt::print(stderr, "roam: note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?\n",
+               scene.names(), first, triangles);
+  }
   return verifier.result();
 }
 

@@ -71,9 +71,11 @@ class OpenScene {
 /// roam::Error for a scene that is not there.
 void check_against(const SceneOptions& scene);
 
-/// Every piece against every triangle of a scene that is read piece by piece, however large it is. `progress` as of
-/// verify, but with bytes done and in all.
-[[nodiscard]] Verification verify_against(const SceneOptions& scene, std::span<const Piece> pieces,
+/// Every piece against every triangle of a scene that is read piece by piece, however large it is. Where it has not as
+/// many as `triangles`, which the store was made of, a note on standard error says so. `progress` as of verify, but
+/// with bytes done and in all.
+[[nodiscard]] Verification verify_against(const SceneOptions& scene, std::uint64_t triangles,
+                                          std::span<const Piece> pieces,
                                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
 
 }  // namespace roam::app

@@ -131,7 +131,7 @@ std::string title(const WalkOptions& options) {
 Verification verified(const WalkOptions& options, const OpenScene& scene, const std::vector<Piece>& pieces) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
-    return verify_against(options.against, pieces,
+    return verify_against(options.against, scene.triangles(), pieces,
                           [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
   }
   Progress progress("verifying", "pieces");

@@ -191,6 +191,9 @@ std::string text_report(const WalkReport& report) {
     const Verification& v = *report.verified;
     line("verified", fmt::format("{} violations in {} straight pieces against all triangles, {}", v.violations,
                                  v.pieces, short_time(report.verify_seconds)));
+    if (v.pieces > 0 && v.distances == 0) {
+      line("", "no triangle came near any of them: is it the scene, as it lies (--up, --unit)?");
+    }
     if (v.overstated > 0) line("", fmt::format("{} steps claim more clearance than there is", v.overstated));
     if (v.worst) {
       line("", fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {:g} m", v.worst->step,
