@@ -71,6 +71,13 @@ FlyCells::Cell FlyCells::measured(std::int32_t x, std::int32_t y, std::int32_t z
   return cell;
 }
 
+CellId FlyCells::part_at(CellId id, std::int32_t x, std::int32_t y, std::int32_t z) const {
+  const std::int32_t half = size_of(id) / 2;
+  const Cell& cell = cells_[id];
+  return cell.parts + static_cast<CellId>((x >= cell.x + half ? 1 : 0) + (y >= cell.y + half ? 2 : 0) +
+                                          (z >= cell.z + half ? 4 : 0));
+}
+
 CellId FlyCells::at(const Vec3& place) const {
   const Vec3 steps = (place - lower_) / unit_;
   const auto whole = static_cast<double>(std::int32_t{1} << deepest);
@@ -79,12 +86,7 @@ CellId FlyCells::at(const Vec3& place) const {
   const auto x = static_cast<std::int32_t>(steps.x), y = static_cast<std::int32_t>(steps.y),
              z = static_cast<std::int32_t>(steps.z);
   CellId id = 0;
-  while (is_split(id)) {
-    const std::int32_t half = size_of(id) / 2;
-    const Cell& cell = cells_[id];
-    id = cell.parts + static_cast<CellId>((x >= cell.x + half ? 1 : 0) + (y >= cell.y + half ? 2 : 0) +
-                                          (z >= cell.z + half ? 4 : 0));
-  }
+  while (is_split(id)) id = part_at(id, x, y, z);
   return id;
 }
 
@@ -169,12 +171,7 @@ void FlyCells::beside(CellId id, const std::function<bool(CellId)>& is_fine, con
       if (along < 0 || along >= whole) continue;
       // The smallest cube there that is at least as large.
       CellId there = 0;
-      while (is_split(there) && size_of(there) > size) {
-        const std::int32_t half = size_of(there) / 2;
-        const Cell& cell = cells_[there];
-        there = cell.parts + static_cast<CellId>((at[0] >= cell.x + half ? 1 : 0) + (at[1] >= cell.y + half ? 2 : 0) +
-                                                 (at[2] >= cell.z + half ? 4 : 0));
-      }
+      while (is_split(there) && size_of(there) > size) there = part_at(there, at[0], at[1], at[2]);
       on_face(there, axis, upper, of, is_fine, found);
     }
   }

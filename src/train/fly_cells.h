@@ -56,6 +56,8 @@ class FlyCells {
     bool tight = false;
   };
 
+  /// Of a cube that is split, the part that a place (in units) lies in.
+  [[nodiscard]] CellId part_at(CellId id, std::int32_t x, std::int32_t y, std::int32_t z) const;
   [[nodiscard]] std::int32_t size_of(CellId id) const { return std::int32_t{1} << (deepest - cells_[id].depth); }
   [[nodiscard]] Cell measured(std::int32_t x, std::int32_t y, std::int32_t z, int depth) const;
   [[nodiscard]] double farthest(const Cell& cell, const Vec3& from) const;

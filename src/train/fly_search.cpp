@@ -61,7 +61,9 @@ class NearestPair {
     for (const std::span<Middle>& half : {near_half, far_half}) first ? look(half, other) : look(one, half);
   }
 
-  [[nodiscard]] std::optional<std::array<Vec3, 2>> pair() const { return ended_ || !(least_ > 0.0) ? std::nullopt : pair_; }
+  [[nodiscard]] std::optional<std::array<Vec3, 2>> pair() const {
+    return ended_ || !(least_ > 0.0) ? std::nullopt : pair_;
+  }
 
  private:
   static constexpr std::size_t few = 8;
@@ -168,8 +170,7 @@ void FlySearch::reach(Side& side, CellId cell, CellId before, double cost) {
   if (visit.search == search_ && (visit.done || visit.cost <= static_cast<float>(cost))) return;
   visit = {search_, false, before, static_cast<float>(cost)};
   side.open.push_back({cost + glm::distance(cells_.centre(cell), side.goal), pushed_++, cell});
-  std::push_heap(side.open.begin(), side.open.end(),
-                 [](const Open& a, const Open& b) { return a.key != b.key ? a.key > b.key : a.number > b.number; });
+  std::push_heap(side.open.begin(), side.open.end(), Open::later);
 }
 
 /// The cubes about both ends, as fine as this search has them. False: one end lies where nobody flies.
@@ -210,8 +211,7 @@ bool FlySearch::begin(double radius, bool certain) {
 }
 
 bool FlySearch::follow(Side& side, Side& other) {
-  const auto later = [](const Open& a, const Open& b) { return a.key != b.key ? a.key > b.key : a.number > b.number; };
-  std::pop_heap(side.open.begin(), side.open.end(), later);
+  std::pop_heap(side.open.begin(), side.open.end(), Open::later);
   const CellId cell = side.open.back().cell;
   side.open.pop_back();
   if (side.visits[cell].done) return false;

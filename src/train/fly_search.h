@@ -60,6 +60,8 @@ class FlySearch {
     double key = 0.0;
     std::uint64_t number = 0;  ///< of equals the first that was found
     CellId cell = no_cell;
+    /// Of a heap whose first is followed next.
+    static bool later(const Open& a, const Open& b) { return a.key != b.key ? a.key > b.key : a.number > b.number; }
   };
   struct Side {
     Vec3 end{0.0}, goal{0.0};
