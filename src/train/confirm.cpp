@@ -61,17 +61,6 @@ Vec3 place_at(const std::vector<Vec3>& way, double along) {
   return way.back();
 }
 
-/// The first so many metres of a way.
-std::vector<Vec3> beginning(const std::vector<Vec3>& way, double along) {
-  std::vector<Vec3> first{way.front()};
-  for (std::size_t i = 1; i < way.size() && along > 0.0; ++i) {
-    const double length = glm::distance(way[i - 1], way[i]);
-    first.push_back(along < length ? way[i - 1] + along / length * (way[i] - way[i - 1]) : way[i]);
-    along -= length;
-  }
-  return first;
-}
-
 class Confirmation {
  public:
   Confirmation(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
@@ -127,7 +116,7 @@ class Confirmation {
     double goes = 0.0, falls = passage.length;
     while (falls - goes > 0.5 * options_.spacing && !stages_.ended()) {
       const double half = 0.5 * (goes + falls);
-      (tried(beginning(passage.way, half)).outcome == Outcome::reached ? goes : falls) = half;
+      (tried(stretch(passage.way, 0.0, half)).outcome == Outcome::reached ? goes : falls) = half;
     }
     stop.along = goes;
     return stop;
