@@ -88,8 +88,10 @@ Advance Move::advance(const Vec3& motion, double seconds) {
   if (known.unproven) {
     known.unproven = false;
     known.came_upon = space.clearance(body(), place, 0.0).distance < -world_tolerance;
-    if (known.came_upon) known.ball = {};
-    if (known.came_upon) return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
+    if (known.came_upon) {
+      known.ball = {};
+      return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
+    }
   }
   const Advance a = probe(motion);
   time += a.fraction * seconds;

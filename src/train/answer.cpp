@@ -198,10 +198,11 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
                         layout.uncertain);
   if (!layout.unwalked.empty()) {
     const Unwalked& first = layout.unwalked.front();
-    text += fmt::format(" {} that {} drawn cannot be walked to, and {} not count: from {} to {} a walker {} at {}.",
-                        layout.unwalked.size() == 1 ? "1 end" : fmt::format("{} ends", layout.unwalked.size()),
-                        layout.unwalked.size() == 1 ? "was" : "were", layout.unwalked.size() == 1 ? "does" : "do",
-                        at(first.from), at(first.to),
+    const std::size_t count = layout.unwalked.size();
+    const std::string ends = count == 1
+                                 ? "1 end that was drawn cannot be walked to, and does not count"
+                                 : fmt::format("{} ends that were drawn cannot be walked to, and do not count", count);
+    text += fmt::format(" {}: from {} to {} a walker {} at {}.", ends, at(first.from), at(first.to),
                         judged(first.last.outcome) == Judgement::flies_off ? "falls" : "is stopped", at(first.last.at));
   }
   for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
