@@ -48,22 +48,28 @@ Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
   return survey.floor().floor_clearance({0.0, carrying_band}, axis, reach, floor);
 }
 
+/// Whether the largest foot, as a level disc that touches a place of the floor and lies beyond it as seen from there,
+/// is free of floor, and its middle in sight: what free_disc() finds too, with more work.
+bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, double radius, double knee) {
+  constexpr double sight = 0.01;   // m, radius of what looks for walls
+  constexpr double inside = 0.99;  // or that place itself would be found
+  const double beside = aside(floor, axis.x, axis.y);
+  if (!(beside > 0.0 && beside < radius)) return false;
+  const Vec3 away = Vec3(axis.x - floor.x, axis.y - floor.y, 0.0) * ((radius - beside) / beside);
+  return !floor_beside(survey, axis + away, inside * radius).found &&
+         !survey.world().sweep({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
+}
+
 /// Whether the gap that an axis is over at the level of a rim is an open drop: no foot is carried there. This is the
 /// walker's own rule for its foot, asked with the largest.
 bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y) {
-  constexpr double sight = 0.01;   // m, radius of what looks for walls
-  constexpr double inside = 0.99;  // or the rim itself would be found
   const double radius = measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
-  // The disc that touches the nearest rim and lies beyond it is free in most drops.
   const Vec3 axis(x, y, rim.z);
-  const double beside = aside(rim, x, y);
-  if (beside > 0.0 && beside < radius) {
-    const Vec3 away = Vec3(x - rim.x, y - rim.y, 0.0) * ((radius - beside) / beside);
-    const Vec3 up(0.0, 0.0, knee);
-    if (!floor_beside(survey, axis + away, inside * radius).found &&
-        !survey.world().sweep({sight, 0.0}, axis + up, away).hit)
-      return true;
-  }
+  // The disc beyond the rim is free in most drops. Else beyond what is nearer, a little higher or lower: beside a
+  // gallery's wall its gutter is, and the axis is in the rock.
+  if (is_free_beyond(survey, axis, rim, radius, knee)) return true;
+  const Clearance nearest = floor_beside(survey, axis, radius);
+  if (nearest.found && is_free_beyond(survey, axis, nearest.point, radius, knee)) return true;
   return walking::free_disc(survey.world(), {axis}, {radius, survey.slope_degrees(), knee}, axis) ==
          walking::DiscRoom::free;
 }
