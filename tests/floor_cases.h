@@ -230,6 +230,15 @@ inline void add_drops(std::vector<FloorCase>& cases) {
   Mesh end;
   Floor(0.0, 0.0, 4.0, short_side).add_to(end, 0.0);
   cases.push_back({.name = "FloorThatEnds", .mesh = std::move(end), .has_drop = true});
+  // Posts of a porch stand beyond the rim, and their feet are as high: a body of 0.5 m just fits between, but falls off
+  // beside them as well.
+  Mesh porch;
+  Floor(0.0, 0.0, 4.0, short_side).add_to(porch, 0.0);
+  for (const double y : {1.0, 4.7}) scenes::add_box(porch, {5.03, y, 0.0}, {5.28, y + 0.3, 3.0});
+  cases.push_back({.name = "PostsBeyondTheEndOfAFloor",
+                   .mesh = std::move(porch),
+                   .has_drop = true,
+                   .is_reached = [](const Vec3& foot) { return foot.x < 5.05 && foot.z < 0.35; }});
   cases.push_back({.name = "SlotThatLeadsToAPit",
                    .mesh = holed({rectangle(2.0, 2.75, 4.6, 3.25), rectangle(4.5, 1.5, 7.5, 4.5)}, 3.0),
                    .cracks = {0.25},

@@ -91,7 +91,7 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
   std::vector<FoundCrack> cracks;
   const OpenDrops drops(options, probe, open);
-  for (const MeasuredVoid& measured : measure_voids(options, probe, drops, rest, measuring, ended)) {
+  for (const MeasuredVoid& measured : measure_voids(options, probe, drops, rest, is_reached, measuring, ended)) {
     if (measured.disc.radius >= probe.open()) {
       for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});
     } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {

@@ -23,12 +23,6 @@ constexpr double kSpacingShare = 0.7;   ///< of the probe's radius: each place o
 constexpr double kSinkMargin = 0.003;   ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
 constexpr std::size_t kMostDiscs = 32;  ///< of one flood that are grown
 
-std::uint64_t square_number(std::int64_t x, std::int64_t y) {
-  return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
-}
-
-double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 /// A place of the lattice at the level of one void.
 struct Cell {
   std::int64_t x = 0, y = 0;
@@ -43,8 +37,14 @@ struct Cell {
 class Floods {
  public:
   /// `ended`: what is being flooded is measured as far as it came.
-  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops, const std::atomic<bool>& ended)
-      : options_(options), probe_(probe), drops_(drops), ended_(ended), spacing_(kSpacingShare * probe.radius()) {}
+  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
+         const std::function<bool(const Vec3& foot)>& is_reached, const std::atomic<bool>& ended)
+      : options_(options),
+        probe_(probe),
+        drops_(drops),
+        is_reached_(is_reached),
+        ended_(ended),
+        spacing_(kSpacingShare * probe.radius()) {}
 
   void add(const RimPlace& place) {
     if (drops_.cover(place.disc.centre)) return;
@@ -120,7 +120,7 @@ class Floods {
   std::uint32_t fill(const Vec3& seed) {
     const std::uint32_t flood = sets_.add();
     rims_.emplace_back();
-    feet_.push_back(0.0);
+    beside_open_.push_back(false);
     std::deque<Cell> open;
     std::vector<Cell> filled;
     const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
@@ -140,7 +140,9 @@ class Floods {
       enter(from, cell.x, cell.y + 1);
       enter(from, cell.x, cell.y - 1);
     }
-    discs_.push_back(largest(seed, filled));
+    const OpenPart open_part = open_part_of(flood, filled);
+    discs_.push_back(largest(seed, filled, open_part));
+    feet_.push_back(foot_over(filled, open_part));
     return flood;
   }
 
@@ -162,10 +164,13 @@ class Floods {
     }
     // A ridge where the probe just fits has cells on it with so much less.
     const double least = probe_.radius() - half_diagonal();
-    if (cell->distance < least || drops_.cover(place)) return std::nullopt;
+    if (cell->distance < least) return std::nullopt;
+    if (drops_.cover(place)) {
+      beside_open_[flood] = true;
+      return std::nullopt;
+    }
     const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
     if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
-    if (cell->distance >= probe_.radius()) feet_[flood] = std::max(feet_[flood], cell->floor);
     cell->level = level;
     cell->flood = flood;
     cell->inside = true;
@@ -181,28 +186,54 @@ class Floods {
     return true;
   }
 
-  /// Whether a place lies in an open drop, be it one that was climbed to or one of this flood's own.
-  bool is_open(const Vec3& place, const std::vector<Vec3>& own) const {
-    return drops_.cover(place) || std::any_of(own.begin(), own.end(), [&](const Vec3& centre) {
+  /// What of a flood is an open drop.
+  struct OpenPart {
+    std::vector<Vec3> centres;  ///< of its own open discs
+    bool any = false;           ///< it comes to one, of its own or of those that were climbed to
+  };
+
+  OpenPart open_part_of(std::uint32_t flood, const std::vector<Cell>& cells) const {
+    OpenPart open{open_discs(cells), beside_open_[flood]};
+    open.any = open.any || !open.centres.empty();
+    return open;
+  }
+
+  /// Whether a place lies in an open disc that is known.
+  bool is_open(const Vec3& place, const OpenPart& open) const {
+    return drops_.cover(place) || std::any_of(open.centres.begin(), open.centres.end(), [&](const Vec3& centre) {
              return level_distance(centre, place) <= options_.support_max && probe_.sees(centre, place);
            });
+  }
+
+  bool belongs_to_drop(const Disc& disc, const OpenPart& open) const {
+    return is_open(disc.centre, open) || (open.any && opens_into_drop(options_, probe_, is_reached_, disc));
+  }
+
+  /// The farthest from floor that the axis of a smallest body comes, outside open drops: no foot carries there.
+  double foot_over(std::vector<Cell>& cells, const OpenPart& open) const {
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+      return a.floor != b.floor ? a.floor > b.floor : std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    });
+    const auto carried = std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) {
+      return cell.distance >= probe_.radius() && cell.floor < probe_.open() && !is_open(place_of(cell), open);
+    });
+    return carried == cells.end() ? 0.0 : carried->floor;
   }
 
   /// Grown from the best cells that none beside them exceeds, and from the seed. Of discs that grow into an open drop,
   /// or come to lie in one, nothing remains: what is left is measured without them. Radius 0 where nothing is left;
   /// open where the whole void is.
-  Disc largest(const Vec3& seed, std::vector<Cell>& cells) {
-    const std::vector<Vec3> own = open_discs(cells);
+  Disc largest(const Vec3& seed, std::vector<Cell>& cells, const OpenPart& open) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
     });
-    Disc best, drop = own.empty() ? Disc{} : Disc{own.front(), options_.support_max};
+    Disc best, drop = open.centres.empty() ? Disc{} : Disc{open.centres.front(), options_.support_max};
     const auto try_from = [&](const Vec3& start) {
-      if (is_open(start, own)) return;
+      if (is_open(start, open)) return;
       const Disc disc = grown(start);
       if (disc.radius >= probe_.open()) {
         drop = disc;
-      } else if (disc.radius > best.radius && !is_open(disc.centre, own)) {
+      } else if (disc.radius > best.radius && !belongs_to_drop(disc, open)) {
         best = disc;
       }
     };
@@ -214,7 +245,7 @@ class Floods {
       const bool again = std::any_of(starts.begin(), starts.end(), [&](const Vec3& other) {
         return level_distance(other, start) < 0.5 * cell.distance;
       });
-      if (again || !is_highest(cell) || is_open(start, own)) continue;
+      if (again || !is_highest(cell) || is_open(start, open)) continue;
       starts.push_back(start);
       try_from(start);
     }
@@ -255,6 +286,7 @@ class Floods {
   const CrackOptions& options_;
   const VoidProbe& probe_;
   const OpenDrops& drops_;
+  const std::function<bool(const Vec3& foot)>& is_reached_;
   const std::atomic<bool>& ended_;
   double spacing_;
   std::unordered_map<std::uint64_t, std::vector<Cell>> cells_;
@@ -262,6 +294,7 @@ class Floods {
   std::vector<Disc> discs_;              ///< of each flood
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
   std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
+  std::vector<bool> beside_open_;        ///< likewise: it comes to open drops that were climbed to
 };
 
 /// What was climbed to and not measured: the widest disc of each void.
@@ -307,41 +340,10 @@ std::vector<std::vector<RimPlace>> apart(const std::vector<RimPlace>& places) {
 
 }  // namespace
 
-std::uint64_t square_at(double x, double y, double side) {
-  return square_number(std::int64_t(std::floor(x / side)), std::int64_t(std::floor(y / side)));
-}
-
-OpenDrops::OpenDrops(const CrackOptions& options, const VoidProbe& probe, const std::vector<RimPlace>& open)
-    : probe_(probe), reach_(options.support_max), step_(options.step) {
-  // Discs nearer to one another than this cover the same.
-  const double apart = 0.2 * options.smallest;
-  std::unordered_map<std::uint64_t, std::vector<double>> seen;
-  for (const RimPlace& place : open) {
-    const Vec3& c = place.disc.centre;
-    std::vector<double>& levels = seen[square_at(c.x, c.y, apart)];
-    if (std::any_of(levels.begin(), levels.end(), [&](double z) { return std::abs(z - c.z) <= apart; })) continue;
-    levels.push_back(c.z);
-    centres_[square_at(c.x, c.y, reach_)].push_back(c);
-  }
-}
-
-bool OpenDrops::cover(const Vec3& place) const {
-  if (centres_.empty()) return false;
-  for (int k = 0; k < 9; ++k) {
-    const auto near = centres_.find(square_at(place.x + (k % 3 - 1) * reach_, place.y + (k / 3 - 1) * reach_, reach_));
-    if (near == centres_.end()) continue;
-    for (const Vec3& centre : near->second) {
-      if (level_distance(centre, place) <= reach_ && std::abs(centre.z - place.z) <= step_ &&
-          probe_.sees(centre, place))
-        return true;
-    }
-  }
-  return false;
-}
-
 std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
-                                        const std::vector<RimPlace>& places, const std::function<bool(double)>& goes_on,
-                                        std::atomic<bool>& ended) {
+                                        const std::vector<RimPlace>& places,
+                                        const std::function<bool(const Vec3& foot)>& is_reached,
+                                        const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
   const std::vector<std::vector<RimPlace>> parts = apart(places);
   std::vector<std::vector<MeasuredVoid>> measured(parts.size());
   std::vector<std::vector<RimPlace>> left(parts.size());
@@ -353,7 +355,7 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
     if (!ended && !goes_on(double(done++) / double(places.size()))) ended = true;
   };
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    Floods floods(options, probe, drops, ended);
+    Floods floods(options, probe, drops, is_reached, ended);
     for (const RimPlace& place : parts[i]) {
       asked();
       if (!ended)
@@ -368,28 +370,6 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
   for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
   for (std::vector<RimPlace>& part : left) std::move(part.begin(), part.end(), std::back_inserter(rest));
   for (MeasuredVoid& found : climbed(options, drops, std::move(rest))) all.push_back(std::move(found));
-  return all;
-}
-
-std::vector<std::vector<std::size_t>> together(const std::vector<RimPlace>& places, double reach, double step) {
-  DisjointSets sets(places.size());
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares;
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    const Vec3& c = places[i].disc.centre;
-    for (int k = 0; k < 9; ++k) {
-      const auto near = squares.find(square_at(c.x + (k % 3 - 1) * reach, c.y + (k / 3 - 1) * reach, reach));
-      if (near == squares.end()) continue;
-      for (const std::uint32_t other : near->second) {
-        const Vec3 apart = places[other].disc.centre - c;
-        if (std::hypot(apart.x, apart.y) <= reach && std::abs(apart.z) <= step) sets.unite(i, other);
-      }
-    }
-    squares[square_at(c.x, c.y, reach)].push_back(i);
-  }
-  std::map<std::uint32_t, std::vector<std::size_t>> groups;  // a set's name is its least number
-  for (std::uint32_t i = 0; i < places.size(); ++i) groups[sets.find(i)].push_back(i);
-  std::vector<std::vector<std::size_t>> all;
-  for (auto& [set, group] : groups) all.push_back(std::move(group));
   return all;
 }
 
