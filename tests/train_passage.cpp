@@ -284,6 +284,20 @@ TEST(Passage, TakesEndsDownToTheFloorAndAwayFromWalls) {
   EXPECT_LT(p.way.back().x, 9.951);
 }
 
+TEST(Passage, IsLookedForOnceWhereTheWallBesideAnEndDecides) {
+  int searches = 0;
+  PassageOptions sphere;
+  sphere.progress = [&](std::uint64_t) {
+    ++searches;
+    return true;
+  };
+  const Vec3 beside_wall{8.5, 1.69, 0.0};  // nearer to it than any place of the lattice that is taken
+  const Passage p = widest(room(), one_end, beside_wall, sphere);
+  ASSERT_TRUE(p.found && p.limited);
+  EXPECT_NEAR(p.radius, 0.31, wanted_error);
+  EXPECT_LT(searches, 10) << "a way round what stands beside the end was looked for again and again";
+}
+
 TEST(Passage, RefusesAnEndWithinAWall) {
   Mesh m = room();
   add_box(m, {4.96, -2.0, 0.0}, {5.04, 2.0, 2.6});

@@ -75,7 +75,7 @@ class Search {
       const std::vector<NodeId> way = joined ? tree_.way(*a, *b) : std::vector<NodeId>{};
       if (!way.empty()) {
         best = refined(way);
-        others(*a, *b, best);
+        others(*a, *b, way, best);
       } else if (!ended_) {
         best.opening = gap_between(tree_, *a, *b);
       }
@@ -135,11 +135,14 @@ class Search {
     return passage;
   }
   /// Ways round the openings that were found, as long as one may be wider.
-  void others(NodeId a, NodeId b, Passage& best) {
+  void others(NodeId a, NodeId b, const std::vector<NodeId>& first, Passage& best) {
+    // All ways have these ends.
+    const double most = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
     std::vector<Opening> found;
+    std::vector<NodeId> before = first;
     Passage last = best;
-    while (last.limited && last.opening && best.limited && best.radius + proof < best.bound && !ended_ &&
-           found.size() < most_others) {
+    while (last.limited && last.opening && best.limited && best.radius + proof < best.bound &&
+           best.radius + same_width < most && !ended_ && found.size() < most_others) {
       found.push_back(*last.opening);
       const double around = best.radius + options_.spacing;
       // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
@@ -152,9 +155,10 @@ class Search {
                });
       };
       const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
-      const std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
-      if (way.empty()) return;
+      std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
+      if (way.empty() || way == before) return;
       last = refined(way);
+      before = std::move(way);
       if (last.found && last.radius > best.radius) best = last;
     }
   }
