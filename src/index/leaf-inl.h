@@ -231,6 +231,40 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   }
 }
 
+/// How far below a distance its bound may stay: of what the distance to the stored triangle and the tile's error leave
+/// beside the radius, it must be 1 - part at least, as long as that is within `reach`; else what is not as near as that
+/// might be told to be. With a part of 0 only kSettled counts.
+struct Slack {
+  float factor, less, farthest;
+  bool any;
+
+  Slack(double part, double radius, double error, double reach)
+      : factor(static_cast<float>(1.0 / (1.0 - part))),
+        less(static_cast<float>((radius + error) / (1.0 - part) - radius + error)),
+        farthest(static_cast<float>(radius + reach - error)),
+        any(part > 0.0) {}
+  /// The farthest distances for which a bound is good enough.
+  [[nodiscard]] HWY_INLINE VF enough(VF bound) const {
+    const VF settled = hn::Add(bound, set(kSettled));
+    if (!any) return settled;
+    return hn::Max(settled, hn::Min(hn::Sub(hn::Mul(bound, set(factor)), set(less)), set(farthest)));
+  }
+};
+
+/// How far the triangles' own planes keep the body's axis off all of its way, but for roundings.
+HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
+  const V3& n = t.normal;
+  const VF zero = hn::Zero(kF), a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), along = dot(n, way);
+  const VF above = hn::Sub(hn::Min(zero, along), hn::Max(hn::Max(a, b), c));
+  const VF below = hn::Sub(hn::Min(hn::Min(a, b), c), hn::Max(zero, along));
+  const VF length = hn::Sqrt(dot(n, n));
+  VF off = hn::Max(above, below);
+  if (half_height != 0.0F) off = hn::Sub(off, hn::Mul(set(half_height), hn::Abs(n.z)));
+  const MF known = hn::Gt(length, set(kShortest));
+  return hn::Mul(hn::Div(hn::IfThenElseZero(known, off), hn::IfThenElse(known, length, set(1.0F))),
+                 set(1.0F - kTimeRoundings * kUnit));
+}
+
 /// Which triangles may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
 /// least of that of the others, unless it was less.
 ///
@@ -238,20 +272,31 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
 /// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
 /// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
 /// `most` becomes how near they come at least, but for rounding.
-HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, VF& left, Children& out,
-                          float* most) {
+HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Slack& slack,
+                          VF& left, Children& out, float* most) {
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
   const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};
   const int rounds = way.moves || way.half_height > 0.0F ? kNearRounds : 1;
   for (int first = 0; first < leaf.triangle_count; first += kLanes) {
     Triangles t = load_triangles(leaf, frame, first);
-    t.prepare();
     const VF error =
         hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(kSpeedRoundings * kUnit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
-    MF active = triangle, unsettled = triangle;
-    VF least = zero, time = zero, height = zero, nearest = set(std::numeric_limits<float>::max());
+    MF active = triangle;
+    VF least = zero;
+    // Where a part may be given up, planes settle most leaves, and spoil nothing.
+    if (slack.any) {
+      least = hn::Sub(off_planes(t, m, way.half_height), error);
+      const MF beyond = hn::And(triangle, hn::Gt(least, set(reach)));
+      left = hn::Min(left, hn::IfThenElse(beyond, least, left));
+      active = hn::AndNot(beyond, triangle);
+      if (hn::AllFalse(kF, active)) continue;
+      least = hn::Max(least, zero);
+    }
+    t.prepare();
+    MF unsettled = active;
+    VF time = zero, height = zero, nearest = set(std::numeric_limits<float>::max());
     // The place of the axis that is nearest to a point, one after the other along its way and along itself.
     const auto approach = [&](const V3& p) {
       if (way.moves) {
@@ -295,8 +340,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
       least = hn::IfThenElse(hn::And(sure, hn::Gt(apart, least)), apart, least);
       active = hn::AndNot(hn::Gt(least, set(reach)), active);
       if (round + 1 == rounds) break;
-      // Another place of the way would not be told apart from this one.
-      const VF enough = hn::Add(least, set(kSettled));
+      const VF enough = slack.enough(least);
       unsettled = hn::And(active, hn::AndNot(hn::Le(nearest, hn::Mul(enough, enough)), unsettled));
       if (hn::AllFalse(kF, unsettled)) break;
       approach(closest);

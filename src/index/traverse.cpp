@@ -230,11 +230,13 @@ Impact FirstImpact(const Index& index, const Piece& piece, double until) {
 /// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink.
 class NearTraversal {
  public:
-  NearTraversal(const Index& index, const Piece& piece, double reach, Visit visit, void* context)
+  NearTraversal(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context)
       : index_(index),
         piece_(piece),
         way_(piece.motion, piece.body.half_height),
+        asked_(reach),
         reach_(reach),
+        part_(part),
         visit_(visit),
         context_(context) {}
 
@@ -302,6 +304,7 @@ class NearTraversal {
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     const auto error = double(t.error);
+    const Slack slack(part_, piece_.body.radius, error, asked_);
     float reach = axis_reach(error);
     const float grown = margin(kTileSteps, frame);
     Passed passed;
@@ -316,7 +319,7 @@ class NearTraversal {
             return;
           }
           alignas(64) float most[kWidth];
-          near_leaf(leaves[e.number].leaf, frame, way_, reach, passed.lanes, children, most);
+          near_leaf(leaves[e.number].leaf, frame, way_, reach, slack, passed.lanes, children, most);
           while (children.mask != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
             for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
@@ -335,15 +338,16 @@ class NearTraversal {
   const Index& index_;
   const Piece& piece_;
   Way way_;
-  double reach_;
+  double asked_, reach_;
+  double part_;
   double left_ = std::numeric_limits<double>::infinity();
   Visit visit_;
   void* context_;
   Stack stack_;
 };
 
-double VisitNear(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
-  return NearTraversal(index, piece, reach, visit, context).run();
+double VisitNear(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
+  return NearTraversal(index, piece, reach, part, visit, context).run();
 }
 
 }  // namespace roam::index::HWY_NAMESPACE
@@ -359,8 +363,8 @@ Impact first_impact(const Index& index, const Piece& piece, double until) {
   return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece, until);
 }
 
-double visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context) {
-  return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, visit, context);
+double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
+  return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, part, visit, context);
 }
 
 }  // namespace roam::index

@@ -74,9 +74,10 @@ struct Nearness {
 using Visit = double (*)(void* context, const Place& place, const Nearness& near);
 
 /// Visits all triangles that may come within `reach` (m) of the body's surface somewhere along the piece, each at
-/// least once, roughly nearest first. Grown by the tile's error as above. Absent tiles are looked at likewise. Returns a
-/// lower bound of how near the others come, metres from the surface.
-double visit_near(const Index& index, const Piece& piece, double reach, Visit visit, void* context);
+/// least once, roughly nearest first. Grown by the tile's error as above. Absent tiles are looked at likewise. Returns
+/// a lower bound of how near the others come, metres from the surface. Of a gap `part` may be given up by
+/// Nearness::least, which saves time.
+double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context);
 
 /// The stored triangle as seen from `start`.
 [[nodiscard]] certified::LocalTriangle local_triangle(const Index& index, const Place& place, const Vec3& start);

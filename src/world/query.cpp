@@ -99,11 +99,18 @@ struct Visitor {
   static double visit(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
     const index::Tile& tile = v.index.tiles[place.tile];
-    if (v.collector.bounds_only() && !tile.fine && near.most - near.least <= kTight) {
-      Contact bound;
-      bound.distance = double(near.least) - v.piece.body.radius - double(tile.error);
-      v.collector.offer(bound);
-      return v.collector.enough();
+    if (v.collector.bounds_only()) {
+      const auto error = double(tile.error);
+      const double least = double(near.least) - v.piece.body.radius - error;
+      const double most = double(near.most) - v.piece.body.radius + error;
+      const bool tight = !tile.fine && near.most - near.least <= kTight;
+      // A loose bound must not tell of what is beyond the reach that was asked for.
+      if (tight || (most <= v.collector.asked() && least >= most * (1.0 - gap_part))) {
+        Contact bound;
+        bound.distance = least;
+        v.collector.offer(bound, most - least);
+        return v.collector.enough();
+      }
     }
     const auto triangle = index::local_triangle(v.index, place, v.piece.start);
     const double doubt = 2.0 * index::stored_error(tile);
@@ -147,7 +154,8 @@ void Collector::offer(const Contact& c, double doubt) {
   if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
   enough_ = std::min(enough_, reach_);
   if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {
-    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, c.distance * (1.0 - part_)));
+    const double told = bounds_only_ ? c.distance + doubt : c.distance;
+    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, told * (1.0 - part_)));
   }
 }
 
@@ -170,7 +178,8 @@ Contact contact_at(const index::Index& index, const index::Piece& piece, const i
 
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
-  collector.left_out(index::visit_near(index, piece, collector.enough(), &Visitor::visit, &visitor));
+  const double part = collector.bounds_only() ? gap_part : 0.0;
+  collector.left_out(index::visit_near(index, piece, collector.enough(), part, &Visitor::visit, &visitor));
 }
 
 void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector) {

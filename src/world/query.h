@@ -51,16 +51,20 @@ inline constexpr double gap_part = 1.0 / 8.0;
 /// told the bound. certified() is the least of d and of those bounds: none exceeds the true gap, and all are at least
 /// the last enough(). As a part of small distances, E gives up less, so that what is near is told exactly, and a sign
 /// is never wrong.
+///
+/// For a gap E is a part (1 - gap_part) of d + doubt. A bound d that is itself no less than that part of d + doubt does
+/// as well as an exact one: what is answered is no less than the part of the true gap, whichever bound it comes from.
 class Collector {
  public:
   /// `repeats`: the same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
   /// `floor`: of triangles only this is to be offered.
   Collector(double reach, std::span<Contact> out, bool repeats, const FloorOnly* floor = nullptr)
-      : out_(out), floor_(floor), reach_(reach), enough_(reach), repeats_(repeats) {}
+      : out_(out), floor_(floor), asked_(reach), reach_(reach), enough_(reach), repeats_(repeats) {}
   /// For a clearance.
   Collector(double reach, Contact& nearest, double tolerance)
       : out_(&nearest, 1),
         floor_(nullptr),
+        asked_(reach),
         reach_(reach),
         enough_(reach),
         tolerance_(tolerance),
@@ -70,6 +74,7 @@ class Collector {
   Collector(double reach, Contact& nearest)
       : out_(&nearest, 1),
         floor_(nullptr),
+        asked_(reach),
         reach_(reach),
         enough_(reach),
         tolerance_(std::numeric_limits<double>::infinity()),
@@ -88,6 +93,8 @@ class Collector {
   /// Nearest first.
   void sort();
 
+  /// The reach that it was made for.
+  [[nodiscard]] double asked() const { return asked_; }
   /// What comes no nearer can not change the answer.
   [[nodiscard]] double reach() const { return reach_; }
   /// What comes no nearer may be left out, if left_out() is told.
@@ -106,7 +113,7 @@ class Collector {
 
   std::span<Contact> out_;
   const FloorOnly* floor_;
-  double reach_, enough_;
+  double asked_, reach_, enough_;
   double left_out_ = std::numeric_limits<double>::infinity();
   double tolerance_ = 0.0, part_ = 0.0;
   bool bounds_only_ = false;
