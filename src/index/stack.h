@@ -27,9 +27,11 @@ class Stack {
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
 
+  void clear() { count_ = 0; }
+
   /// Starts a search at a root.
   void start() {
-    count_ = 0;
+    clear();
     begin_children();
     push(0.0F, 0, false);
   }

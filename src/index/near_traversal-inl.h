@@ -1,0 +1,192 @@
+// What a body comes near to. Included once per instruction set by traverse.cpp.
+
+#if defined(ROAM_INDEX_NEAR_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROAM_INDEX_NEAR_TRAVERSAL_INL_H_
+#undef ROAM_INDEX_NEAR_TRAVERSAL_INL_H_
+#else
+#define ROAM_INDEX_NEAR_TRAVERSAL_INL_H_
+#endif
+
+#include <limits>
+
+#include "index/leaf-inl.h"
+#include "index/search-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// Of at least one that is left.
+HWY_INLINE std::uint32_t nearest_of(const Children& children) {
+  auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
+  for (std::uint32_t left = children.mask & (children.mask - 1); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    if (children.key[i] < children.key[nearest]) nearest = i;
+  }
+  return nearest;
+}
+
+/// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink.
+class NearTraversal {
+ public:
+  NearTraversal(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context)
+      : index_(index),
+        piece_(piece),
+        way_(piece.motion, piece.body.half_height),
+        asked_(reach),
+        reach_(reach),
+        part_(part),
+        visit_(visit),
+        context_(context) {}
+
+  double run() {
+    const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
+    const double more = margin_of(index_);
+    Passed passed;
+    Stack stack;
+    search(
+        stack, [&](float key) { return passed.over(key, axis_reach(more)); },
+        [&](const Stack::Entry& e) {
+          if (e.leaf) {
+            prefetch_roots(index_, stack);
+            return tile(e.number);
+          }
+          const Node& node = index_.top[e.number].node;
+          Children children;
+          near_node(node, frame, way_, margin(kTopSteps, frame), axis_reach(more), passed.lanes, children);
+          push_children(node, children, index_.top, nullptr, stack);
+          prefetch_tiles(index_, node, children);
+        });
+    note(passed, more);
+    return left_;
+  }
+
+ private:
+  /// What was out of reach: how far from the axis at least.
+  struct Passed {
+    VF lanes;
+    float entry;
+
+    HWY_INLINE Passed()
+        : lanes(set(std::numeric_limits<float>::infinity())), entry(std::numeric_limits<float>::infinity()) {}
+    HWY_INLINE bool over(float key, float reach) {
+      if (!(key > reach)) return false;
+      entry = std::min(entry, key);
+      return true;
+    }
+  };
+
+  /// How far from the axis stored triangles matter still.
+  [[nodiscard]] float axis_reach(double error) const {
+    return round_up(std::max(0.0, piece_.body.radius + reach_ + error));
+  }
+  /// A bound that is too low may say less than half of a distance, and is rounded as that is.
+  [[nodiscard]] float margin(float steps, const Frame& frame) const {
+    return grown_radius(0.0F, way_.half_height, way_.longest + 2.0F * axis_reach(margin_of(index_)), steps * frame.step,
+                        frame.step);
+  }
+  void note(const Passed& passed, double error) {
+    alignas(64) float lanes[kLanes];
+    hn::Store(passed.lanes, kF, lanes);
+    const float least = std::min(passed.entry, *std::min_element(lanes, lanes + kLanes));
+    left_ = std::min(left_, double(least) - piece_.body.radius - error);
+  }
+
+  void tile(std::uint32_t number) {
+    const Tile& t = index_.tiles[number];
+    if (t.absent()) {
+      reach_ = index_.absent->near(index_.absent->context, number);
+      return;
+    }
+    if (only_absent(index_)) return;
+    const Frame frame(t.origin, t.step, piece_.start);
+    const Block* nodes = index_.blocks + t.nodes;
+    const Block* leaves = index_.blocks + t.leaves;
+    const auto error = double(t.error);
+    const Slack slack(part_, piece_.body.radius, error, asked_);
+    float reach = axis_reach(error);
+    const float grown = margin(kTileSteps, frame);
+    Passed passed;
+    const auto beyond = [&](float key) { return passed.over(key, reach); };
+    const auto look = [&](std::uint32_t at, Children& children) -> const Node& {
+      const Node& node = nodes[at].node;
+      near_node(node, frame, way_, grown, reach, passed.lanes, children);
+      return node;
+    };
+    const auto look_at_leaf = [&](std::uint32_t leaf) {
+      looked_ = true;
+      Children triangles;
+      alignas(64) float most[kWidth];
+      near_leaf(leaves[leaf].leaf, frame, way_, reach, slack, passed.lanes, triangles, most);
+      while (triangles.mask != 0) {
+        const std::uint32_t nearest = nearest_of(triangles);
+        if (beyond(triangles.key[nearest])) break;
+        triangles.mask &= ~(1U << nearest);
+        reach_ = visit_(context_, {number, t.leaves + leaf, nearest}, {triangles.key[nearest], most[nearest]});
+        reach = axis_reach(error);
+      }
+    };
+    if (looked_) {
+      stack_.start();
+    } else {
+      dive(nodes, leaves, beyond, look, look_at_leaf);
+    }
+    go_on(stack_, beyond, [&](const Stack::Entry& e) {
+      if (e.leaf) return look_at_leaf(e.number);
+      Children children;
+      const Node& node = look(e.number, children);
+      push_children(node, children, nodes, leaves, stack_);
+    });
+    note(passed, error);
+  }
+
+  /// Begins the search in a tile: goes down from its root by the nearest child to a leaf, and looks at that before what
+  /// is left beside the way is put on the stack, which mostly it then need not be: to keep that in order takes as long
+  /// as to look at it. `look(number, children)` looks at a node and returns it.
+  template <class Beyond, class Look, class LookAtLeaf>
+  HWY_INLINE void dive(const Block* nodes, const Block* leaves, const Beyond& beyond, const Look& look,
+                       const LookAtLeaf& look_at_leaf) {
+    constexpr int kLevels = 4;
+    Children beside[kLevels];
+    const Node* of[kLevels];
+    int depth = 0;
+    stack_.clear();
+    for (std::uint32_t at = 0;;) {
+      Children& children = beside[depth];
+      const Node& node = look(at, children);
+      of[depth++] = &node;
+      if (children.mask == 0) break;
+      const std::uint32_t nearest = nearest_of(children);
+      if (depth == kLevels && nearest < node.inner_count) break;  // deeper trees are few: the stack does it
+      children.mask &= ~(1U << nearest);
+      if (nearest >= node.inner_count) {
+        look_at_leaf(node.first_leaf + (nearest - node.inner_count));
+        break;
+      }
+      at = node.first_node + nearest;
+    }
+    while (depth > 0) {
+      Children& children = beside[--depth];
+      for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+        if (beyond(children.key[i])) children.mask &= ~(1U << i);
+      }
+      push_children(*of[depth], children, nodes, leaves, stack_);
+    }
+  }
+
+  const Index& index_;
+  const Piece& piece_;
+  Way way_;
+  double asked_, reach_;
+  double part_;
+  double left_ = std::numeric_limits<double>::infinity();
+  bool looked_ = false;  ///< at a leaf
+  Visit visit_;
+  void* context_;
+  Stack stack_;
+};
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROAM_INDEX_NEAR_TRAVERSAL_INL_H_

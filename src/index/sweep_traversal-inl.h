@@ -1,0 +1,165 @@
+// What a body meets first. Included once per instruction set by traverse.cpp.
+
+#if defined(ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
+#undef ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
+#else
+#define ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
+#endif
+
+#include "index/leaf-inl.h"
+#include "index/search-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+class SweepTraversal {
+ public:
+  SweepTraversal(const Index& index, const Piece& piece, double until)
+      : index_(index),
+        piece_(piece),
+        motion_(piece.motion, piece.body.half_height),
+        reach_(piece.motion, piece.body.radius, piece.body.half_height) {
+    best_.time = until;
+    if (until < 1.0) t_max_ = round_up(until);
+  }
+
+  Impact run() {
+    const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
+    const double radius = piece_.body.radius + margin_of(index_);
+    const Swept swept(frame, reach_, round_up(margin_of(index_)));
+    const float grown = grown_for(round_up(radius), kTopSteps, frame);
+    Stack stack;
+    search(
+        stack, [this](float key) { return key >= t_max_; },
+        [&](const Stack::Entry& e) {
+          if (e.leaf) {
+            prefetch_roots(index_, stack);
+            return tile(e.number);
+          }
+          const Descent met = descend(index_.top, e.number, frame, swept, grown);
+          if (met.single) return tile(met.first);
+          push_children(*met.node, met.children, index_.top, nullptr, stack);
+          prefetch_tiles(index_, *met.node, met.children);
+        });
+    return best_;
+  }
+
+ private:
+  [[nodiscard]] float grown_for(float radius, float steps, const Frame& frame) const {
+    return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
+  }
+
+  void tile(std::uint32_t number) {
+    const Tile& t = index_.tiles[number];
+    if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
+    const Frame frame(t.origin, t.step, piece_.start);
+    const Swept swept(frame, reach_, t.error);
+    const float radius = round_up(piece_.body.radius + double(t.error));
+    const float grown = grown_for(radius, kTileSteps, frame);
+    // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
+    const bool exact = t.fine || piece_.body.radius > kWideBody;
+    const float hit_limit = exact ? -1.0F
+                                  : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
+                                        (1.0F - kRadiusRoundings * kUnit);
+    const Block* nodes = index_.blocks + t.nodes;
+    const Block* leaves = index_.blocks + t.leaves;
+    search(
+        stack_, [this](float key) { return key >= t_max_; },
+        [&](const Stack::Entry& e) {
+          std::uint32_t only = e.number;
+          if (!e.leaf) {
+            const Descent met = descend(nodes, e.number, frame, swept, grown);
+            if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
+            only = met.first;
+          }
+          leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
+        });
+  }
+
+  /// What is left below a node: a single leaf, or the children of one node.
+  struct Descent {
+    bool single;
+    std::uint32_t first;  ///< the leaf
+    const Node* node;
+    Children children;
+  };
+
+  /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency. Boxes
+  /// in whole numbers settle most visits at a third of the price; times of entry matter only where there is a choice.
+  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
+                             float grown) {
+    Descent out;
+    for (;;) {
+      const Node& node = nodes[number].node;
+      out.single = false;
+      out.node = &node;
+      if (!short_) {
+        sweep_node(node, frame, motion_, grown, t_max_, out.children);
+        return out;
+      }
+      out.children.mask = met_children(node, swept);
+      if (out.children.mask == 0) return out;
+      const auto child = static_cast<std::uint32_t>(std::countr_zero(out.children.mask));
+      if ((out.children.mask & (out.children.mask - 1)) == 0) {
+        if (child < node.inner_count) {
+          number = node.first_node + child;
+          continue;
+        }
+        out.single = true;
+        out.first = node.first_leaf + (child - node.inner_count);
+        return out;
+      }
+      const std::uint32_t met = out.children.mask;
+      sweep_node(node, frame, motion_, grown, t_max_, out.children);
+      out.children.mask &= met;
+      return out;
+    }
+  }
+
+  void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
+            float radius, float hit_limit, float entry) {
+    Met met;
+    sweep_leaf(leaf, frame, motion_, radius, hit_limit, entry, t_max_, met);
+    for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      take(double(met.time[i]), {tile_number, t.leaves + number, i});
+    }
+    for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      if (double(met.time[i]) >= best_.time) continue;
+      decide(t, {tile_number, t.leaves + number, i}, double(met.time[i]));
+    }
+  }
+
+  void decide(const Tile& t, const Place& place, double from) {
+    Body body = piece_.body;
+    body.radius += double(t.fine_error);
+    const auto triangle = local_triangle(index_, place, piece_.start);
+    const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, kArrivalExact);
+    if (s.hit) take(s.time, place);
+  }
+
+  void take(double time, const Place& place) {
+    if (time >= best_.time) return;
+    best_ = {true, time, place};
+    t_max_ = round_up(time);
+  }
+
+  /// Metres. What double precision calls arrived: of no consequence beside the grid, small beside 1e-5 m.
+  static constexpr double kArrivalExact = 1e-6;
+
+  const Index& index_;
+  const Piece& piece_;
+  Motion motion_;
+  Reach reach_;
+  bool short_ = motion_.longest <= kShortMotion;
+  Impact best_;
+  float t_max_ = 1.0F;
+  Stack stack_;
+};
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
