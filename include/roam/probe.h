@@ -106,7 +106,7 @@ struct ProbeAnswer {
   std::optional<ProbeWalk> walk;  ///< where the way is wide enough
 };
 
-/// Nobody can be at an end, nor near it: what() begins with "from" or "to" and says why.
+/// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins with "from" or "to" and says why.
 class NoRoomAtEnd : public Error {
  public:
   NoRoomAtEnd(const std::string& why, const std::optional<Vec3>& place) : Error(why), nearest(place) {}

@@ -182,6 +182,7 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
     const PassageOptions options = options_for(question, group.largest, group.least);
     group.search.emplace(ProbeSearch{survey, question, options});
     const auto stand = [&](const Vec3& asked, ProbeLimit::Kind end, const char* name) {
+      refuse_far_end(*group.search, asked, name);
       const auto place = stand_for(*group.search, asked);
       if (place) return *place;
       const auto low = low_end(*group.search, asked, end);

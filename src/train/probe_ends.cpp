@@ -23,6 +23,7 @@ constexpr double same_floor = 0.5;    ///< nearer points of floors are tried onc
 constexpr int ring_places = 24;
 constexpr std::size_t most_candidates = 100'000;  ///< of them that are kept on the way
 constexpr std::size_t most_floors = 48;           ///< points of floors that are tried
+constexpr double farthest_off = 100.0;            ///< or the scene's diagonal: who flies begins and ends no farther off
 
 /// The floor that a foot near a place comes to; flying, the place.
 std::optional<Vec3> placed(const ProbeSearch& search, const Measure& measure, const Vec3& near) {
@@ -89,10 +90,19 @@ std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, do
   return std::nullopt;
 }
 
+/// Metres from the box of the scene; on foot above it is over it.
+double off_scene(const ProbeSearch& search, const Vec3& place) {
+  const Box box = search.survey.world().bounds();
+  Vec3 off = glm::max(glm::max(box.lower - place, place - box.upper), Vec3(0.0));
+  if (search.options.mode == Mode::walk && place.z > box.upper.z) off.z = 0.0;
+  return glm::length(off);
+}
+
 /// The nearest place for a body of `radius` from anywhere: on foot one that is no higher, and in sight, if there is
 /// one.
 std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& asked, double radius) {
   const Measure measure = search.measure();
+  const bool is_off = off_scene(search, asked) > 0.0;
   std::array<std::optional<Vec3>, 4> found;
   for (const Vec3& floor : nearest_floors(search.survey, asked)) {
     const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
@@ -102,6 +112,7 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& ask
     const bool higher = measure.mode == Mode::walk && room->z > asked.z + measure.step;
     std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
     if (!best || glm::distance(*room, asked) < glm::distance(*best, asked)) best = room;
+    if (is_off) break;  // all floors are hidden from there, and others are hardly nearer
   }
   for (const auto& place : found) {
     if (place) return place;
@@ -144,16 +155,26 @@ std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, 
   return limit;
 }
 
+void refuse_far_end(const ProbeSearch& search, const Vec3& asked, const char* end) {
+  const Box bounds = search.survey.world().bounds();
+  if (search.options.mode != Mode::fly || bounds.empty()) return;
+  const double off = off_scene(search, asked), most = std::max(farthest_off, glm::length(bounds.size()));
+  if (off <= most) return;
+  throw NoRoomAtEnd(fmt::format("{} {}: it is {:.0f} m outside the scene, which spans {} to {}; choose a place in it, "
+                                "or at most {:.0f} m outside",
+                                end, text_of(asked), off, text_of(bounds.lower), text_of(bounds.upper), most),
+                    std::nullopt);
+}
+
 void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius) {
   const Box bounds = search.survey.world().bounds();
   const bool walks = search.options.mode == Mode::walk;
-  const auto outside = [&](int axis) { return asked[axis] < bounds.lower[axis] || asked[axis] > bounds.upper[axis]; };
   std::string why;
   if (search.survey.triangles() == 0) {
     throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(asked)), std::nullopt);
   }
   const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(asked.z, bounds.lower.z));
-  if (outside(0) || outside(1) || (outside(2) && (!walks || asked.z < bounds.lower.z))) {
+  if (off_scene(search, asked) > 0.0) {
     why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
   } else if (walks && !search.survey.floor().ray(asked + Vec3(0.0, 0.0, 0.1), down).hit) {
     why = fmt::format("there is no floor below it: nothing that is at most {:g} degrees steep",

@@ -40,6 +40,10 @@ struct ProbeSearch {
 /// How high a body of `narrowest` may be at the place that was asked for; none where none can stand there.
 [[nodiscard]] std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end);
 
+/// Says so where an end lies so far outside the scene that all the air between would have to be looked at. Throws
+/// NoRoomAtEnd.
+void refuse_far_end(const ProbeSearch& search, const Vec3& asked, const char* end);
+
 /// Says why nobody can be at an end, and where one could be.
 [[noreturn]] void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius);
 
