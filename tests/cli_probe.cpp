@@ -190,7 +190,7 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", "0.3xx2"}, "'0.3xx2' is no size");
   refused({"--matrix", "sizes.txt"}, "there is no file \"sizes.txt\"");
   refused({"--matrix", probe.folder.file(".")}, "folder");
-  refused({"--matrix", ""}, "no sizes");
+  refused({"--matrix", ""}, "--matrix \"\": there are no sizes in it");
   refused({"--matrix", "nan"}, "radius");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");
   refused({"--matrix", "0.3", "--picture", "p.svg"}, "--picture");

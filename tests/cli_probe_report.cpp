@@ -79,14 +79,61 @@ TEST(ProbeReport, SaysWhereAnEndWasMovedTo) {
   EXPECT_GE(report["start"][1].get<double>(), -0.01);
 }
 
-TEST(ProbeReport, FailsWithStatusOneWhereAFileCannotBeReadOrWritten) {
+TEST(ProbeReport, NamesTheFloorUnderAnEndBesideWhatWasTyped) {
+  const TestFolder folder;
+  const ProgramResult result = ask(folder.write("room.obj", door_obj(0.84)), "2,0,1.5", {"--radius", "0.3"});
+  EXPECT_TRUE(contains(result.out, "from (2.00, 0.00, 1.50) to (18.00, -0.40, 1.00)")) << result.out;
+  EXPECT_TRUE(contains(result.out, "The start's floor is (2.00, 0.00, 0.00). The target's floor is (18.00, -0.40, 0.0"))
+      << result.out;
+}
+
+TEST(ProbeReport, NamesTheHeightWhereNobodyThatTallGetsThrough) {
+  const TestFolder folder;
+  const ProgramResult result =
+      ask(folder.write("room.obj", door_obj(0.0)), "2,0,1", {"--radius", "0.3", "--height", "1.8"});
+  EXPECT_TRUE(contains(result.out, "not even for a radius of 0.050 m and a height of 1.8 m")) << result.out;
+}
+
+TEST(ProbeReport, SaysAtOnceThatAnEndLiesFarOffTheScene) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.84));
+  const ProgramResult far = ask(scene, "11000,0,1", {"--radius", "0.3", "--mode", "fly"});
+  EXPECT_EQ(far.status, 1);
+  EXPECT_TRUE(contains(far.err, "10980 m outside the scene") && contains(far.err, "at most 100 m outside")) << far.err;
+  EXPECT_EQ(ask(scene, "2,0,60", {"--radius", "0.3", "--mode", "fly"}).status, 3) << "the room is closed";
+}
+
+TEST(ProbeReport, RefusesASpacingThatTheSceneIsTooSmallFor) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.84));
+  const ProgramResult refused = ask(scene, "2,0,1", {"--radius", "0.3", "--spacing", "100"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "--spacing 100: the scene is 20 m long")) << refused.err;
+  const ProgramResult warned = ask(scene, "2,0,1", {"--radius", "0.3", "--spacing", "2"});
+  EXPECT_TRUE(contains(warned.err, "say --spacing 0.85 or less")) << warned.err;
+  EXPECT_TRUE(ask(scene, "2,0,1", {"--radius", "0.3", "--spacing", "0.8"}).err.empty());
+}
+
+TEST(ProbeReport, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", door_obj(0.84));
+  for (const char* option : {"--path", "--picture"}) {
+    const ProgramResult result = ask(scene, "2,0,1", {"--radius", "0.3", option, folder.file("none/door.svg")});
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_TRUE(contains(result.err, "door.svg: there is no folder")) << result.err;
+    EXPECT_TRUE(result.out.empty()) << result.out;
+  }
+}
+
+TEST(ProbeReport, FailsWithStatusOneWhereAFileCannotBeReadOrWrittenAndTellsTheAnswer) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.84));
   EXPECT_EQ(ask(folder.file("none.obj"), "2,0,1", {"--radius", "0.3"}).status, 1);
-  const ProgramResult path = ask(scene, "2,0,1", {"--radius", "0.3", "--path", folder.file("none/way.path")});
+  const std::string too_long = folder.file(std::string(300, 'w') + ".path");
+  const ProgramResult path = ask(scene, "2,0,1", {"--radius", "0.3", "--path", too_long});
   EXPECT_EQ(path.status, 1);
-  EXPECT_TRUE(contains(path.err, "way.path") && contains(path.err, "cannot be written")) << path.err;
-  EXPECT_EQ(ask(scene, "2,0,1", {"--radius", "0.3", "--picture", folder.file("none/door.svg")}).status, 1);
+  EXPECT_TRUE(contains(path.err, ".path") && contains(path.err, "cannot be written")) << path.err;
+  EXPECT_TRUE(contains(path.out, "Yes: a sphere of radius 0.3 m")) << path.out;
 }
 
 }  // namespace

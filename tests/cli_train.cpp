@@ -105,6 +105,46 @@ TEST(TrainVerb, RefusesWhatCannotBeMeant) {
   EXPECT_TRUE(contains(paths.result.err, "'x' is not a whole number from 1 to 10000")) << paths.result.err;
 }
 
+TEST(TrainVerb, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
+  for (const char* option : {"-o", "--picture"}) {
+    const Train none({}, {option, "@none/p.svg"});
+    EXPECT_EQ(none.result.status, 2) << option;
+    EXPECT_TRUE(contains(none.result.err, "there is no folder")) << none.result.err;
+    EXPECT_TRUE(none.result.out.empty()) << none.result.out;
+    EXPECT_EQ(Train({}, {option, ""}).result.status, 2) << option;
+    EXPECT_TRUE(contains(Train({}, {option, "@."}).result.err, "that is a folder")) << option;
+  }
+  EXPECT_TRUE(contains(Train({}, {"-o", "@scene.obj"}).result.err, "would overwrite the scene"));
+}
+
+TEST(TrainVerb, TellsItsAnswerThoughTheProfileCannotBeWritten) {
+  const Train train({}, {"--json", "-o", "@" + std::string(254, 'p')});
+  EXPECT_EQ(train.result.status, 1);
+  EXPECT_TRUE(contains(train.result.err, "cannot write")) << train.result.err;
+  EXPECT_TRUE(train.json().contains("answer")) << train.result.out;
+  EXPECT_TRUE(train.json()["profile"].is_null());
+}
+
+TEST(TrainVerb, WritesNoProfileWhereItHasLearnedNothing) {
+  const TestFolder folder;
+  const std::string scene = folder.file("big.ply");
+  ASSERT_EQ(run_program(ROAM_PROGRAM, {"make", "terrain", "-o", scene, "--triangles", "300k"}).status, 0);
+  const ProgramResult result = run_program(ROAM_PROGRAM, {"train", scene, "--spacing", "0.05"}, {.interrupt_after = 2});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_FALSE(std::filesystem::exists(scene + ".roam.json")) << result.err;
+  if (result.out.empty()) GTEST_SKIP() << "it was still reading: " << result.err;
+  EXPECT_TRUE(contains(result.err, "before it had learned anything")) << result.err;
+  EXPECT_TRUE(contains(result.out, "No path was planned yet")) << result.out;
+}
+
+TEST(TrainVerb, RefusesASpacingThatTheSceneIsTooSmallFor) {
+  const Train train({}, {"--spacing", "20"});
+  EXPECT_EQ(train.result.status, 2);
+  EXPECT_TRUE(contains(train.result.err, "hardly a place would be looked at")) << train.result.err;
+  const Train wide({}, {"--spacing", "1", "--no-profile"});
+  EXPECT_TRUE(contains(wide.result.err, "say --spacing 0.85 or less")) << wide.result.err;
+}
+
 TEST(TrainVerb, EndsWithThreeForABodyThatStandsNowhereInside) {
   const Train train({}, {"--height", "3.5", "--json", "--no-profile"});
   EXPECT_EQ(train.result.status, 3) << train.result.err;

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "interrupt.h"
+#include "output_file.h"
 #include "picture/draw.h"
 #include "probe_picture.h"
 #include "probe_text.h"
@@ -64,7 +65,7 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
       throw UsageError(fmt::format("{}; and there is no file \"{}\"", error.what(), text));
     }
   }
-  if (sizes.empty()) throw UsageError(fmt::format("--matrix {}: there are no sizes in it", text));
+  if (sizes.empty()) throw UsageError(fmt::format("--matrix \"{}\": there are no sizes in it", text));
   return sizes;
 }
 
@@ -112,16 +113,6 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   return q;
 }
 
-void check_output(const ProbeOptions& o, const char* option, const std::optional<std::filesystem::path>& output) {
-  if (!output) return;
-  if (output->empty()) throw UsageError(fmt::format("{}: a file needs a name", option));
-  std::error_code none;
-  for (const auto& scene : o.scene.scenes) {
-    if (std::filesystem::equivalent(scene, *output, none))
-      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output->string()));
-  }
-}
-
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::ofstream out(*o.path);
   out << "# " << explain(o.question, answer) << "\n";
@@ -152,8 +143,8 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
 ExitStatus probe(ProbeOptions o) {
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
-  check_output(o, "--path", o.path);
-  check_output(o, "--picture", o.picture);
+  if (o.path) check_output(o.scene.scenes, "--path", *o.path);
+  if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   if (o.picture && !picture::is_picture(*o.picture))
     throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
   std::optional<tbb::global_control> limit;
@@ -163,6 +154,9 @@ ExitStatus probe(ProbeOptions o) {
   std::optional<picture::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope_degrees());
+  double smallest = sizes.front().radius;
+  for (const ProbedSize& size : sizes) smallest = std::min(smallest, size.radius);
+  check_spacing(scene, o.question.spacing, 2.0 * smallest);
   std::vector<ProbeAnswer> answers;
   {
     Progress progress("looking for a way", "places");
@@ -175,15 +169,19 @@ ExitStatus probe(ProbeOptions o) {
     o.question.progress = {};
   }
   const ProbeAnswer& first = answers.front();
-  if (o.path && first.wide_enough) write_path(o, scene.survey, first);
+  Unwritten unwritten;
+  if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
   if (o.path && !first.wide_enough)
     fmt::print(stderr, "roam: {}: there is no way, so it was not written\n", o.path->string());
-  if (drawing) drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first));
+  if (drawing) {
+    unwritten.attempt([&] { drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first)); });
+  }
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
     print(o.matrix ? table(o.question, answers) : explain(o.question, first) + "\n");
   }
+  unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;
 }

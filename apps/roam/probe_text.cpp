@@ -15,7 +15,7 @@ namespace {
 
 using Kind = ProbeLimit::Kind;
 
-/// Metres: an end that stands farther than that from the place that was asked for is told.
+/// Metres: an end that stands farther than that from the place that was asked for is told, both of them.
 constexpr double moved_aside = 0.05;
 constexpr double tall = 2.0;  ///< eyes are at most that far above the feet
 
@@ -77,9 +77,12 @@ bool is_unknown(const ProbeAnswer& answer) {
 
 /// Of what nobody was found to pass.
 std::string no_way(const ProbeAnswer& answer) {
+  const ProbedSize& size = answer.size;
   return fmt::format(
-      "{}, not even for a radius of {}: what is reached from the start and what is reached from the target do not meet",
-      is_shut(answer) ? "There is no way at all" : "No way was found", metres(answer.narrowest));
+      "{}, not even for a radius of {}{}: what is reached from the start and what is reached from the target do not "
+      "meet",
+      is_shut(answer) ? "There is no way at all" : "No way was found", metres(answer.narrowest),
+      size.height > 2.0 * size.radius ? fmt::format(" and a height of {:.3g} m", size.height) : "");
 }
 
 /// What stops the body.
@@ -186,6 +189,7 @@ std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode m
   }
   if (mode == Mode::walk && down > tall)
     return fmt::format(" The {} is {:.2f} m above the floor: {} was taken.", end, down, at(stands));
+  if (mode == Mode::walk && std::abs(down) > moved_aside) return fmt::format(" The {}'s floor is {}.", end, at(stands));
   return "";
 }
 

@@ -65,8 +65,11 @@ void Progress::show(std::uint64_t done, std::uint64_t total) {
   std::string text = fmt::format("{}: ", what_);
   if (total > 0) {
     const double fraction = static_cast<double>(done) / static_cast<double>(total);
-    text += fmt::format("{:.0f} %, {} of {} {}, {} {}/s", 100.0 * fraction, short_count(static_cast<double>(done)),
-                        short_count(static_cast<double>(total)), unit_, short_count(rate), unit_);
+    text += fmt::format("{:.0f} %", 100.0 * fraction);
+    if (!unit_.empty()) {
+      text += fmt::format(", {} of {} {}, {} {}/s", short_count(static_cast<double>(done)),
+                          short_count(static_cast<double>(total)), unit_, short_count(rate), unit_);
+    }
     if (done > 0 && done < total) text += ", " + short_time((1.0 / fraction - 1.0) * seconds) + " left";
   } else {
     text += fmt::format("{} {}, {} {}/s", short_count(static_cast<double>(done)), unit_, short_count(rate), unit_);

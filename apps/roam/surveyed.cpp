@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <optional>
 
@@ -100,6 +101,26 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     return progress.goes_on(static_cast<std::uint64_t>(done), identity.triangles);
   };
   return {Survey::build(std::move(meshes), how), std::move(identity)};
+}
+
+void check_spacing(const Surveyed& scene, double spacing, double width) {
+  constexpr double usual = 0.2;       // m
+  constexpr double overlooked = 0.7;  // of the spacing: openings under that
+  const Box bounds = scene.survey.world().bounds();
+  if (bounds.empty() || spacing <= usual) return;
+  const Vec3 size = bounds.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (spacing > 0.5 * longest) {
+    throw UsageError(fmt::format(
+        "--spacing {:g}: the scene is {:.3g} m long, so hardly a place would be looked at; {:g} m suits most scenes",
+        spacing, longest, usual));
+  }
+  if (overlooked * spacing > width) {
+    fmt::print(stderr,
+               "roam: note: with --spacing {:g} openings under {:.2g} m may be overlooked; to find those of {:.2g} m "
+               "say --spacing {:.2g} or less\n",
+               spacing, overlooked * spacing, width, std::floor(100.0 * width / overlooked) / 100.0);
+  }
 }
 
 std::string file_names(const SceneOptions& scene) {

@@ -24,6 +24,10 @@ struct Surveyed {
 /// and roam::Error for a store that is larger than the memory that is free.
 [[nodiscard]] Surveyed survey_scene(const SceneOptions& options, double slope_degrees);
 
+/// Of --spacing, m: throws UsageError where it is more than half the scene's length, so that hardly a place would be
+/// looked at, and warns on standard error where openings of `width`, m, may be overlooked.
+void check_spacing(const Surveyed& scene, double spacing, double width);
+
 /// What a picture is called: its scene, without folders.
 [[nodiscard]] std::string file_names(const SceneOptions& scene);
 

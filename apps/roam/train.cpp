@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "interrupt.h"
+#include "output_file.h"
 #include "picture/picture.h"
 #include "progress.h"
 #include "roam/error.h"
@@ -24,7 +26,7 @@ struct TrainVerbOptions {
   TrainOptions train;
   std::string mode = "walk", method = "interval";
   double slope = 45.0;
-  std::filesystem::path picture, profile;
+  std::optional<std::filesystem::path> picture, profile;
   bool no_profile = false;
   bool json = false;
 };
@@ -44,7 +46,7 @@ class StagedProgress {
  public:
   bool at(const std::string& stage, double done) {
     if (!progress_ || stage != stage_) {
-      progress_.emplace(stage, "steps");
+      progress_.emplace(stage, "");
       stage_ = stage;
     }
     constexpr std::uint64_t whole = 1000;
@@ -56,11 +58,35 @@ class StagedProgress {
   std::string stage_;
 };
 
-void check_output(const TrainVerbOptions& o, const char* option, const std::filesystem::path& output) {
-  std::error_code none;
-  for (const auto& scene : o.scene.scenes) {
-    if (!output.empty() && std::filesystem::equivalent(scene, output, none))
-      throw UsageError(fmt::format("{} {} would overwrite the scene", option, output.string()));
+/// Where the profile goes; empty: nowhere.
+std::filesystem::path profile_file(const TrainVerbOptions& o) {
+  if (o.no_profile) return {};
+  if (o.profile) {
+    check_output(o.scene.scenes, "-o", *o.profile);
+    return *o.profile;
+  }
+  const std::filesystem::path beside = profile_path(o.scene.scenes);
+  try {
+    check_output({}, "the profile", beside);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{} by -o, or say --no-profile", error.what()));
+  }
+  return beside;
+}
+
+/// Nothing where there is none to write, and why.
+void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file, const SceneIdentity& identity,
+                   TrainReport& report) {
+  const Training& t = report.training;
+  if (file.empty() || t.places == 0) return;
+  const bool learned = t.complete || !t.paths.empty();
+  if (!learned) {
+    fmt::print(stderr, "roam: {} was not written: this training ended before it had learned anything\n", file.string());
+  } else if (!t.complete && !o.profile && std::filesystem::exists(file)) {
+    fmt::print(stderr, "roam: {} is left as it is: this training ended early\n", file.string());
+  } else {
+    save_profile(profile_of(report, identity), file);
+    report.profile = file;
   }
 }
 
@@ -75,42 +101,39 @@ ExitStatus train(TrainVerbOptions o) {
     throw UsageError(fmt::format(
         "--height {:g} with --step {:g}: nothing is left above the knee; take a smaller step or leave --height out",
         o.train.height, o.train.step));
-  if (o.no_profile && !o.profile.empty()) throw UsageError("-o and --no-profile: one of them");
-  check_output(o, "--picture", o.picture);
-  check_output(o, "-o", o.profile);
-  if (!o.picture.empty() && !picture::is_picture(o.picture))
-    throw UsageError("--picture " + o.picture.string() + ": a picture is an .svg or a .png, by its extension");
+  o.scene.check_there();
+  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
+  const std::filesystem::path profile = profile_file(o);
+  if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
+  if (o.picture && !picture::is_picture(*o.picture))
+    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
   std::optional<picture::PictureFile> drawing;
-  if (!o.picture.empty()) drawing.emplace(o.picture);
+  if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);
+  constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
+  check_spacing(scene, o.train.spacing, narrow_door);
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, o.slope, {}, {}};
   {
     StagedProgress progress;
     o.train.progress = [&](const std::string& stage, double done) { return progress.at(stage, done); };
     report.training = train(scene.survey, o.train);
   }
-  if (!o.no_profile && report.training.places > 0) {
-    const std::filesystem::path beside = profile_path(o.scene.scenes);
-    if (!report.training.complete && o.profile.empty() && std::filesystem::exists(beside)) {
-      fmt::print(stderr, "roam: {} is left as it is: this training ended early\n", beside.string());
-    } else {
-      report.profile = o.profile.empty() ? beside : o.profile;
-      save_profile(profile_of(report, scene.identity), report.profile);
-    }
-  }
+  Unwritten unwritten;
+  unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
   if (o.json) {
     print(json_report(report));
   } else {
     print(text_report(report));
   }
   if (drawing && interrupted()) {
-    fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture.string());
+    fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture->string());
   } else if (drawing) {
     const std::vector<picture::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.
     drawing->write(picture::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
                                           views.empty() ? report.training.answer : std::string()));
   }
+  unwritten.raise();
   if (!report.training.complete) return failed;
   return report.training.feasible ? done : answer_no;
 }

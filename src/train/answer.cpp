@@ -173,10 +173,10 @@ std::string interval_answer(const Layout& layout, const Training& training, bool
   const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
   const bool has_conflict = training.largest && training.smallest > *training.largest;
-  if (ended && training.paths.empty()) {
-    text = fmt::format("No path was planned yet: a body with {} is only what a person has.",
+  if (ended && training.paths.empty())
+    return fmt::format("No path was planned yet: a body with {} is only what a person has.",
                        body_words(training.radius, training.support_radius));
-  } else if (ended && !has_conflict) {
+  if (ended && !has_conflict) {
     text = fmt::format("A body with {} is the best so far. {}", body_words(training.radius, training.support_radius),
                        interval_words(training, cracks_known));
   } else if (training.paths.empty()) {
