@@ -17,6 +17,8 @@ class LatticeGraph {
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
   /// All neighbours, which are made and measured if need be.
   virtual Neighbours expand(NodeId id) = 0;
+  /// A place will be expanded later: other cores may ask by then what expand() needs to know. Changes no answer.
+  virtual void look_ahead(NodeId /*id*/) {}
   /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
   /// is to be gone, for on foot walkers are sent over gaps.
   virtual bool goes(NodeId from, NodeId to) = 0;

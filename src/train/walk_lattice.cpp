@@ -1,38 +1,21 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "train/lattice_graph.h"
-#include "train/trials.h"
-#include "train/walk_lattice_place.h"
+#include "train/walk_lattice_scouts.h"
+#include "train/walk_lattice_step.h"
 
 namespace roam::training {
 namespace {
 
-constexpr int directions = 8;
-/// Counter-clockwise, so that the opposite of one is four further.
-constexpr std::array<LatticePoint, directions> to_neighbour = {
-    {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}}};
-constexpr int opposite(int direction) { return (direction + directions / 2) % directions; }
+constexpr std::uint8_t all_directions = 0xFF;
 
 /// Metres. Feet over one point of the lattice that differ by less are the same place: balls that come down beside
 /// different things rest at slightly different heights.
 constexpr double same_height = 0.1;
 /// Spacings: a place that is asked for is taken to one of the lattice at most so far away.
 constexpr double seed_reach = 1.5;
-
-/// Metres: two levels differ by a step when they differ by no more than that and this.
-constexpr double level_tolerance = 2e-3;
-
-/// A foot, and how wide a body may be there.
-struct Standing {
-  Vec3 place{0.0};
-  double level = 0.0;  ///< see Foot
-  double free = 0.0;
-  bool carried = false;
-};
 
 /// What a place of the lattice knows of itself, beside its Node.
 struct Column {
@@ -48,42 +31,43 @@ struct Column {
 class WalkLattice final : public LatticeGraph {
  public:
   WalkLattice(const Survey& survey, const Measure& measure, double spacing, const Box& within)
-      : survey_(survey), measure_(measure), spacing_(spacing), within_(within), largest_(largest_radius(measure)) {}
+      : survey_(survey),
+        measure_(measure),
+        plan_{spacing},
+        within_(within),
+
+        steps_(survey, measure) {}
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
+  void look_ahead(NodeId id) override;
   bool goes(NodeId from, NodeId to) override;
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
   void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:
-  [[nodiscard]] Vec3 point(const LatticePoint& p) const { return origin_ + Vec3(spacing_ * p.x, spacing_ * p.y, 0.0); }
   [[nodiscard]] Standing standing(NodeId id) const {
     return {nodes_[id].place, columns_[id].level, nodes_[id].clearance, columns_[id].carried};
   }
-  NodeId make(const LatticePoint& at, const Foot& foot);
+  NodeId make(const LatticePoint& at, const Foot& foot, float clearance);
   [[nodiscard]] NodeId nearest_over(const LatticePoint& at, double level, double tolerance) const;
-  [[nodiscard]] std::optional<Foot> foot_from(const Standing& from, const Vec3& to) const;
-  [[nodiscard]] NodeId look(NodeId from, int direction);
-  [[nodiscard]] bool linked(const Standing& a, const Standing& b) const;
-  [[nodiscard]] bool walked(const Standing& a, const Standing& b) const;
+  [[nodiscard]] bool covers(const LatticePoint& at) const;
+  [[nodiscard]] NodeId look(NodeId from, std::size_t direction, const ScoutedSteps* ahead);
 
   const Survey& survey_;
   const Measure measure_;
-  const double spacing_;
+  LatticePlan plan_;
   const Box within_;
-  const double largest_;
-  Vec3 origin_{0.0};
+  const WalkSteps steps_;
   LatticeTable table_;
   std::vector<Column> columns_;
+  LatticeTable measured_;  ///< by storey: who has asked ahead how wide a body may be there
+  Scouts scouts_{steps_, plan_};
 };
 
-NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot) {
+NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot, float clearance) {
   const auto id = static_cast<NodeId>(nodes_.size());
-  const auto stand = stand_at(survey_, measure_, foot.place, largest_, measure_.narrowest);
-  float clearance = stand ? static_cast<float>(stand->radius) : 0.0F;
-  if (stand && clearance > stand->radius) clearance = std::nextafter(clearance, 0.0F);
   nodes_.push_back({foot.place, clearance});
   Column column{.at = at, .next = table_.find(at), .to = {}, .level = foot.level, .carried = foot.carried};
   column.to.fill(no_node);
@@ -102,81 +86,72 @@ NodeId WalkLattice::nearest_over(const LatticePoint& at, double level, double to
   return best;
 }
 
-/// Where a foot comes to that goes from a place to (x, y): straight, else with one step between; over cracks only where
-/// the knee meets no wall.
-std::optional<Foot> WalkLattice::foot_from(const Standing& from, const Vec3& to) const {
-  if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level)) return foot;
-  const Vec3 half = 0.5 * (from.place + to);
-  if (const auto between = floor_below(survey_, measure_, half.x, half.y, from.level)) {
-    if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->level)) return foot;
-  }
-  const Vec3 level(to.x, to.y, from.place.z);
-  if (!goes_straight(survey_, measure_, from.place, level, measure_.narrowest)) return std::nullopt;
-  return carried_over(survey_, measure_, to.x, to.y, from.level);
+/// Whether a point is one of what is looked at.
+bool WalkLattice::covers(const LatticePoint& at) const {
+  const Vec3 to = plan_.point(at);
+  return std::max(std::abs(at.x), std::abs(at.y)) < LatticeTable::limit && to.x >= within_.lower.x &&
+         to.x <= within_.upper.x && to.y >= within_.lower.y && to.y <= within_.upper.y;
 }
 
-/// Whether a body of `narrowest` gets from one free place to another. Two free bodies that overlap leave no room for a
-/// wall between them.
-bool WalkLattice::linked(const Standing& a, const Standing& b) const {
-  const double rise = std::abs(a.place.z - b.place.z), along = std::hypot(a.place.x - b.place.x, a.place.y - b.place.y);
-  const double least = measure_.narrowest;
-  const bool one_step = std::abs(a.level - b.level) <= measure_.step + level_tolerance;
-  // Centres of spheres differ in height by their radii and lifts too.
-  const double apart =
-      measure_.height == 0.0 ? std::hypot(along, rise + std::abs(a.free - b.free) + measure_.step) : along;
-  if (one_step && a.free + b.free - apart >= 2.0 * least) return true;
-  if (one_step && goes_straight(survey_, measure_, a.place, b.place, least)) return true;
-  const Vec3 half = 0.5 * (a.place + b.place);
-  const auto between = floor_below(survey_, measure_, half.x, half.y, a.level);
-  return between && std::abs(between->level - b.level) <= measure_.step + level_tolerance &&
-         goes_straight(survey_, measure_, a.place, between->place, least) &&
-         goes_straight(survey_, measure_, between->place, b.place, least);
-}
-
-/// Whether a walker gets from one place to another where one of them is over a gap: on the largest foot, for what lies
-/// in the gap may still be within a step, or the gap go on into an open drop. So one goes there.
-bool WalkLattice::walked(const Standing& a, const Standing& b) const {
-  constexpr double person = 0.3;  // m
-  constexpr double share = 0.97;  // of what is free
-  if (!a.carried && !b.carried) return true;
-  const BodyKind kind{.height = measure_.height, .step = measure_.step, .slope_degrees = survey_.slope_degrees()};
-  const std::array<Vec3, 2> way = a.carried ? std::array{b.place, a.place} : std::array{a.place, b.place};
-  const double radius = std::min(share * std::min(a.free, b.free), person);
-  return try_way(survey_, kind, radius, measure_.support_max, way).outcome == Outcome::reached;
-}
-
-NodeId WalkLattice::look(NodeId from, int direction) {
+NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps* ahead) {
+  const LatticePoint at = beside(columns_[from].at, direction);
+  if (!covers(at)) return no_node;
   const Standing here = standing(from);
-  LatticePoint at = columns_[from].at;
-  at.x += to_neighbour[static_cast<std::size_t>(direction)].x;
-  at.y += to_neighbour[static_cast<std::size_t>(direction)].y;
-  if (std::abs(at.x) >= LatticeTable::limit || std::abs(at.y) >= LatticeTable::limit) return no_node;
-  const Vec3 to = point(at);
-  if (to.x < within_.lower.x || to.x > within_.upper.x || to.y < within_.lower.y || to.y > within_.upper.y)
-    return no_node;
+  const unsigned bit = 1U << direction;
+  const bool is_asked = ahead != nullptr && (ahead->asked & bit) != 0;
+  bool is_measured = false;
   NodeId there = nearest_over(at, here.level, measure_.step);
   if (there == no_node) {
-    const auto foot = foot_from(here, to);
+    const auto foot = is_asked ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
     if (!foot || foot->place.z < within_.lower.z || foot->place.z > within_.upper.z) return no_node;
     there = nearest_over(at, foot->level, same_height);
-    if (there == no_node) there = make(at, *foot);
+    if (there == no_node) {
+      is_measured = is_asked && (ahead->measured & bit) != 0;
+      there = make(at, *foot, is_measured ? ahead->clearance[direction] : steps_.clearance(foot->place));
+    }
   }
   // Its own way back may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
-  if (nodes_[there].clearance == 0.0F || !linked(here, standing(there))) return no_node;
-  return there;
+  if (nodes_[there].clearance == 0.0F) return no_node;
+  const bool is_linked = is_measured ? (ahead->linked & bit) != 0 : steps_.linked(here, standing(there));
+  return is_linked ? there : no_node;
+}
+
+void WalkLattice::look_ahead(NodeId id) {
+  // Where nothing limits a body, answers are had sooner than they are sent for.
+  if (nodes_[id].clearance >= steps_.unlimited() || columns_[id].settled == all_directions || scouts_.are_out(id))
+    return;
+  const Standing here = standing(id);
+  unsigned asked = 0, measured = 0;
+  for (std::size_t direction = 0; direction < directions; ++direction) {
+    const unsigned bit = 1U << direction;
+    const LatticePoint at = beside(columns_[id].at, direction);
+    if ((columns_[id].settled & bit) != 0 || !covers(at) || nearest_over(at, here.level, measure_.step) != no_node)
+      continue;
+    asked |= bit;
+    // Most points are come to from more than one side: who asks first about one has it measured.
+    const auto storey = std::lround(here.level / std::max(measure_.step, same_height)) % LatticeTable::limit;
+    const LatticePoint about{at.x, at.y, static_cast<std::int32_t>(storey)};
+    if (measured_.find(about) != no_node) continue;
+    measured_.set(about, id);
+    measured |= bit;
+  }
+  if (asked != 0)
+    scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked), static_cast<std::uint8_t>(measured));
 }
 
 Neighbours WalkLattice::expand(NodeId id) {
-  for (int direction = 0; direction < directions; ++direction) {
+  if (columns_[id].settled == all_directions) return neighbours(id);
+  const auto ahead = scouts_.take(id);
+  for (std::size_t direction = 0; direction < directions; ++direction) {
     if (columns_[id].settled & 1U << direction) continue;
-    const NodeId there = look(id, direction);
+    const NodeId there = look(id, direction, ahead.get());
     columns_[id].settled = static_cast<std::uint8_t>(columns_[id].settled | 1U << direction);
     if (there == no_node) continue;
-    columns_[id].to[static_cast<std::size_t>(direction)] = there;
+    columns_[id].to[direction] = there;
     Column& other = columns_[there];
     other.settled = static_cast<std::uint8_t>(other.settled | 1U << opposite(direction));
-    other.to[static_cast<std::size_t>(opposite(direction))] = id;
+    other.to[opposite(direction)] = id;
   }
   return neighbours(id);
 }
@@ -185,11 +160,11 @@ bool WalkLattice::goes(NodeId from, NodeId to) {
   auto& there = columns_[from].to;
   const auto found = std::find(there.begin(), there.end(), to);
   if (found == there.end()) return false;
-  const auto direction = static_cast<int>(found - there.begin());
+  const auto direction = static_cast<std::size_t>(found - there.begin());
   const unsigned bit = 1U << direction;
   if (columns_[from].tried & bit) return true;
-  if (!walked(standing(from), standing(to))) {
-    *found = columns_[to].to[static_cast<std::size_t>(opposite(direction))] = no_node;
+  if (!steps_.walked(standing(from), standing(to))) {
+    *found = columns_[to].to[opposite(direction)] = no_node;
     return false;
   }
   columns_[from].tried = static_cast<std::uint8_t>(columns_[from].tried | bit);
@@ -209,10 +184,9 @@ NodeId WalkLattice::floor_under_gap(NodeId id) const {
 }
 
 void WalkLattice::close(NodeId id) {
-  constexpr std::uint8_t all_directions = 0xFF;
-  for (int direction = 0; direction < directions; ++direction) {
-    NodeId& there = columns_[id].to[static_cast<std::size_t>(direction)];
-    if (there != no_node) columns_[there].to[static_cast<std::size_t>(opposite(direction))] = no_node;
+  for (std::size_t direction = 0; direction < directions; ++direction) {
+    NodeId& there = columns_[id].to[direction];
+    if (there != no_node) columns_[there].to[opposite(direction)] = no_node;
     there = no_node;
   }
   columns_[id].settled = all_directions;
@@ -229,13 +203,13 @@ Neighbours WalkLattice::neighbours(NodeId id) const {
 std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
   constexpr int farthest = 2;  // points of the lattice that are looked at
   static_assert(farthest >= seed_reach);
-  if (nodes_.empty()) origin_ = Vec3(place.x, place.y, 0.0);
+  if (nodes_.empty()) plan_.origin = Vec3(place.x, place.y, 0.0);
   const Standing here{place, level_at(survey_, measure_, place), clearance_at(survey_, measure_, place)};
-  if (!(std::abs(place.x - origin_.x) < spacing_ * (LatticeTable::limit - farthest) &&
-        std::abs(place.y - origin_.y) < spacing_ * (LatticeTable::limit - farthest)))
+  if (!(std::abs(place.x - plan_.origin.x) < plan_.spacing * (LatticeTable::limit - farthest) &&
+        std::abs(place.y - plan_.origin.y) < plan_.spacing * (LatticeTable::limit - farthest)))
     return std::nullopt;
-  const LatticePoint middle{static_cast<std::int32_t>(std::lround((place.x - origin_.x) / spacing_)),
-                            static_cast<std::int32_t>(std::lround((place.y - origin_.y) / spacing_)), 0};
+  const LatticePoint middle{static_cast<std::int32_t>(std::lround((place.x - plan_.origin.x) / plan_.spacing)),
+                            static_cast<std::int32_t>(std::lround((place.y - plan_.origin.y) / plan_.spacing)), 0};
   struct Candidate {
     double distance;
     LatticePoint at;
@@ -244,20 +218,20 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
   for (int dx = -farthest; dx <= farthest; ++dx) {
     for (int dy = -farthest; dy <= farthest; ++dy) {
       const LatticePoint at{middle.x + dx, middle.y + dy, 0};
-      const Vec3 to = point(at);
+      const Vec3 to = plan_.point(at);
       const double distance = std::hypot(to.x - place.x, to.y - place.y);
-      if (distance <= seed_reach * spacing_) candidates.push_back({distance, at});
+      if (distance <= seed_reach * plan_.spacing) candidates.push_back({distance, at});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   for (const Candidate& c : candidates) {
-    const auto foot = foot_from(here, point(c.at));
+    const auto foot = steps_.foot_from(here, plan_.point(c.at));
     if (!foot) continue;
     NodeId id = nearest_over(c.at, foot->level, same_height);
-    if (id == no_node) id = make(c.at, *foot);
+    if (id == no_node) id = make(c.at, *foot, steps_.clearance(foot->place));
     const Standing there = standing(id);
-    if (there.free > 0.0 && (c.distance == 0.0 || (here.free > 0.0 && linked(here, there)))) return id;
+    if (there.free > 0.0 && (c.distance == 0.0 || (here.free > 0.0 && steps_.linked(here, there)))) return id;
   }
   return std::nullopt;
 }

@@ -1,3 +1,5 @@
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <queue>
 
@@ -8,7 +10,6 @@ namespace {
 
 /// How many places are looked past before anybody is asked whether to go on.
 constexpr std::size_t places_between_questions = 256;
-
 /// A step out of the tree that may be taken.
 struct Edge {
   float width = 0.0F;        ///< the smaller clearance of its two places
@@ -21,6 +22,8 @@ struct Narrower {
   }
 };
 
+bool has_other_cores() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1; }
+
 }  // namespace
 
 struct WidestTree::State {
@@ -29,6 +32,7 @@ struct WidestTree::State {
   std::vector<float> offered;        ///< of each place: the widest of `edges` that lead to it; less than 0: none
   std::vector<NodeId> were_offered;  ///< places that may have one
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
+  bool looks_ahead = false;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
   std::uint64_t pushed = 0;
   double spacing = 0.0;
@@ -43,7 +47,10 @@ struct WidestTree::State {
     // Of those that lead to one place the widest is taken, and of equals the first: the others would only wait.
     const float width = std::min(graph->node(from).clearance, graph->node(to).clearance);
     if (width <= offered[to]) return;
-    if (offered[to] < 0.0F) were_offered.push_back(to);
+    if (offered[to] < 0.0F) {
+      were_offered.push_back(to);
+      if (looks_ahead) graph->look_ahead(to);
+    }
     offered[to] = width;
     edges.push({width, pushed++, from, to});
   }
@@ -99,6 +106,8 @@ std::optional<NodeId> WidestTree::seed(const Vec3& place) {
 
 bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on) {
   State& s = *state_;
+  // Where all in reach is taken, all that is offered is.
+  s.looks_ahead = until == no_node && has_other_cores();
   s.turn_to(root);
   for (std::size_t taken = 0; !s.edges.empty(); ++taken) {
     if (until != no_node && s.root[until] == s.growing) return true;

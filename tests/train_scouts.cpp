@@ -1,0 +1,71 @@
+// Steps of the lattice that other cores ask ahead change nothing: neither what is found, nor its numbers.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "seeded_gallery.h"
+#include "train/lattice.h"
+
+namespace {
+
+using roam::Survey;
+using roam::Vec3;
+using roam::training::Measure;
+using roam::training::NodeId;
+using roam::training::WidestTree;
+
+/// All that is known of a lattice that was grown whole, or until `most` places were known and then whole.
+struct Grown {
+  std::vector<Vec3> places;
+  std::vector<float> clearances;
+  std::vector<NodeId> parents, neighbours;
+  bool operator==(const Grown&) const = default;
+};
+
+Grown grown(const seeded::Gallery& gallery, const Measure& measure, std::uint64_t most, int threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const Survey survey = Survey::build({gallery.mesh}, {.threads = 1, .lossless = true, .progress = {}});
+  WidestTree tree(survey, measure, 0.2);
+  const auto root = tree.seed(gallery.from);
+  Grown found;
+  if (!root) return found;
+  tree.grow(*root, roam::training::no_node, [&](std::uint64_t places) { return places < most; });
+  tree.grow(*root, roam::training::no_node);
+  for (NodeId id = 0; id < tree.size(); ++id) {
+    found.places.push_back(tree.node(id).place);
+    found.clearances.push_back(tree.node(id).clearance);
+    found.parents.push_back(tree.parent(id));
+    for (const NodeId other : tree.neighbours(id)) found.neighbours.push_back(other);
+  }
+  return found;
+}
+
+TEST(Scouts, ChangeNoPlaceOfTheLattice) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const seeded::Gallery gallery = seeded::gallery(seed);
+    for (const double height : {1.9, 0.0}) {
+      for (const std::uint64_t most : {500u, 1'000'000u}) {
+        const Measure measure{.height = height};
+        const Grown alone = grown(gallery, measure, most, 1);
+        EXPECT_GT(alone.places.size(), 1'000u);
+        EXPECT_TRUE(alone == grown(gallery, measure, most, 4)) << "seed " << seed << ", height " << height;
+      }
+    }
+  }
+}
+
+TEST(Scouts, AreWaitedForWhereALatticeEndsBeforeThem) {
+  const seeded::Gallery gallery = seeded::gallery(4);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+  const Survey survey = Survey::build({gallery.mesh}, {.threads = 1, .lossless = true, .progress = {}});
+  for (int i = 0; i < 200; ++i) {
+    WidestTree tree(survey, {.height = 1.9}, 0.2);
+    const auto root = tree.seed(gallery.from);
+    ASSERT_TRUE(root);
+    EXPECT_FALSE(tree.grow(*root, roam::training::no_node, [&](std::uint64_t places) { return places < 100; }));
+  }
+}
+
+}  // namespace
