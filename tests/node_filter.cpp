@@ -149,6 +149,50 @@ TEST(NodeFilter, LosesNoChildOfATinyTileToALargeBodyFarOff) {
   }
 }
 
+/// Bodies that graze a child box, and bodies that meet it at any angle before they would be nearest to it.
+void delay_every_child(bool top) {
+  clutter::Random random(43);
+  int tested = 0, delayed = 0;
+  for (int q = 0; q < 3000; ++q) {
+    const Scene scene(random, top);
+    const lanes::Frame frame(scene.origin, scene.step, scene.start);
+    const double h = q % 2 == 0 ? 0.0 : random.between(0.0, 2.0);
+    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
+    if (q % 5 == 0) way[q % 3] = 0.0;  // along a plane
+    const lanes::Motion motion(way, h);
+    for (int i = 0; i < kWidth; ++i) {
+      const long double nearest = scene.nearest_time(i, way, h), least = scene.distance(i, way, h, nearest);
+      const long double most = scene.distance(i, way, h, 0.0L);
+      if (least > 1000.0L) continue;
+      ++tested;
+      const long double apart = q % 3 == 0 ? least : least + (long double)(random.unit()) * (most - least);
+      const auto radius = std::nextafter(static_cast<float>(apart), 2000.0F);
+      long double free = 0.0L, met = nearest;
+      for (int n = 0; n < 100 && most > (long double)(radius); ++n) {
+        const long double t = 0.5L * (free + met);
+        (scene.distance(i, way, h, t) > (long double)(radius) ? free : met) = t;
+      }
+      const float grown =
+          lanes::grown_radius(radius, motion.half_height, motion.longest, scene.extent, static_cast<float>(scene.step));
+      lanes::Children children;
+      lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
+      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+      const float entry = children.key[i];
+      lanes::delay_children(scene.node, frame, motion, grown, 1.0F, children);
+      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+      ASSERT_GE(children.key[i], entry) << "query " << q << " child " << i;
+      ASSERT_LE((long double)(children.key[i]), met) << "query " << q << " child " << i;
+      delayed += children.key[i] > entry ? 1 : 0;
+    }
+  }
+  EXPECT_GT(tested, 2000);
+  EXPECT_GT(delayed, tested / 4) << "the second plane tells nothing";
+}
+
+TEST(NodeFilter, DelaysNoChildOfATileTooLong) { delay_every_child(false); }
+
+TEST(NodeFilter, DelaysNoChildOfTheTreeOverTilesTooLong) { delay_every_child(true); }
+
 TEST(NodeFilter, LosesNoChildOfATile) { touch_every_child(false); }
 
 TEST(NodeFilter, LosesNoChildOfTheTreeOverTiles) { touch_every_child(true); }

@@ -20,7 +20,7 @@ inline constexpr float kNodeRoundings = 40.0F;
 /// distance. 31.4 are counted, of a capsule where its own plane bounds it.
 inline constexpr float kLeafRoundings = 32.0F;
 
-/// The same for the speed of approach, per metre of the whole motion. 9 are counted.
+/// The same for the speed of approach, of a leaf or of a node, per metre of the whole motion. 9 are counted.
 inline constexpr float kSpeedRoundings = 16.0F;
 
 /// Relative roundings of the radius in a product with a length. 5 are counted.
@@ -52,6 +52,9 @@ inline constexpr float kHitLimit = 1.99e-3F;
 
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double kLongestPiece = 64.0;
+
+/// From so many on, the children of a node that a body may meet are bounded by a second plane.
+inline constexpr int kManyChildren = 4;
 
 /// Metres. The box around a longer motion is too wide to tell much of what the motion meets.
 inline constexpr float kShortMotion = 4.0F;

@@ -113,6 +113,9 @@ class SweepTraversal {
       const std::uint32_t met = out.children.mask;
       sweep_node(node, frame, motion_, grown, t_max_, out.children);
       out.children.mask &= met;
+      if (std::popcount(out.children.mask) >= kManyChildren) {
+        delay_children(node, frame, motion_, grown, t_max_, out.children);
+      }
       return out;
     }
   }
