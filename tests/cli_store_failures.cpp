@@ -119,6 +119,19 @@ TEST_F(StoreFailures, ABuildThatHasNotEndedIsNotWholeAndIsTold) {
   EXPECT_TRUE(nlohmann::json::parse(run({"verify", begun, "--json"}).out)["complete"]);
 }
 
+TEST_F(StoreFailures, ABuildThatWasKilledJustBeforeItsEndIsNotDamaged) {
+  const TestFolder folder;
+  const std::string begun = folder.file("begun.roam");
+  ASSERT_EQ(run({"build", scene(), "-o", begun, "--plan"}).status, 0);
+  fs::copy(store() + "/manifests", begun + "/manifests", fs::copy_options::recursive);
+  const ProgramResult told = run({"verify", begun});
+  EXPECT_EQ(told.status, 3);
+  EXPECT_TRUE(contains(told.out, "not complete") && !contains(told.out, "damaged")) << told.out;
+  const ProgramResult built = run({"build", scene(), "-o", begun});
+  EXPECT_EQ(built.status, 0) << built.err;
+  EXPECT_EQ(run({"verify", begun}).status, 0);
+}
+
 TEST_F(StoreFailures, ARepairTellsTheNotesOfItsReading) {
   const TestFolder folder;
   const std::string odd = folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n");

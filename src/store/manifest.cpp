@@ -281,8 +281,9 @@ void refuse_to_open(const std::filesystem::path& folder) {
   const fs::path current = folder / current_file;
   if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a link that leads nowhere");
   if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
-  const bool published = !fs::is_empty(folder / "manifests", none) && !none;
-  if (!published && fs::is_directory(folder / "scratch", none)) {
+  const bool has_manifest = !fs::is_empty(folder / "manifests", none) && !none;
+  // A build that is killed just before it writes CURRENT has written its manifest, and has its plan still.
+  if (fs::exists(folder / "scratch/plan.json", none) || (!has_manifest && fs::is_directory(folder / "scratch", none))) {
     throw NotComplete(fmt::format(
         "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
   }
