@@ -211,6 +211,21 @@ TEST_F(StoreVerbs, AWalkCheckedAgainstAnotherSceneSaysSo) {
   EXPECT_FALSE(contains(right.out, "no triangle came near")) << right.out;
 }
 
+TEST_F(StoreVerbs, AWalkIsCheckedAgainstTheSceneAsTheStoreWasReadOfIt) {
+  const TestFolder folder;
+  const std::string small = folder.file("small.roam");
+  ASSERT_EQ(run({"build", scene(), "-o", small, "--unit", "cm"}).status, 0);
+  const std::string way = folder.write("small.path", "-137.39 2.53 1.82\n-136.39 3.593 1.82\n");
+  const std::vector<std::string> walk{"walk",    small, "--path",   way,     "--mode",    "fly",
+                                      "--speed", "0.2", "--radius", "0.004", "--against", scene()};
+  const ProgramResult walked = run(walk);
+  EXPECT_FALSE(contains(walked.out, "no triangle came near")) << walked.out;
+  EXPECT_TRUE(contains(walked.out, "0 violations")) << walked.out;
+  std::vector<std::string> otherwise = walk;
+  otherwise.insert(otherwise.end(), {"--unit", "mm"});
+  EXPECT_TRUE(contains(run(otherwise).out, "no triangle came near")) << "what is said counts";
+}
+
 TEST_F(StoreVerbs, WhatIsNotThereOrNotCompleteIsSaidSo) {
   const TestFolder folder;
   const std::string missing = folder.file("nothing.ply");

@@ -12,6 +12,8 @@
 #include "interrupt.h"
 #include "loose_triangles.h"
 #include "progress.h"
+#include "store/build/fingerprint.h"
+#include "store/opened.h"
 #include "store_start.h"
 
 namespace roam::app {
@@ -182,6 +184,16 @@ Verification OpenScene::verified(std::span<const Piece> pieces,
     if (progress && !progress(begin)) throw Cancelled();
   }
   return all;
+}
+
+void read_as(SceneOptions& scene, const Store& store) {
+  ImportOptions options;
+  store::read_as(store.state().manifest.options, options);
+  scene.up = options.up ? std::string(1, "xyz"[static_cast<int>(*options.up)]) : std::string();
+  for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
+    if (parse_length_unit(unit) == options.unit) scene.unit = unit;
+  }
+  scene.ignore = options.ignore;
 }
 
 void check_against(const SceneOptions& scene) {

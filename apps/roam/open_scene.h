@@ -67,6 +67,9 @@ class OpenScene {
   std::unique_ptr<Pager> pager_;
 };
 
+/// Lets a scene be read as the store was that was made of it. Throws roam::Error where this program does not know how.
+void read_as(SceneOptions& scene, const Store& store);
+
 /// What verify_against needs, looked for before a walk that may take hours. Throws UsageError for a store, and
 /// roam::Error for a scene that is not there.
 void check_against(const SceneOptions& scene);

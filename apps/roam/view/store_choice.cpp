@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "exit_status.h"
+#include "open_scene.h"
 #include "roam/error.h"
-#include "store/build/fingerprint.h"
 #include "store/build/same_scene.h"
 #include "store/opened.h"
 #include "store_name.h"
@@ -39,17 +39,6 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::fu
   } catch (const Error& error) {
     return error.what();
   }
-}
-
-/// Lets the scene be read as the store was. Throws roam::Error where this program does not know how.
-void read_as(SceneOptions& scene, const Store& store) {
-  ImportOptions options;
-  store::read_as(store.state().manifest.options, options);
-  scene.up = options.up ? std::string(1, "xyz"[static_cast<int>(*options.up)]) : std::string();
-  for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
-    if (parse_length_unit(unit) == options.unit) scene.unit = unit;
-  }
-  scene.ignore = options.ignore;
 }
 
 }  // namespace
