@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "exit_status.h"
@@ -185,8 +186,9 @@ ExitStatus run_steps(const BuildVerb& verb) {
 void check_usage(const BuildVerb& verb) {
   if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
   if (verb.memory < StoreBuildOptions::least_memory) {
-    throw UsageError(fmt::format("build: --memory {}B: a build needs at least {} MiB",
-                                 short_count(static_cast<double>(verb.memory)), StoreBuildOptions::least_memory >> 20));
+    throw UsageError(fmt::format("build: --memory {:.3g} MiB: a build needs at least {} MiB",
+                                 std::ldexp(static_cast<double>(verb.memory), -20),
+                                 StoreBuildOptions::least_memory >> 20));
   }
   if (verb.shard || verb.merge) {
     if (verb.reading.empty()) return;  // they read the plan, not the scene
