@@ -1,4 +1,5 @@
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -322,9 +323,11 @@ class Search {
 std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                        std::uint64_t seed, const std::function<bool(double)>& goes_on,
                                        std::uint64_t most_places) {
-  const bool trusted = windings_can_be_trusted(survey);
-  std::vector<Component> found =
-      Search(survey, measure, tree, trusted, most_places, goes_on).run(sample_places(survey, measure.mode, seed));
+  bool trusted = false;
+  std::vector<Vec3> samples;
+  tbb::parallel_invoke([&] { trusted = windings_can_be_trusted(survey); },
+                       [&] { samples = sample_places(survey, measure.mode, seed); });
+  std::vector<Component> found = Search(survey, measure, tree, trusted, most_places, goes_on).run(samples);
   // What is unfinished judges nothing: it may be anything, and larger than all the rest.
   const auto unfinished = std::stable_partition(found.begin(), found.end(),
                                                 [](const Component& c) { return c.verdict != Verdict::unfinished; });

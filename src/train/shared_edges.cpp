@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <atomic>
 #include <bit>
 
 namespace roam::training {
@@ -60,13 +61,16 @@ std::vector<std::uint8_t> shared_edges(const Survey& survey) {
   });
   constexpr std::size_t most_compared = 8;  // of edges with one hash: more meet only in damaged meshes
   std::vector<std::uint8_t> shared(floors);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    if (i + 1 == edges.size() || edges[i + 1].hash != edges[i].hash) return;
+    const Side side = side_of(survey, edges[i].number);
     for (std::size_t j = i + 1; j < edges.size() && j - i <= most_compared && edges[j].hash == edges[i].hash; ++j) {
-      if (!are_opposite(side_of(survey, edges[i].number), side_of(survey, edges[j].number))) continue;
+      if (!are_opposite(side, side_of(survey, edges[j].number))) continue;
       for (const std::size_t e : {i, j})
-        shared[edges[e].number / 3] |= static_cast<std::uint8_t>(1u << (edges[e].number % 3));
+        std::atomic_ref(shared[edges[e].number / 3])
+            .fetch_or(static_cast<std::uint8_t>(1u << (edges[e].number % 3)), std::memory_order_relaxed);
     }
-  }
+  });
   return shared;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -62,24 +63,55 @@ double sphere_limit(double aside, double above) {
   return above > 0.0 ? (aside * aside + above * above) / (2.0 * above) : unlimited;
 }
 
-/// Ends as soon as the radius is less than `least`.
-Held sphere_lifted(const Survey& survey, const Measure& measure, const Vec3& place, double lift, double largest,
-                   double least) {
-  Held held{lift, largest, 0.0, 0.0};
-  const double lowest = place.z + lift;
-  for (std::size_t i = 0; i < most_cuts && held.radius >= least; ++i) {
-    const Vec3 centre(place.x, place.y, lowest + held.radius);
-    const Clearance c = survey.world().clearance(body_of(measure, std::max(held.radius - slack, 0.0)), centre, 0.0);
-    if (!c.found) return held;
-    held.aside = std::hypot(c.point.x - place.x, c.point.y - place.y);
-    held.height = c.point.z - place.z;
-    // Where stored triangles are coarser than the slack, the point itself may be outside.
-    const double limit = sphere_limit(held.aside, held.height - lift);
-    held.radius = std::min(limit, held.radius - (limit < held.radius ? least_cut : std::max(least_cut, -c.distance)));
+/// Spheres over a place.
+class Spheres {
+ public:
+  Spheres(const Survey& survey, const Measure& measure, const Vec3& place, double largest)
+      : survey_(survey), measure_(measure), place_(place), largest_(largest) {}
+
+  /// The largest at one lift. Ends as soon as the radius is less than `least`.
+  [[nodiscard]] Held lifted(double lift, double least) {
+    Held held = bound(lift);
+    const double lowest = place_.z + lift;
+    for (std::size_t i = 0; i < most_cuts && held.radius >= least; ++i) {
+      const Vec3 centre(place_.x, place_.y, lowest + held.radius);
+      const Clearance c = survey_.world().clearance(body_of(measure_, std::max(held.radius - slack, 0.0)), centre, 0.0);
+      if (!c.found) {
+        // What bounds it from another lift holds it, unless that is a little off.
+        if (i == 0 && held.radius < largest_) held.radius = sphere_limit(held.aside, held.height - lift);
+        return held;
+      }
+      held.aside = std::hypot(c.point.x - place_.x, c.point.y - place_.y);
+      held.height = c.point.z - place_.z;
+      met_[count_++ % met_.size()] = held;
+      // Where stored triangles are coarser than the slack, the point itself may be outside.
+      const double limit = sphere_limit(held.aside, held.height - lift);
+      held.radius = std::min(limit, held.radius - (limit < held.radius ? least_cut : std::max(least_cut, -c.distance)));
+    }
+    if (held.radius >= least) held.radius = 0.0;
+    return held;
   }
-  if (held.radius >= least) held.radius = 0.0;
-  return held;
-}
+
+ private:
+  /// What was met at other lifts bounds what is free at this one too; a little more than that.
+  [[nodiscard]] Held bound(double lift) const {
+    const double error = slack + 2.0 * survey_.world().largest_error();
+    Held held{lift, largest_, 0.0, 0.0};
+    for (std::size_t i = 0; i < std::min(count_, met_.size()); ++i) {
+      const double aside = met_[i].aside + error, above = met_[i].height - lift;
+      const double limit = std::max(sphere_limit(aside, above - error), sphere_limit(aside, above + error));
+      if (limit < held.radius) held = {lift, limit, met_[i].aside, met_[i].height};
+    }
+    return held;
+  }
+
+  const Survey& survey_;
+  const Measure& measure_;
+  const Vec3 place_;
+  const double largest_;
+  std::array<Held, 8> met_;  ///< the last ones
+  std::size_t count_ = 0;
+};
 
 /// The lift between two at which what holds the sphere from below at the one and from above at the other hold it alike.
 double balanced(const Held& below, const Held& above) {
@@ -100,10 +132,10 @@ std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, con
   constexpr double fine_lift = 1e-5;  // m
   constexpr int most_turns = 12;
   const double clear = least_lift + 2.0 * survey.world().largest_error();
+  Spheres spheres(survey, measure, place, largest);
   std::optional<Held> best;
   for (const double share : {0.5, 0.0, 0.125, 1.0}) {
-    const Held held = sphere_lifted(survey, measure, place, std::max(share * measure.step, clear), largest,
-                                    best ? best->radius + least_cut : least);
+    const Held held = spheres.lifted(std::max(share * measure.step, clear), best ? best->radius + least_cut : least);
     if (!best ? held.radius >= least : held.radius > best->radius) best = held;
     if (best && best->radius >= largest) return Stand{best->radius, best->lift};
   }
@@ -114,7 +146,7 @@ std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, con
     const bool known = below.height != 0.0 && above.height != 0.0;
     const double lift = known ? balanced(below, above) : 0.5 * (below.lift + above.lift);
     if (!(lift - below.lift > 0.1 * fine_lift && above.lift - lift > 0.1 * fine_lift)) break;
-    const Held held = sphere_lifted(survey, measure, place, lift, largest, least);
+    const Held held = spheres.lifted(lift, least);
     (held.upward() > 0.0 ? below : above) = held;
     if (held.radius > best->radius) best = held;
     if (held.radius >= largest || std::abs(held.upward()) < level) break;
