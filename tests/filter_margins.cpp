@@ -109,6 +109,33 @@ void graze_all(clutter::Random& random, const Mesh& mesh) {
   EXPECT_GT(tested, kGrazes / 4);
 }
 
+/// Rays through corners, edges and faces: through the closed triangle, but for roundings of doubles.
+void pierce_all(clutter::Random& random, const Mesh& mesh, const Vec3& place) {
+  Mesh there = mesh;
+  for (Vec3& v : there.vertices) v += place;
+  const World world = World::build({&there, 1});
+  ASSERT_LT(world.stats().largest_error_m, 1e-11) << "quantization would hide what is tested";
+  for (int q = 0; q < 4 * kGrazes; ++q) {
+    const Triangle t = there.triangle(random.engine() % there.triangles.size());
+    const double u = q % 3 == 0 ? 0.0 : random.unit(), v = q % 3 == 2 ? random.unit() * (1.0 - u) : 0.0;
+    const Vec3 point = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.75));
+    if (q % 5 == 0) way[q % 3] = 0.0;
+    if (q % 7 == 0) way = t[2] - t[1] + 1e-3 * way;  // hardly across
+    const double time = random.between(0.01, 0.99);
+    const auto s = world.ray(point - time * way, way);
+    ASSERT_TRUE(s.hit) << q;
+    ASSERT_LE(s.time, time + 1e-9 / length(way)) << q;
+  }
+}
+
+TEST(FilterMargins, LoseNoTriangleThatARayPierces) {
+  clutter::Random random(24);
+  pierce_all(random, on_grid(random, 400), Vec3(0.0));
+  pierce_all(random, on_planes(random, 400), Vec3(-13739.0, 253.0, 182.0));
+  for (int i = 0; i < 20; ++i) pierce_all(random, on_planes(random, 12), Vec3(0.0));
+}
+
 TEST(FilterMargins, LoseNoGrazeOfAMicrometre) {
   clutter::Random random(21);
   graze_all(random, on_grid(random, 400));

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "clutter.h"
-#include "index/lanes-inl.h"
+#include "index/ray-inl.h"
 
 namespace {
 
@@ -93,6 +93,11 @@ void touch_every_child(bool top) {
       lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
       ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
+      if (h == 0.0) {
+        lanes::ray_node(scene.node, frame, motion, lanes::Ray(motion), grown, 1.0F, children);
+        ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+        ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
+      }
       // A part of the radius as what the frame adds to a reach.
       const float more = q % 3 == 0 ? 0.0F : 0.25F * radius;
       const lanes::Swept swept(frame, lanes::Reach(way, double(radius) - double(more), h), more);

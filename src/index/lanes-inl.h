@@ -113,6 +113,12 @@ struct Children {
   std::uint32_t mask;
 };
 
+/// Bounds of kLanes boxes, in steps of their node's grid.
+HWY_INLINE VF bounds_of(const std::uint8_t* bounds) {
+  const hn::Rebind<std::uint8_t, F> bytes;
+  return hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
+}
+
 /// Child boxes as distances from the start, each axis times `mirror` (1 or -1), part by part.
 struct Boxes {
   float at[3], scale[3];
@@ -127,9 +133,8 @@ struct Boxes {
   }
   /// Plane `k` of kLanes boxes.
   [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int k) const {
-    const hn::Rebind<std::uint8_t, F> bytes;
-    const VF b = hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
-    return hn::MulAdd(b, set(scale[k]), set(at[k]));  // the product is exact: fused or not gives the same bits
+    // The product is exact: fused or not gives the same bits.
+    return hn::MulAdd(bounds_of(bounds), set(scale[k]), set(at[k]));
   }
 };
 

@@ -9,108 +9,10 @@
 
 #include <limits>
 
-#include "index/lanes-inl.h"
+#include "index/ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
-
-/// A vector of triangles, relative to the start of the query.
-struct Triangles {
-  V3 a, b, c;
-  V3 ab, ac, normal;
-  VF farthest;  ///< largest absolute coordinate
-  // Set by prepare(): what the closest point needs, whatever the body's place.
-  V3 bc;
-  VF ab2, ac2, abac;
-  VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
-  MF narrow;  ///< the normal is noise: the edges stand for the face
-
-  HWY_INLINE void prepare();
-  [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
-};
-
-/// p minus the closest point of each triangle: the normal of the supporting plane. Inaccuracy costs only rounds.
-HWY_INLINE V3 Triangles::away(const V3& p) const {
-  const VF zero = hn::Zero(kF), one = set(1.0F);
-  const V3 pa = p - a, pb = p - b;
-  const VF d1 = dot(ab, pa), d2 = dot(ac, pa);
-  const VF d3 = hn::Sub(d1, ab2), d4 = hn::Sub(d2, abac), d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, ac2);
-  const V3 wab = pa - scale(ab, clamp(hn::Mul(d1, inv_ab2), zero, one));
-  const V3 wac = pa - scale(ac, clamp(hn::Mul(d2, inv_ac2), zero, one));
-  const V3 wbc = pb - scale(bc, clamp(hn::Mul(dot(bc, pb), inv_bc2), zero, one));
-  const VF lab = dot(wab, wab), lac = dot(wac, wac), lbc = dot(wbc, wbc);
-  const MF second = hn::Lt(lac, lab);
-  V3 w = select(second, wac, wab);
-  w = select(hn::Lt(lbc, hn::Min(lab, lac)), wbc, w);
-  // Inside all three edges (Ericson, "Real-Time Collision Detection", 5.1.5): the foot on the face.
-  const VF va = hn::Sub(hn::Mul(d3, d6), hn::Mul(d5, d4));
-  const VF vb = hn::Sub(hn::Mul(d5, d2), hn::Mul(d1, d6));
-  const VF vc = hn::Sub(hn::Mul(d1, d4), hn::Mul(d3, d2));
-  const MF inside = hn::AndNot(narrow, hn::Gt(hn::Min(hn::Min(va, vb), vc), zero));
-  return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
-}
-
-/// Triangles first .. first + kLanes - 1 of a leaf.
-HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int first) {
-  Triangles t;
-  V3* corners[3] = {&t.a, &t.b, &t.c};
-  const hn::RebindToUnsigned<F> u;
-  const VF step = set(frame.step);
-  const auto metres = [&](int k, int from) {
-    const hn::Rebind<std::uint16_t, F> words;
-    const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
-    return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), step);
-  };
-  alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28,
-                                                                0, 4, 8, 12, 16, 20, 24, 28};
-  const auto numbers = [&](int c) {
-    auto packed = hn::Set(u, leaf.corner[c][first / 8]);
-    if constexpr (kLanes == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
-    return hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, kShifts + first)), hn::Set(u, 15U)));
-  };
-  if constexpr (kLanes == 16) {
-    const VF x = metres(0, 0), y = metres(1, 0), z = metres(2, 0);
-    for (int c = 0; c < 3; ++c) {
-      const auto at = hn::IndicesFromVec(kF, numbers(c));
-      *corners[c] = {hn::TableLookupLanes(x, at), hn::TableLookupLanes(y, at), hn::TableLookupLanes(z, at)};
-    }
-  } else {
-    alignas(64) float table[3][kWidth];
-    for (int k = 0; k < 3; ++k) {
-      for (int from = 0; from < kWidth; from += kLanes) hn::Store(metres(k, from), kF, table[k] + from);
-    }
-    for (int c = 0; c < 3; ++c) {
-      const VI at = numbers(c);
-      *corners[c] = {hn::GatherIndex(kF, table[0], at), hn::GatherIndex(kF, table[1], at),
-                     hn::GatherIndex(kF, table[2], at)};
-    }
-  }
-  t.ab = t.b - t.a;
-  t.ac = t.c - t.a;
-  t.normal = cross(t.ab, t.ac);
-  t.farthest = hn::Max(hn::Max(largest(t.a), largest(t.b)), largest(t.c));
-  return t;
-}
-
-HWY_INLINE void Triangles::prepare() {
-  bc = c - b;
-  ab2 = dot(ab, ab);
-  ac2 = dot(ac, ac);
-  abac = dot(ab, ac);
-  const VF floor = set(kShortest * kShortest), face_floor = set(kSmallestFace), one = set(1.0F);
-  // Two reciprocals from one division. Where a product overflows, the closest point is not a number, which leaves the
-  // triangle to double precision.
-  const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor);
-  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), face_floor);
-  const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
-  inv_ab2 = hn::Mul(long_ac, edges);
-  inv_ac2 = hn::Mul(long_ab, edges);
-  inv_bc2 = hn::Mul(long_normal, rest);
-  inv_normal2 = hn::Mul(long_bc, rest);
-  const VF width = hn::Mul(set(kNarrow), farthest);  // against the height over the longest edge
-  const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
-  narrow = hn::Le(long_normal, hn::Max(face_floor, hn::Mul(hn::Mul(width, width), longest)));
-}
 
 /// A supporting plane of a body at `centre`, unscaled: `bound` = distance bound times `length`.
 struct Support {
@@ -188,19 +90,30 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
 
 /// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
 /// A triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all to double precision.
-HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, float radius, float hit_limit,
-                           float t_entry, float t_max, Met& out) {
+/// Of a Ray, what its line certainly passes is left out before all else.
+template <class Line>
+HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, const Line& line, float radius,
+                           float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
   const VF keep = set(radius * (1.0F + kRadiusRoundings * kUnit));
   const VF end = set(t_max), zero = hn::Zero(kF);
   for (int first = 0; first < leaf.triangle_count; first += kLanes) {
+    MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
+    if constexpr (Line::kIs) {
+      active = pierced(leaf, frame, line, first, active);
+      if (hn::AllFalse(kF, active)) continue;
+    }
     Triangles t = load_triangles(leaf, frame, first);
     VF time = set(t_entry);
-    MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
                     motion.longest, motion.half_height, time, active);
     if (hn::AllFalse(kF, active)) continue;
+    if (Line::kIs && hit_limit < 0.0F) {  // no round could settle what is left
+      hn::Store(time, kF, out.time + first);
+      out.open |= bits_of(active) << first;
+      continue;
+    }
     t.prepare();
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
     for (int round = 0; round < kRounds; ++round) {

@@ -20,6 +20,10 @@ inline constexpr float kNodeRoundings = 40.0F;
 /// distance. 31.4 are counted, of a capsule where its own plane bounds it.
 inline constexpr float kLeafRoundings = 32.0F;
 
+/// The same, of the farthest that a coordinate of a tile can be, when a triangle is left out that a ray passes. 35 are
+/// counted.
+inline constexpr float kRayRoundings = 64.0F;
+
 /// The same for the speed of approach, of a leaf or of a node, per metre of the whole motion. 9 are counted.
 inline constexpr float kSpeedRoundings = 16.0F;
 
@@ -42,6 +46,9 @@ inline constexpr float kNarrow = 0x1p10F * kUnit;
 /// Metres. The foot on a face that is tilted by roundings lies off the closest point by a part of the distance: larger
 /// bodies leave their hits to double precision.
 inline constexpr double kWideBody = 4.0;
+
+/// Metres. Thinner spheres are asked about as rays are.
+inline constexpr double kThinBody = 1e-5;
 
 /// Metres. A body this close to touching, its error bound apart, has arrived: a rule of economy, not of truth.
 inline constexpr float kArrival = 2e-5F;

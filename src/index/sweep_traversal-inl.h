@@ -13,6 +13,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
+/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay.
+template <class Line>
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece, double until)
@@ -62,6 +64,7 @@ class SweepTraversal {
     const float hit_limit = exact ? -1.0F
                                   : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
                                         (1.0F - kRadiusRoundings * kUnit);
+    if constexpr (Line::kIs) line_.enter(frame, motion_, radius, kTileSteps);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     search(
@@ -94,14 +97,17 @@ class SweepTraversal {
       const Node& node = nodes[number].node;
       out.single = false;
       out.node = &node;
-      if (!short_) {
+      if constexpr (Line::kIs) {
+        ray_node(node, frame, motion_, line_, grown, t_max_, out.children);
+      } else if (short_) {
+        out.children.mask = met_children(node, swept);
+      } else {
         sweep_node(node, frame, motion_, grown, t_max_, out.children);
         return out;
       }
-      out.children.mask = met_children(node, swept);
       if (out.children.mask == 0) return out;
-      const auto child = static_cast<std::uint32_t>(std::countr_zero(out.children.mask));
       if ((out.children.mask & (out.children.mask - 1)) == 0) {
+        const auto child = static_cast<std::uint32_t>(std::countr_zero(out.children.mask));
         if (child < node.inner_count) {
           number = node.first_node + child;
           continue;
@@ -110,6 +116,7 @@ class SweepTraversal {
         out.first = node.first_leaf + (child - node.inner_count);
         return out;
       }
+      if constexpr (Line::kIs) return out;
       const std::uint32_t met = out.children.mask;
       sweep_node(node, frame, motion_, grown, t_max_, out.children);
       out.children.mask &= met;
@@ -123,7 +130,7 @@ class SweepTraversal {
   void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
             float radius, float hit_limit, float entry) {
     Met met;
-    sweep_leaf(leaf, frame, motion_, radius, hit_limit, entry, t_max_, met);
+    sweep_leaf(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       take(double(met.time[i]), {tile_number, t.leaves + number, i});
@@ -156,6 +163,7 @@ class SweepTraversal {
   const Piece& piece_;
   Motion motion_;
   Reach reach_;
+  Line line_{motion_};
   bool short_ = motion_.longest <= kShortMotion;
   Impact best_;
   float t_max_ = 1.0F;

@@ -11,7 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
 Impact FirstImpact(const Index& index, const Piece& piece, double until) {
-  return SweepTraversal(index, piece, until).run();
+  const bool ray = piece.body.half_height == 0.0 && piece.body.radius < kThinBody;
+  return ray ? SweepTraversal<Ray>(index, piece, until).run() : SweepTraversal<NoRay>(index, piece, until).run();
 }
 
 double VisitNear(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {

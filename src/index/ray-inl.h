@@ -1,0 +1,130 @@
+// Rays: bodies so thin that hardly anything is near them but what they pierce. Included once per instruction set by
+// traverse.cpp.
+
+#if defined(ROAM_INDEX_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROAM_INDEX_RAY_INL_H_
+#undef ROAM_INDEX_RAY_INL_H_
+#else
+#define ROAM_INDEX_RAY_INL_H_
+#endif
+
+#include "index/triangles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// What the tests of a ray use, beside what those of every motion do.
+struct Ray {
+  static constexpr bool kIs = true;
+  float early[3], late[3];  ///< 1 / forward[k], not more and not less, in 16 bits: times a bound of a node it is exact
+  float across[2][3];       ///< across the way and, but for rounding, each other
+  float length[2];          ///< of these, rounded up
+  float drift[2];           ///< how far the way leads along them, rounded up
+  float room[2]{};          ///< in a tile: how far off triangles count still along them, times their lengths
+
+  explicit Ray(const Motion& motion) {
+    int least = 0;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t bits = std::bit_cast<std::uint32_t>(motion.inverse[k]) & ~0xffU;
+      early[k] = std::bit_cast<float>(bits);
+      late[k] = std::bit_cast<float>(bits + 0x100U);
+      if (motion.forward[k] < motion.forward[least]) least = k;
+    }
+    const float size = motion.longest > 0.0F ? 1.0F / motion.longest : 0.0F;
+    const float along[3] = {motion.way[0] * size, motion.way[1] * size, motion.way[2] * size};
+    const int next = (least + 1) % 3, last = (least + 2) % 3;
+    across[0][least] = 0.0F;
+    across[0][next] = -along[last];
+    across[0][last] = along[next];
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      across[1][k] = along[a] * across[0][b] - along[b] * across[0][a];
+    }
+    for (int i = 0; i < 2; ++i) {
+      float square = 0.0F, way = 0.0F;
+      for (int k = 0; k < 3; ++k) {
+        square += across[i][k] * across[i][k];
+        way += across[i][k] * motion.way[k];
+      }
+      length[i] = std::sqrt(square) * (1.0F + kRadiusRoundings * kUnit);
+      drift[i] = std::abs(way) + kSpeedRoundings * kUnit * motion.longest * length[i];
+    }
+  }
+  /// To be called of a tile, which is at most `steps` wide.
+  HWY_INLINE void enter(const Frame& frame, const Motion& motion, float radius, float steps) {
+    float farthest = motion.longest;
+    for (int k = 0; k < 3; ++k) {
+      farthest = std::max(farthest, (std::abs(static_cast<float>(frame.whole[k])) + steps) * frame.step);
+    }
+    const float keep = radius * (1.0F + kRadiusRoundings * kUnit) + kRayRoundings * kUnit * farthest +
+                       8.0F * kFractionRounding * frame.step;
+    for (int i = 0; i < 2; ++i) room[i] = keep * length[i] + drift[i];
+  }
+};
+
+/// Stands for it where the body is none.
+struct NoRay {
+  static constexpr bool kIs = false;
+  explicit NoRay(const Motion&) {}
+};
+
+/// As sweep_node() does, by the slabs alone: which children the ray may meet before t_max, and when.
+HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& motion, const Ray& ray, float grown,
+                         float t_max, Children& out) {
+  const Boxes boxes(node, frame, motion.mirror);
+  const auto* planes = reinterpret_cast<const std::uint8_t*>(&node);
+  out.mask = 0;
+  for (int first = 0; first < kWidth; first += kLanes) {
+    VF enter = hn::Zero(kF), exit = set(t_max);
+    for (int k = 0; k < 3; ++k) {
+      // The products with a bound are exact: fused or not gives the same bits.
+      const VF in = hn::MulAdd(bounds_of(planes + motion.entry[k] + first), set(boxes.scale[k] * ray.early[k]),
+                               set((boxes.at[k] - grown) * ray.early[k]));
+      const VF end = hn::MulAdd(bounds_of(planes + motion.exit[k] + first), set(boxes.scale[k] * ray.late[k]),
+                                set((boxes.at[k] + grown) * ray.late[k]));
+      enter = hn::Max(enter, in);
+      exit = hn::Min(exit, end);
+    }
+    enter = hn::Mul(enter, set(1.0F - kTimeRoundings * kUnit));
+    hn::Store(enter, kF, out.key + first);
+    out.mask |= bits_of(hn::Le(enter, hn::Mul(exit, set(1.0F + kTimeRoundings * kUnit)))) << first;
+  }
+  out.mask &= (1U << node.child_count) - 1;
+}
+
+/// Leaves out of `active` the triangles that the line of a ray certainly passes: seen along it, where it is a point, it
+/// lies outside of their box or beyond one of their edges.
+///
+/// With p and q any numbers and u, v the directions across, w = p u + q v is across the way, and as good as any w.
+HWY_INLINE MF pierced(const Leaf& leaf, const Frame& frame, const Ray& ray, int first, MF active) {
+  const Corners corners(leaf, first);
+  VF at[2][3];
+  for (int i = 0; i < 2; ++i) {
+    const V3 w{set(ray.across[i][0]), set(ray.across[i][1]), set(ray.across[i][2])};
+    corners.pick(
+        [&](int from) {
+          return dot(w, {vertices_of(leaf, frame, 0, from), vertices_of(leaf, frame, 1, from),
+                         vertices_of(leaf, frame, 2, from)});
+        },
+        at[i]);
+    const VF least = hn::Min(hn::Min(at[i][0], at[i][1]), at[i][2]);
+    const VF most = hn::Max(hn::Max(at[i][0], at[i][1]), at[i][2]);
+    active = hn::AndNot(hn::Gt(hn::Max(least, hn::Neg(most)), set(ray.room[i])), active);
+  }
+  if (hn::AllFalse(kF, active)) return active;
+  for (int e = 0; e < 3; ++e) {
+    const int f = (e + 1) % 3, g = (e + 2) % 3;
+    const VF p = hn::Sub(at[1][e], at[1][f]), q = hn::Sub(at[0][f], at[0][e]);
+    const VF edge = hn::Add(hn::Mul(p, at[0][e]), hn::Mul(q, at[1][e]));
+    const VF corner = hn::Add(hn::Mul(p, at[0][g]), hn::Mul(q, at[1][g]));
+    const VF beside = hn::Max(hn::Min(edge, corner), hn::Neg(hn::Max(edge, corner)));
+    const VF width = hn::Add(hn::Mul(hn::Abs(p), set(ray.room[0])), hn::Mul(hn::Abs(q), set(ray.room[1])));
+    active = hn::AndNot(hn::Gt(beside, width), active);
+  }
+  return active;
+}
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROAM_INDEX_RAY_INL_H_

@@ -1,0 +1,129 @@
+// The triangles of one leaf, as seen from the start of a query. Included once per instruction set by traverse.cpp.
+
+#if defined(ROAM_INDEX_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ROAM_INDEX_TRIANGLES_INL_H_
+#undef ROAM_INDEX_TRIANGLES_INL_H_
+#else
+#define ROAM_INDEX_TRIANGLES_INL_H_
+#endif
+
+#include "index/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// A vector of triangles, relative to the start of the query.
+struct Triangles {
+  V3 a, b, c;
+  V3 ab, ac, normal;
+  VF farthest;  ///< largest absolute coordinate
+  // Set by prepare(): what the closest point needs, whatever the body's place.
+  V3 bc;
+  VF ab2, ac2, abac;
+  VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
+  MF narrow;  ///< the normal is noise: the edges stand for the face
+
+  HWY_INLINE void prepare();
+  [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
+};
+
+/// p minus the closest point of each triangle: the normal of the supporting plane. Inaccuracy costs only rounds.
+HWY_INLINE V3 Triangles::away(const V3& p) const {
+  const VF zero = hn::Zero(kF), one = set(1.0F);
+  const V3 pa = p - a, pb = p - b;
+  const VF d1 = dot(ab, pa), d2 = dot(ac, pa);
+  const VF d3 = hn::Sub(d1, ab2), d4 = hn::Sub(d2, abac), d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, ac2);
+  const V3 wab = pa - scale(ab, clamp(hn::Mul(d1, inv_ab2), zero, one));
+  const V3 wac = pa - scale(ac, clamp(hn::Mul(d2, inv_ac2), zero, one));
+  const V3 wbc = pb - scale(bc, clamp(hn::Mul(dot(bc, pb), inv_bc2), zero, one));
+  const VF lab = dot(wab, wab), lac = dot(wac, wac), lbc = dot(wbc, wbc);
+  const MF second = hn::Lt(lac, lab);
+  V3 w = select(second, wac, wab);
+  w = select(hn::Lt(lbc, hn::Min(lab, lac)), wbc, w);
+  // Inside all three edges (Ericson, "Real-Time Collision Detection", 5.1.5): the foot on the face.
+  const VF va = hn::Sub(hn::Mul(d3, d6), hn::Mul(d5, d4));
+  const VF vb = hn::Sub(hn::Mul(d5, d2), hn::Mul(d1, d6));
+  const VF vc = hn::Sub(hn::Mul(d1, d4), hn::Mul(d3, d2));
+  const MF inside = hn::AndNot(narrow, hn::Gt(hn::Min(hn::Min(va, vb), vc), zero));
+  return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
+}
+
+/// One coordinate of vertices from .. from + kLanes - 1 of a leaf, metres from the start.
+HWY_INLINE VF vertices_of(const Leaf& leaf, const Frame& frame, int k, int from) {
+  const hn::Rebind<std::uint16_t, F> words;
+  const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
+  return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), set(frame.step));
+}
+
+/// Which vertices are the corners of triangles first .. first + kLanes - 1 of a leaf.
+class Corners {
+ public:
+  HWY_INLINE Corners(const Leaf& leaf, int first) {
+    alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28,
+                                                                  0, 4, 8, 12, 16, 20, 24, 28};
+    const hn::RebindToUnsigned<F> u;
+    for (int c = 0; c < 3; ++c) {
+      auto packed = hn::Set(u, leaf.corner[c][first / 8]);
+      if constexpr (kLanes == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
+      at_[c] = hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, kShifts + first)), hn::Set(u, 15U)));
+    }
+  }
+  /// What `of(from)` says of vertices from .. from + kLanes - 1, for the three corners of each triangle.
+  template <class Of>
+  HWY_INLINE void pick(const Of& of, VF (&out)[3]) const {
+    if constexpr (kLanes == 16) {
+      const VF values = of(0);
+      for (int c = 0; c < 3; ++c) out[c] = hn::TableLookupLanes(values, hn::IndicesFromVec(kF, at_[c]));
+    } else {
+      alignas(64) float table[kWidth];
+      for (int from = 0; from < kWidth; from += kLanes) hn::Store(of(from), kF, table + from);
+      for (int c = 0; c < 3; ++c) out[c] = hn::GatherIndex(kF, table, at_[c]);
+    }
+  }
+
+ private:
+  VI at_[3];
+};
+
+/// Triangles first .. first + kLanes - 1 of a leaf.
+HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int first) {
+  const Corners corners(leaf, first);
+  VF x[3], y[3], z[3];
+  corners.pick([&](int from) { return vertices_of(leaf, frame, 0, from); }, x);
+  corners.pick([&](int from) { return vertices_of(leaf, frame, 1, from); }, y);
+  corners.pick([&](int from) { return vertices_of(leaf, frame, 2, from); }, z);
+  Triangles t;
+  t.a = {x[0], y[0], z[0]};
+  t.b = {x[1], y[1], z[1]};
+  t.c = {x[2], y[2], z[2]};
+  t.ab = t.b - t.a;
+  t.ac = t.c - t.a;
+  t.normal = cross(t.ab, t.ac);
+  t.farthest = hn::Max(hn::Max(largest(t.a), largest(t.b)), largest(t.c));
+  return t;
+}
+
+HWY_INLINE void Triangles::prepare() {
+  bc = c - b;
+  ab2 = dot(ab, ab);
+  ac2 = dot(ac, ac);
+  abac = dot(ab, ac);
+  const VF floor = set(kShortest * kShortest), face_floor = set(kSmallestFace), one = set(1.0F);
+  // Two reciprocals from one division. Where a product overflows, the closest point is not a number, which leaves the
+  // triangle to double precision.
+  const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor);
+  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), face_floor);
+  const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
+  inv_ab2 = hn::Mul(long_ac, edges);
+  inv_ac2 = hn::Mul(long_ab, edges);
+  inv_bc2 = hn::Mul(long_normal, rest);
+  inv_normal2 = hn::Mul(long_bc, rest);
+  const VF width = hn::Mul(set(kNarrow), farthest);  // against the height over the longest edge
+  const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
+  narrow = hn::Le(long_normal, hn::Max(face_floor, hn::Mul(hn::Mul(width, width), longest)));
+}
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ROAM_INDEX_TRIANGLES_INL_H_
