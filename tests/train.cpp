@@ -31,6 +31,19 @@ Outcome walked(const Survey& survey, double radius, double support, const std::v
   return try_way(survey, BodyKind{.height = height}, radius, support, way).outcome;
 }
 
+TEST(Trial, EndsWhereItsPatienceDoes) {
+  const Survey survey = corridor({.door = 1.0});
+  const auto tried = [&](double patience) {
+    return try_way(survey, {.height = 1.8}, 0.3, 0.0, corridor_way, {}, patience);
+  };
+  EXPECT_EQ(tried(roam::training::trial_patience).outcome, Outcome::reached);
+  EXPECT_EQ(tried(1.0).outcome, Outcome::reached);
+  const roam::Trial impatient = tried(0.5);
+  EXPECT_EQ(impatient.outcome, Outcome::blocked);
+  EXPECT_GT(impatient.at.x, 2.0);
+  EXPECT_LT(impatient.at.x, 8.0);
+}
+
 TEST(Training, FindsBothEndsAndTakesAPersonWhereOneFits) {
   const Training t = roam::train(corridor({.door = 1.0, .split = 0.4}), {.height = 1.8});
   ASSERT_TRUE(t.largest);

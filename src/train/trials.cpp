@@ -46,6 +46,14 @@ double level_at(std::span<const Vec3> way, std::size_t next, const Vec3& place) 
   return from.z + std::clamp(at, 0.0, 1.0) * along.z;
 }
 
+/// The steps that free motion along a way takes, and two seconds more: each step ends at the next place of the way.
+double free_steps(std::span<const Vec3> way, double speed) {
+  constexpr double more = 2.0;  // s
+  double steps = more / trial_dt;
+  for (std::size_t i = 1; i < way.size(); ++i) steps += 1.0 + glm::distance(way[i - 1], way[i]) / (speed * trial_dt);
+  return steps;
+}
+
 }  // namespace
 
 double largest_radius(const BodyKind& kind) {
@@ -68,7 +76,7 @@ WalkerSettings settings_of(const BodyKind& kind, double radius, double support_r
 }
 
 Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
-              std::span<const Vec3> way, const std::function<bool()>& goes_on) {
+              std::span<const Vec3> way, const std::function<bool()>& goes_on, double patience) {
   Trial trial{.radius = radius, .support_radius = support_radius};
   const WalkerSettings settings = settings_of(kind, radius, support_radius);
   const Body body = Body::capsule(settings.radius, settings.height);
@@ -85,12 +93,13 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt});
   const RouteResult& result = route.result();
   const bool fits = !was_put_aside(result, centres.front());
+  const double most_steps = patience * free_steps(way, kind.speed);
   bool ended = false;
-  while (fits && !route.done() && !ended) {
+  while (fits && !route.done() && !ended && static_cast<double>(result.steps) < most_steps) {
     route.advance();
     ended = goes_on && result.steps % asked_every == 0 && !goes_on();
   }
-  trial.outcome = fits && !ended ? result.outcome : Outcome::held;
+  trial.outcome = !fits || ended ? Outcome::held : route.done() ? result.outcome : Outcome::blocked;
   trial.at = result.end;
   if (kind.mode == Mode::walk && (trial.outcome == Outcome::blocked || trial.outcome == Outcome::reached)) {
     const double sunk = level_at(way, result.waypoints, result.end) - (result.end.z - 0.5 * settings.height);

@@ -26,12 +26,18 @@ struct BodyKind {
 /// The settings of such a body. It does not crouch: a lower body is another body.
 [[nodiscard]] WalkerSettings settings_of(const BodyKind& kind, double radius, double support_radius);
 
+/// A trial's patience: it takes at most so many times the steps of free motion along its way, and of two seconds more.
+/// Route ends what gets on by less than a twentieth of its speed; this, what is held up in each of its steps.
+inline constexpr double trial_patience = 10.0;
+
 /// Sends a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
 ///   - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
 ///   - a body that ends more than a step below the way has fallen into what stops it, however shallow: `fell`.
-/// `goes_on` is asked now and then; false ends the trial, with the outcome so far `held`.
+/// Who is not through when `patience` is at its end is `blocked`. `goes_on` is asked now and then; false ends the
+/// trial, with the outcome so far `held`.
 [[nodiscard]] Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
-                            std::span<const Vec3> way, const std::function<bool()>& goes_on = {});
+                            std::span<const Vec3> way, const std::function<bool()>& goes_on = {},
+                            double patience = trial_patience);
 
 /// What the paper's two rules ask of an outcome.
 enum class Judgement : std::uint8_t {
