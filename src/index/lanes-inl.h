@@ -245,6 +245,7 @@ struct Reach {
 struct Swept {
   alignas(16) std::int32_t lower[4], upper[4];
 
+  Swept() = default;
   HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
     // Planes lie between 0 and 2^16 steps of a tile, 2^29 + 2^19 of the tree over tiles: of what is farther off only
     // the side matters. A reach that is cut off still leads from any start, as it is cut off, past all planes of a

@@ -41,6 +41,7 @@ class NearTraversal {
   double run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double more = margin_of(index_);
+    const Around around = around_of(frame, axis_reach(more));
     Passed passed;
     Stack stack;
     search(
@@ -50,9 +51,9 @@ class NearTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Node& node = index_.top[e.number].node;
           Children children;
-          near_node(node, frame, way_, margin(kTopSteps, frame), axis_reach(more), passed.lanes, children);
+          const Node& node = look_at(index_.top, e.number, frame, around, margin(kTopSteps, frame), axis_reach(more),
+                                     passed, children);
           push_children(node, children, index_.top, nullptr, stack);
           prefetch_tiles(index_, node, children);
         });
@@ -74,6 +75,43 @@ class NearTraversal {
       return true;
     }
   };
+
+  /// In whole numbers, the box of what is within `reach` of the axis; nothing where it is not asked.
+  struct Around {
+    Swept box;
+    float reach;
+  };
+  [[nodiscard]] HWY_INLINE Around around_of(const Frame& frame, float reach) const {
+    if (!boxed_) return {Swept(), reach};
+    return {Swept(frame, Reach(piece_.motion, double(reach), piece_.body.half_height), 0.0F), reach};
+  }
+
+  /// Looks at the children of a node or, where it has only one around the way, of that one, and so on; returns whose
+  /// they are.
+  HWY_INLINE const Node& look_at(const Block* nodes, std::uint32_t at, const Frame& frame, const Around& around,
+                                 float grown, float reach, Passed& passed, Children& children) const {
+    std::uint32_t met = ~0U;
+    const Node* node = &nodes[at].node;
+    if (boxed_) {
+      passed.entry = std::min(passed.entry, around.reach);  // what the boxes leave out is farther than that
+      for (;;) {
+        met = met_children(*node, around.box);
+        const auto child = static_cast<std::uint32_t>(std::countr_zero(met));
+        const bool choice = (met & (met - 1)) != 0;
+        if (met != 0 && !choice && child < node->inner_count) {
+          node = &nodes[node->first_node + child].node;
+          continue;
+        }
+        if (choice) break;
+        children.mask = met;
+        if (met != 0) children.key[child] = 0.0F;
+        return *node;
+      }
+    }
+    near_node(*node, frame, way_, grown, reach, passed.lanes, children);
+    children.mask &= met;
+    return *node;
+  }
 
   /// How far from the axis stored triangles matter still.
   [[nodiscard]] float axis_reach(double error) const {
@@ -107,10 +145,9 @@ class NearTraversal {
     const float grown = margin(kTileSteps, frame);
     Passed passed;
     const auto beyond = [&](float key) { return passed.over(key, reach); };
+    const Around around = around_of(frame, reach);
     const auto look = [&](std::uint32_t at, Children& children) -> const Node& {
-      const Node& node = nodes[at].node;
-      near_node(node, frame, way_, grown, reach, passed.lanes, children);
-      return node;
+      return look_at(nodes, at, frame, around, grown, reach, passed, children);
     };
     const auto look_at_leaf = [&](std::uint32_t leaf) {
       looked_ = true;
@@ -179,6 +216,9 @@ class NearTraversal {
   Way way_;
   double asked_, reach_;
   double part_;
+  /// Boxes in whole numbers are asked first, as by a sweep: that pays for small reaches, and where what is left out
+  /// need not be told more closely than by the reach.
+  bool boxed_ = (part_ > 0.0 || reach_ <= piece_.body.radius) && way_.longest <= kShortMotion;
   double left_ = std::numeric_limits<double>::infinity();
   bool looked_ = false;  ///< at a leaf
   Visit visit_;
