@@ -216,9 +216,9 @@ class NearTraversal {
   Way way_;
   double asked_, reach_;
   double part_;
-  /// Boxes in whole numbers are asked first, as by a sweep: that pays for small reaches, and where what is left out
-  /// need not be told more closely than by the reach.
-  bool boxed_ = (part_ > 0.0 || reach_ <= piece_.body.radius) && way_.longest <= kShortMotion;
+  /// Boxes in whole numbers are asked first, as by a sweep: of a gap, for which what is left out need not be told more
+  /// closely than by the reach.
+  bool boxed_ = part_ > 0.0 && way_.longest <= kShortMotion;
   double left_ = std::numeric_limits<double>::infinity();
   bool looked_ = false;  ///< at a leaf
   Visit visit_;
