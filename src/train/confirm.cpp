@@ -92,23 +92,27 @@ class Confirmation {
     const BodySize body = body_of_paths(kind_, options_, evidence_, crossings_, layout_);
     tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
       Tries& t = tries[i];
-      const Passage& passage = layout_.paths[i].passage;
+      PlannedPath& path = layout_.paths[i];
       // Where that body does not fit, one that does.
       BodySize fitting = body;
-      if (passage.limited && passage.radius < body.radius) fitting.radius = inside_share * passage.radius;
+      if (path.passage.limited && path.passage.radius < body.radius)
+        fitting.radius = inside_share * path.passage.radius;
+      if (path.walked && BodySize{path.walked->radius, path.walked->support_radius} == fitting) t.walked = fitting;
       if (stages_.ended() || t.walked == fitting) return;
-      t.stop = stop_on(passage, fitting);
+      t.stop = stop_on(path, fitting);
       if (!t.stop) t.walked = fitting;
     });
     return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
   }
 
-  /// Where a body is stopped or falls; none where it comes through, or is not meant to.
-  [[nodiscard]] std::optional<Stop> stop_on(const Passage& passage, const BodySize& body) const {
+  /// Where a body is stopped or falls; none where it comes through, which is kept, or is not meant to.
+  [[nodiscard]] std::optional<Stop> stop_on(PlannedPath& path, const BodySize& body) const {
+    const Passage& passage = path.passage;
     const auto tried = [&](const std::vector<Vec3>& way) {
       return try_way(survey_, kind_, body.radius, body.support_radius, way, [this] { return !stages_.ended(); });
     };
     Stop stop{.trial = tried(passage.way)};
+    if (stop.trial.outcome == Outcome::reached) path.walked = stop.trial;
     if (stop.trial.outcome == Outcome::reached || sinks_into_shallow(passage.way, body.radius)) return std::nullopt;
     stop.along = nearest_on(passage.way, feet(stop.trial), kind_.mode).along;
     if (judged(stop.trial.outcome) != Judgement::flies_off) return stop;
@@ -189,6 +193,7 @@ class Confirmation {
       if (t.gone) return;
       layout_.paths[i].passage = std::move(passage);
       layout_.paths[i].is_widest = false;
+      layout_.paths[i].walked.reset();
       t.walked = {};
       t.stop.reset();
     });

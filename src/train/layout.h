@@ -19,8 +19,9 @@ namespace roam::training {
 
 struct PlannedPath {
   Ends ends;
-  Passage passage;        ///< between them, refined
-  bool is_widest = true;  ///< false: planned round a place where a walker was stopped
+  Passage passage;                   ///< between them, refined
+  bool is_widest = true;             ///< false: planned round a place where a walker was stopped
+  std::optional<Trial> walked = {};  ///< the last that came through the passage
 };
 
 /// A way that was planned and that no walker came along.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "train/answer.h"
 #include "train/interval.h"
@@ -169,6 +170,14 @@ class Proof {
   double foot_ = 0.0;
 };
 
+/// The same body on the same path is the same trial.
+std::optional<Trial> walked_before(const Layout& layout, const Attempt& attempt) {
+  if (!attempt.chosen) return std::nullopt;
+  const std::optional<Trial>& walked = layout.paths[attempt.path].walked;
+  const bool same = walked && walked->radius == attempt.radius && walked->support_radius == attempt.support_radius;
+  return same ? walked : std::nullopt;
+}
+
 }  // namespace
 
 void prove(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Stages& stages,
@@ -181,6 +190,11 @@ void prove(const Survey& survey, const BodyKind& kind, const Layout& layout, con
   tbb::parallel_for(std::size_t(0), attempts.size(), [&](std::size_t i) {
     const Attempt& attempt = attempts[i];
     if (stages.ended()) return;
+    if (const auto known = walked_before(layout, attempt)) {
+      trials[i] = *known;
+      ++done;
+      return;
+    }
     BodyKind body = kind;
     if (attempt.expected == Judgement::flies_off) body.speed = std::min(body.speed, slow);
     trials[i] = try_way(survey, body, attempt.radius, attempt.support_radius, attempt.way, progress);
