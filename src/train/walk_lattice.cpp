@@ -62,7 +62,7 @@ class WalkLattice final : public LatticeGraph {
   const WalkSteps steps_;
   LatticeTable table_;
   std::vector<Column> columns_;
-  LatticeTable measured_;  ///< by storey: who has asked ahead how wide a body may be there
+  LatticeTable asked_about_;  ///< by storey: who has sent scouts there
   Scouts scouts_{steps_, plan_};
 };
 
@@ -99,21 +99,19 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
   const Standing here = standing(from);
   const unsigned bit = 1U << direction;
   const bool is_asked = ahead != nullptr && (ahead->asked & bit) != 0;
-  bool is_measured = false;
+  bool is_new = false;
   NodeId there = nearest_over(at, here.level, measure_.step);
   if (there == no_node) {
     const auto foot = is_asked ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
     if (!foot || foot->place.z < within_.lower.z || foot->place.z > within_.upper.z) return no_node;
     there = nearest_over(at, foot->level, same_height);
-    if (there == no_node) {
-      is_measured = is_asked && (ahead->measured & bit) != 0;
-      there = make(at, *foot, is_measured ? ahead->clearance[direction] : steps_.clearance(foot->place));
-    }
+    is_new = there == no_node;
+    if (is_new) there = make(at, *foot, is_asked ? ahead->clearance[direction] : steps_.clearance(foot->place));
   }
   // Its own way back may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
   if (nodes_[there].clearance == 0.0F) return no_node;
-  const bool is_linked = is_measured ? (ahead->linked & bit) != 0 : steps_.linked(here, standing(there));
+  const bool is_linked = is_new && is_asked ? (ahead->linked & bit) != 0 : steps_.linked(here, standing(there));
   return is_linked ? there : no_node;
 }
 
@@ -122,22 +120,20 @@ void WalkLattice::look_ahead(NodeId id) {
   if (nodes_[id].clearance >= steps_.unlimited() || columns_[id].settled == all_directions || scouts_.are_out(id))
     return;
   const Standing here = standing(id);
-  unsigned asked = 0, measured = 0;
+  unsigned asked = 0;
   for (std::size_t direction = 0; direction < directions; ++direction) {
     const unsigned bit = 1U << direction;
     const LatticePoint at = beside(columns_[id].at, direction);
     if ((columns_[id].settled & bit) != 0 || !covers(at) || nearest_over(at, here.level, measure_.step) != no_node)
       continue;
-    asked |= bit;
-    // Most points are come to from more than one side: who asks first about one has it measured.
+    // Most points are come to from more than one side: who is there first asks.
     const auto storey = std::lround(here.level / std::max(measure_.step, same_height)) % LatticeTable::limit;
     const LatticePoint about{at.x, at.y, static_cast<std::int32_t>(storey)};
-    if (measured_.find(about) != no_node) continue;
-    measured_.set(about, id);
-    measured |= bit;
+    if (asked_about_.find(about) != no_node) continue;
+    asked_about_.set(about, id);
+    asked |= bit;
   }
-  if (asked != 0)
-    scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked), static_cast<std::uint8_t>(measured));
+  if (asked != 0) scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked));
 }
 
 Neighbours WalkLattice::expand(NodeId id) {

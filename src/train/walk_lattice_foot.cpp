@@ -62,7 +62,7 @@ bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, d
 
 /// Whether the gap that an axis is over at the level of a rim is an open drop: no foot is carried there. This is the
 /// walker's own rule for its foot, asked with the largest.
-bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y) {
+bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y, KnownGaps* gaps) {
   const double radius = measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
   const Vec3 axis(x, y, rim.z);
   // The disc beyond the rim is free in most drops. Else beyond what is nearer, a little higher or lower: beside a
@@ -70,13 +70,17 @@ bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim,
   if (is_free_beyond(survey, axis, rim, radius, knee)) return true;
   const Clearance nearest = floor_beside(survey, axis, radius);
   if (nearest.found && is_free_beyond(survey, axis, nearest.point, radius, knee)) return true;
-  return walking::free_disc(survey.world(), {axis}, {radius, survey.slope_degrees(), knee}, axis) ==
-         walking::DiscRoom::free;
+  const auto look = [&](const Vec3& over) {
+    return walking::free_disc(survey.world(), {over}, {radius, survey.slope_degrees(), knee}, over) ==
+           walking::DiscRoom::free;
+  };
+  return gaps != nullptr ? gaps->is_open(axis, look) : look(axis);
 }
 
 }  // namespace
 
-std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level) {
+std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level,
+                                KnownGaps* gaps) {
   const double start = level + measure.step + 2.0 * touch;
   const double reach = 2.0 * measure.step + 4.0 * touch;
   double radius = foot_radius;
@@ -101,15 +105,16 @@ std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, do
     // On a slope, or on a rim: of a kerb, with floor below it, or of a gap, into which the ball has sunk.
     if (const auto below = floor_under_axis(survey, measure, x, y, s.point.z, lowest))
       return Foot{Vec3(x, y, lowest), *below, false};
-    if (is_open_drop(survey, measure, s.point, x, y)) return std::nullopt;
+    if (is_open_drop(survey, measure, s.point, x, y, gaps)) return std::nullopt;
     return Foot{Vec3(x, y, s.point.z), s.point.z, true};
   }
   return std::nullopt;
 }
 
-std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y, double level) {
+std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y, double level,
+                                 KnownGaps* gaps) {
   const Clearance rim = floor_beside(survey, {x, y, level}, measure.support_max);
-  if (!rim.found || is_open_drop(survey, measure, rim.point, x, y)) return std::nullopt;
+  if (!rim.found || is_open_drop(survey, measure, rim.point, x, y, gaps)) return std::nullopt;
   return Foot{Vec3(x, y, rim.point.z), rim.point.z, true};
 }
 

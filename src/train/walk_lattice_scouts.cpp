@@ -9,13 +9,11 @@ Scouts::~Scouts() noexcept {
   group_.wait();
 }
 
-void Scouts::send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked,
-                  std::uint8_t measured) {
+void Scouts::send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked) {
   ScoutedSteps& steps = next_->places[next_->count].steps;
   steps.here = here;
   steps.at = at;
   steps.asked = asked;
-  steps.measured = measured;
   out_.emplace(from, Out{next_, next_->count++});
   if (next_->count < places_together) return;
   group_.run([this, errand = std::exchange(next_, std::make_shared<Errand>())] { run(*errand); });
@@ -40,7 +38,7 @@ void Scouts::answer(ScoutedSteps& steps) const {
     if ((steps.asked & bit) == 0) continue;
     const std::optional<Foot>& foot = steps.foot[direction] =
         steps_.foot_from(steps.here, plan_.point(beside(steps.at, direction)));
-    if (!foot || (steps.measured & bit) == 0) continue;
+    if (!foot) continue;
     steps.clearance[direction] = steps_.clearance(foot->place);
     const Standing there = standing_at(*foot, steps.clearance[direction]);
     if (there.free > 0.0 && steps_.linked(steps.here, there))

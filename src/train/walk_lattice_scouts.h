@@ -19,8 +19,7 @@ namespace roam::training {
 struct ScoutedSteps {
   Standing here;
   LatticePoint at;
-  std::uint8_t asked = 0;                            ///< bit set of the directions in which no place was known
-  std::uint8_t measured = 0;                         ///< likewise, those of them that `clearance` is asked for
+  std::uint8_t asked = 0;                            ///< bit set
   std::array<std::optional<Foot>, directions> foot;  ///< as WalkSteps::foot_from
   std::array<float, directions> clearance;           ///< there
   std::uint8_t linked = 0;                           ///< bit set: to who will stand there
@@ -36,8 +35,8 @@ class Scouts {
 
   /// Whether a place's steps were asked for, and not taken yet.
   [[nodiscard]] bool are_out(NodeId from) const { return out_.contains(from); }
-  /// Asks about the steps of a place in `asked`, and of these in `measured`.
-  void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked, std::uint8_t measured);
+  /// Asks about the steps of a place in `asked`.
+  void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked);
   /// The answers about a place, where they are known by now; they are forgotten here.
   [[nodiscard]] std::shared_ptr<const ScoutedSteps> take(NodeId from);
 

@@ -15,16 +15,16 @@ constexpr double level_tolerance = 2e-3;
 }  // namespace
 
 std::optional<Foot> WalkSteps::foot_from(const Standing& from, const Vec3& to) const {
-  if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level)) return foot;
+  if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level, &gaps_)) return foot;
   const Vec3 half = 0.5 * (from.place + to);
-  const auto between = floor_below(survey_, measure_, half.x, half.y, from.level);
+  const auto between = floor_below(survey_, measure_, half.x, half.y, from.level, &gaps_);
   // From the same level the same foot is found, none.
   if (between && between->level != from.level) {
-    if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->level)) return foot;
+    if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->level, &gaps_)) return foot;
   }
   const Vec3 level(to.x, to.y, from.place.z);
   if (!goes_straight(survey_, measure_, from.place, level, measure_.narrowest)) return std::nullopt;
-  return carried_over(survey_, measure_, to.x, to.y, from.level);
+  return carried_over(survey_, measure_, to.x, to.y, from.level, &gaps_);
 }
 
 float WalkSteps::rounded_down(double radius) {
@@ -48,7 +48,7 @@ bool WalkSteps::linked(const Standing& a, const Standing& b) const {
   if (one_step && a.free + b.free - apart >= 2.0 * least) return true;
   if (one_step && goes_straight(survey_, measure_, a.place, b.place, least)) return true;
   const Vec3 half = 0.5 * (a.place + b.place);
-  const auto between = floor_below(survey_, measure_, half.x, half.y, a.level);
+  const auto between = floor_below(survey_, measure_, half.x, half.y, a.level, &gaps_);
   return between && std::abs(between->level - b.level) <= measure_.step + level_tolerance &&
          goes_straight(survey_, measure_, a.place, between->place, least) &&
          goes_straight(survey_, measure_, between->place, b.place, least);

@@ -68,6 +68,7 @@ class WalkSteps {
   const Survey& survey_;
   const Measure measure_;
   const double largest_;
+  mutable KnownGaps gaps_;
 };
 
 }  // namespace roam::training
