@@ -265,6 +265,23 @@ TEST(TrainPlaces, EndedEarlyItAnswersWhatWasFound) {
   expect_no_place_is_lost(tree, found);
 }
 
+TEST(TrainPlaces, AreNotToldToBeFoundBeforeTheyAre) {
+  // More than is looked at first.
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {50, 50, 3});
+  const Survey survey = Survey::build({mesh});
+  WidestTree tree(survey, shells::person(), 0.2);
+  double told = 0.0;
+  std::size_t places_early = 0;
+  (void)find_components(survey, shells::person(), tree, 1, [&](double done) {
+    EXPECT_GE(done, told);
+    told = done;
+    if (done < 0.9) places_early = tree.size();
+    return true;
+  });
+  EXPECT_GT(places_early, tree.size() / 10 * 9);
+}
+
 TEST(TrainPlaces, TheOrderOfTrianglesAndAPlaceFarAwayChangeNothing) {
   const Look plain(two_rooms());
   Mesh mesh = two_rooms();

@@ -22,6 +22,8 @@ namespace {
 constexpr double reached_column = 0.3;
 /// The samples that are looked at together: few at first, for most lie in what the first ones reach.
 constexpr std::size_t first_batch = 16, last_batch = 4096;
+/// Of the work, as it is told: to look at the samples. What they found and is large is grown whole afterwards.
+constexpr double samples_share = 0.5;
 /// How many times as many places there may be of all components together as of one.
 constexpr std::uint64_t all_factor = 2;
 /// Of what is closed so many places at first: one that is huge is not to leave nothing for the others.
@@ -57,7 +59,6 @@ class Search {
         goes_on_(goes_on) {}
 
   std::vector<Component> run(const std::vector<Vec3>& samples) {
-    share_of_one_ = samples.empty() ? 1.0 : 1.0 / static_cast<double>(samples.size());
     std::size_t batch = first_batch;
     // What is huge and closed would else be begun again and again, until nothing is left for the rest.
     while (done_ < samples.size() && tree_.size() < most_places_ && asked_to_go_on()) {
@@ -70,14 +71,25 @@ class Search {
         if (ended_ || tree_.size() >= most_places_) break;
       }
       done_ = end;
+      share_done_ = samples_share * static_cast<double>(done_) / static_cast<double>(samples.size());
       batch = std::min(2 * batch, last_batch);
     }
     // What is large is grown on, in the order in which it was met: where the scene is detailed comes first. Then what
     // came out into the open. They take over all other trees that they meet; components() joins what they leave.
-    for (const NodeId root : large_)
+    const std::size_t roots = large_.size() + came_out_.size();
+    std::size_t grown = 0;
+    const auto one_more = [&] {
+      share_done_ = std::min(1.0, samples_share + (1.0 - samples_share) * static_cast<double>(++grown) /
+                                                      static_cast<double>(std::max<std::size_t>(roots, 1)));
+    };
+    for (const NodeId root : large_) {
       if (!ended_ && tree_.root(root) == root) grow(root, Sight::closed, most_places_);
-    for (const NodeId root : came_out_)
+      one_more();
+    }
+    for (const NodeId root : came_out_) {
       if (!ended_ && !open_was_cut_ && tree_.root(root) == root) grow(root, Sight::open, most_open());
+      one_more();
+    }
     for (const Start& start : open_)
       if (!ended_) grow_from(start);
     if (backs_may_be_the_scene())
@@ -96,7 +108,7 @@ class Search {
   };
 
   bool asked_to_go_on() {
-    if (!ended_ && goes_on_ && !goes_on_(static_cast<double>(done_) * share_of_one_)) ended_ = true;
+    if (!ended_ && goes_on_ && !goes_on_(share_done_)) ended_ = true;
     return !ended_;
   }
 
@@ -313,7 +325,7 @@ class Search {
   std::vector<NodeId> came_out_;     ///< roots of what began closed and goes on in the open
   std::uint64_t closed_places_ = 0;  ///< that were reached from closed samples
   std::size_t done_ = 0;
-  double share_of_one_ = 0.0;
+  double share_done_ = 0.0;  ///< of all the work
   bool open_was_cut_ = false;
   bool ended_ = false;
 };

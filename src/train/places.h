@@ -42,7 +42,7 @@ struct Component {
 /// one is inside, where there is any but on top of rooms that are too low for the body. What only sees the backs of
 /// triangles is left out where it is plain that the windings are right. `most_places`: no component is grown beyond so
 /// many places, what is open to the sky not beyond as many as there are of what is closed, and all together not beyond
-/// twice as many. `goes_on` is asked now and then with the fraction of the samples that were looked at; false ends it
+/// twice as many. `goes_on` is asked now and then with about how much of the work is done, in [0, 1]; false ends it
 /// with what was found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const Measure& measure, WidestTree& tree,
                                                      std::uint64_t seed,
