@@ -144,23 +144,27 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   }
 }
 
-/// How far below a distance its bound may stay: of what the distance to the stored triangle and the tile's error leave
-/// beside the radius, it must be 1 - part at least, as long as that is within `reach`; else what is not as near as that
-/// might be told to be. With a part of 0 only kSettled counts.
+/// A bound that is kSettled below its distance at most is tight.
+struct Tight {
+  static constexpr bool kLoose = false;
+  Tight(double, double, double, double) {}
+  /// The farthest distances for which a bound is good enough.
+  [[nodiscard]] HWY_INLINE VF enough(VF bound) const { return hn::Add(bound, set(kSettled)); }
+};
+
+/// Of what the distance to the stored triangle and the tile's error leave beside the radius, a bound must be 1 - part
+/// at least, as long as that is within `reach`; else what is not as near as that might be told to be.
 struct Slack {
+  static constexpr bool kLoose = true;
   float factor, less, farthest;
-  bool any;
 
   Slack(double part, double radius, double error, double reach)
       : factor(static_cast<float>(1.0 / (1.0 - part))),
         less(static_cast<float>((radius + error) / (1.0 - part) - radius + error)),
-        farthest(static_cast<float>(radius + reach - error)),
-        any(part > 0.0) {}
-  /// The farthest distances for which a bound is good enough.
+        farthest(static_cast<float>(radius + reach - error)) {}
   [[nodiscard]] HWY_INLINE VF enough(VF bound) const {
-    const VF settled = hn::Add(bound, set(kSettled));
-    if (!any) return settled;
-    return hn::Max(settled, hn::Min(hn::Sub(hn::Mul(bound, set(factor)), set(less)), set(farthest)));
+    const VF loose = hn::Min(hn::Sub(hn::Mul(bound, set(factor)), set(less)), set(farthest));
+    return hn::Max(hn::Add(bound, set(kSettled)), loose);
   }
 };
 
@@ -185,7 +189,8 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
 /// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
 /// `most` becomes how near they come at least, but for rounding.
-HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Slack& slack,
+template <class Bounds>
+HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
                           VF& left, Children& out, float* most) {
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
@@ -199,7 +204,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     MF active = triangle;
     VF least = zero;
     // Where a part may be given up, planes settle most leaves, and spoil nothing.
-    if (slack.any) {
+    if constexpr (Bounds::kLoose) {
       least = hn::Sub(off_planes(t, m, way.half_height), error);
       const MF beyond = hn::And(triangle, hn::Gt(least, set(reach)));
       left = hn::Min(left, hn::IfThenElse(beyond, least, left));
@@ -253,7 +258,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
       least = hn::IfThenElse(hn::And(sure, hn::Gt(apart, least)), apart, least);
       active = hn::AndNot(hn::Gt(least, set(reach)), active);
       if (round + 1 == rounds) break;
-      const VF enough = slack.enough(least);
+      const VF enough = bounds.enough(least);
       unsettled = hn::And(active, hn::AndNot(hn::Le(nearest, hn::Mul(enough, enough)), unsettled));
       if (hn::AllFalse(kF, unsettled)) break;
       approach(closest);

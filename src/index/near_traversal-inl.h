@@ -25,7 +25,10 @@ HWY_INLINE std::uint32_t nearest_of(const Children& children) {
   return nearest;
 }
 
-/// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink.
+/// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink. For a
+/// gap
+/// (`Bounds` is Slack, else Tight) that may be told less closely, and is for less.
+template <class Bounds>
 class NearTraversal {
  public:
   NearTraversal(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context)
@@ -82,7 +85,7 @@ class NearTraversal {
     float reach;
   };
   [[nodiscard]] HWY_INLINE Around around_of(const Frame& frame, float reach) const {
-    if (!boxed_) return {Swept(), reach};
+    if (!Bounds::kLoose || !boxed_) return {Swept(), reach};
     return {Swept(frame, Reach(piece_.motion, double(reach), piece_.body.half_height), 0.0F), reach};
   }
 
@@ -92,7 +95,7 @@ class NearTraversal {
                                  float grown, float reach, Passed& passed, Children& children) const {
     std::uint32_t met = ~0U;
     const Node* node = &nodes[at].node;
-    if (boxed_) {
+    if (Bounds::kLoose && boxed_) {
       passed.entry = std::min(passed.entry, around.reach);  // what the boxes leave out is farther than that
       for (;;) {
         met = met_children(*node, around.box);
@@ -140,7 +143,7 @@ class NearTraversal {
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     const auto error = double(t.error);
-    const Slack slack(part_, piece_.body.radius, error, asked_);
+    const Bounds bounds(part_, piece_.body.radius, error, asked_);
     float reach = axis_reach(error);
     const float grown = margin(kTileSteps, frame);
     Passed passed;
@@ -153,7 +156,7 @@ class NearTraversal {
       looked_ = true;
       Children triangles;
       alignas(64) float most[kWidth];
-      near_leaf(leaves[leaf].leaf, frame, way_, reach, slack, passed.lanes, triangles, most);
+      near_leaf(leaves[leaf].leaf, frame, way_, reach, bounds, passed.lanes, triangles, most);
       while (triangles.mask != 0) {
         const std::uint32_t nearest = nearest_of(triangles);
         if (beyond(triangles.key[nearest])) break;
@@ -162,10 +165,10 @@ class NearTraversal {
         reach = axis_reach(error);
       }
     };
-    if (looked_) {
-      stack_.start();
-    } else {
+    if (Bounds::kLoose && !looked_) {
       dive(nodes, leaves, beyond, look, look_at_leaf);
+    } else {
+      stack_.start();
     }
     go_on(stack_, beyond, [&](const Stack::Entry& e) {
       if (e.leaf) return look_at_leaf(e.number);
@@ -178,7 +181,8 @@ class NearTraversal {
 
   /// Begins the search in a tile: goes down from its root by the nearest child to a leaf, and looks at that before what
   /// is left beside the way is put on the stack, which mostly it then need not be: to keep that in order takes as long
-  /// as to look at it. `look(number, children)` looks at a node and returns it.
+  /// as to look at it. Only of gaps: it may be the wrong leaf, and others measure its triangles exactly. `look(number,
+  /// children)` looks at a node and returns it.
   template <class Beyond, class Look, class LookAtLeaf>
   HWY_INLINE void dive(const Block* nodes, const Block* leaves, const Beyond& beyond, const Look& look,
                        const LookAtLeaf& look_at_leaf) {
@@ -216,9 +220,7 @@ class NearTraversal {
   Way way_;
   double asked_, reach_;
   double part_;
-  /// Boxes in whole numbers are asked first, as by a sweep: of a gap, for which what is left out need not be told more
-  /// closely than by the reach.
-  bool boxed_ = part_ > 0.0 && way_.longest <= kShortMotion;
+  bool boxed_ = way_.longest <= kShortMotion;  ///< of a gap, boxes in whole numbers are asked first, as by a sweep
   double left_ = std::numeric_limits<double>::infinity();
   bool looked_ = false;  ///< at a leaf
   Visit visit_;

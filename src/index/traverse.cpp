@@ -16,7 +16,8 @@ Impact FirstImpact(const Index& index, const Piece& piece, double until) {
 }
 
 double VisitNear(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
-  return NearTraversal(index, piece, reach, part, visit, context).run();
+  return part > 0.0 ? NearTraversal<Slack>(index, piece, reach, part, visit, context).run()
+                    : NearTraversal<Tight>(index, piece, reach, part, visit, context).run();
 }
 
 }  // namespace roam::index::HWY_NAMESPACE
