@@ -1,6 +1,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <queue>
 
 #include "train/lattice_graph.h"
@@ -184,22 +185,36 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
   LatticeGraph& graph = *state_->graph;
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   std::vector<NodeId> before(graph.size(), no_node);
+  std::vector<float> offered(graph.size(), -1.0F);  // as State::offered; blocked places are offered more than there is
   std::uint64_t pushed = 0, taken = 0;
+  const auto offer = [&](NodeId at, NodeId next) {
+    const float width = std::min(graph.node(at).clearance, graph.node(next).clearance);
+    if (before[next] != no_node || width <= least || width <= offered[next]) return;
+    const bool is_blocked = offered[next] < 0.0F && blocked(graph.node(next));
+    offered[next] = is_blocked ? std::numeric_limits<float>::infinity() : width;
+    if (!is_blocked) edges.push({width, pushed++, at, next});
+  };
+  const auto may_be_taken = [&](const Edge& edge) {
+    if (before[edge.to] != no_node) return false;
+    if (graph.goes(edge.from, edge.to)) return true;
+    offered[edge.to] = -1.0F;
+    for (const NodeId other : graph.neighbours(edge.to))
+      if (before[other] != no_node) offer(other, edge.to);
+    return false;
+  };
   before[from] = from;
   for (NodeId at = from; at != to;) {
     const Neighbours neighbours = graph.expand(at);
     before.resize(graph.size(), no_node);
-    for (const NodeId next : neighbours) {
-      const float width = std::min(graph.node(at).clearance, graph.node(next).clearance);
-      if (before[next] != no_node || width <= least || blocked(graph.node(next))) continue;
-      edges.push({width, pushed++, at, next});
-    }
-    while (!edges.empty() && (before[edges.top().to] != no_node || !graph.goes(edges.top().from, edges.top().to)))
+    offered.resize(graph.size(), -1.0F);
+    for (const NodeId next : neighbours) offer(at, next);
+    Edge edge;
+    do {
+      if (edges.empty()) return {};
+      edge = edges.top();
       edges.pop();
-    if (edges.empty()) return {};
+    } while (!may_be_taken(edge));
     if (goes_on && taken++ % places_between_questions == 0 && !goes_on(graph.size())) return {};
-    const Edge edge = edges.top();
-    edges.pop();
     before[edge.to] = edge.from;
     at = edge.to;
   }
