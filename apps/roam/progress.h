@@ -18,8 +18,8 @@ namespace roam::app {
 /// and goes away when the work ends, elsewhere in a plain line now and then. Work that is over quickly says nothing.
 class Progress {
  public:
-  /// `what` is being done, counted in `unit`, e.g. "reading mine.dae" and "B" or "indexing" and "triangles"; empty: only
-  /// what share of it is done is told.
+  /// `what` is being done, counted in `unit`, e.g. "reading mine.dae" and "B" or "indexing" and "triangles"; empty:
+  /// only what share of it is done is told.
   Progress(std::string what, std::string unit);
   ~Progress();
   Progress(const Progress&) = delete;
