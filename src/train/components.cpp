@@ -2,6 +2,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -198,14 +199,14 @@ class Search {
   }
 
   [[nodiscard]] bool newest_are_open(NodeId root) const {
-    std::size_t asked = 0, open = 0;
-    for (std::size_t id = tree_.size(); id > 0 && asked < newest; --id) {
-      const auto node = static_cast<NodeId>(id - 1);
-      if (tree_.root(node) != root) continue;
-      ++asked;
-      if (look_around(survey_, eye_over(measure_, tree_.node(node))).open) ++open;
-    }
-    return 2 * open > asked;
+    std::vector<NodeId> asked;
+    for (std::size_t id = tree_.size(); id > 0 && asked.size() < newest; --id)
+      if (const auto node = static_cast<NodeId>(id - 1); tree_.root(node) == root) asked.push_back(node);
+    std::atomic<std::size_t> open{0};
+    tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+      if (look_around(survey_, eye_over(measure_, tree_.node(asked[i]))).open) ++open;
+    });
+    return 2 * open > asked.size();
   }
 
   /// Beside what is closed the open ground around is not worth more than that.
