@@ -40,6 +40,18 @@ long double least_distance(const Mesh& mesh, const Body& body, const Vec3& from,
   return least;
 }
 
+/// Judges Space::gap where the body's surface comes as near as `gap` (m).
+void judge_gap(double bound, double gap, const Body& body, double reach) {
+  if (gap > -body.radius) {
+    ASSERT_LE(bound, std::max(gap, 0.0) + kNearest);
+  }
+  if (bound == reach) {
+    ASSERT_GE(gap, reach - kNearest);
+  } else {
+    ASSERT_LE(gap, std::max(bound, 0.0) * (8.0 / 7.0) + kFarthest);
+  }
+}
+
 class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
 
 TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid) {
@@ -95,6 +107,8 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
     if (gap > -body.radius) {
       ASSERT_LE(near.distance, std::max(gap, 0.0) + kNearest) << "query " << q;
     }
+    judge_gap(world.gap(body, from, motion, reach), gap, body, reach);
+    ASSERT_FALSE(HasFatalFailure()) << "query " << q;
     if (!near.found) {
       ASSERT_GE(gap, reach - farthest) << "query " << q;
       ASSERT_EQ(near.distance, reach);
@@ -151,5 +165,26 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WorldAgainstBruteForce,
                                          Case{"LosslessAt6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}, true},
                                          Case{"LosslessAllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}, true}),
                          [](const auto& param) { return param.param.name; });
+
+/// Where two tiles are about equally near, what one of them leaves out may decide. Motions are short: before longer
+/// ones no boxes are asked in whole numbers.
+TEST(World, GapsAreLowerBoundsWhereTilesAreAboutEquallyNear) {
+  Random random(10);
+  for (int scene = 0; scene < 10; ++scene) {
+    const clutter::Recipe recipe{100, 1000.0, 0.5, 100.0, {300.0, 20.0, -7.0}};
+    const Mesh mesh = clutter::make(random, recipe);
+    const World world = World::build({&mesh, 1});
+    ASSERT_GT(world.stats().tiles, 4U);
+    for (int q = 0; q < 500; ++q) {
+      const Body body{random.between(0.0, 2.0), q % 2 == 0 ? 0.0 : random.between(0.0, 2.0)};
+      const Vec3 from = recipe.centre + random.in_box(1.2 * recipe.half);
+      const Vec3 motion = q % 3 == 0 ? Vec3(0.0) : random.between(0.0, 4.0) * random.direction();
+      const double reach = std::min(World::reach_limit, random.between(0.3, 1.0) * recipe.half);
+      const double gap = double(least_distance(mesh, body, from, motion, 1.0) - (long double)(body.radius));
+      judge_gap(world.gap(body, from, motion, reach), gap, body, reach);
+      ASSERT_FALSE(HasFatalFailure()) << "scene " << scene << " query " << q;
+    }
+  }
+}
 
 }  // namespace
