@@ -194,6 +194,34 @@ void delay_every_child(bool top) {
   EXPECT_GT(delayed, tested / 4) << "the second plane tells nothing";
 }
 
+/// Rays through corners and edges of child boxes, which they leave as they enter them.
+void pierce_every_child(bool top) {
+  clutter::Random random(44);
+  for (int q = 0; q < 2000; ++q) {
+    const Scene scene(random, top);
+    const lanes::Frame frame(scene.origin, scene.step, scene.start);
+    for (int i = 0; i < kWidth; ++i) {
+      Vec3 point;
+      for (int k = 0; k < 3; ++k) {
+        const auto lower = double(scene.plane(scene.node.lower, i, k)),
+                   upper = double(scene.plane(scene.node.upper, i, k));
+        const bool between = q % 2 == 1 && k == q % 3;
+        point[k] = between ? random.between(lower, upper) : (random.unit() < 0.5 ? lower : upper);
+      }
+      const Vec3 way = (point - scene.start) * random.between(1.0, 2.0);
+      const lanes::Motion motion(way, 0.0);
+      const float grown = lanes::grown_radius(0.0F, 0.0F, motion.longest, scene.extent, static_cast<float>(scene.step));
+      lanes::Children children;
+      lanes::ray_node(scene.node, frame, motion, lanes::Ray(motion), grown, 1.0F, children);
+      ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
+    }
+  }
+}
+
+TEST(NodeFilter, LosesNoChildOfATileThatARayTouches) { pierce_every_child(false); }
+
+TEST(NodeFilter, LosesNoChildOfTheTreeOverTilesThatARayTouches) { pierce_every_child(true); }
+
 TEST(NodeFilter, DelaysNoChildOfATileTooLong) { delay_every_child(false); }
 
 TEST(NodeFilter, DelaysNoChildOfTheTreeOverTilesTooLong) { delay_every_child(true); }
