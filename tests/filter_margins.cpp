@@ -6,11 +6,14 @@
 #include <cmath>
 
 #include "clutter.h"
+#include "graze.h"
 #include "oracle.h"
 #include "roam/world.h"
 
 namespace {
 
+using clutter::cross;
+using clutter::length;
 using roam::Body;
 using roam::Mesh;
 using roam::Triangle;
@@ -21,12 +24,6 @@ using roam::World;
 constexpr double kDepth = 1.2e-6;
 constexpr double kNearest = 1e-6;
 constexpr int kGrazes = 20000;
-
-double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Triangles a few metres wide on a grid of 2^-10 m, within 60 m.
 Mesh on_grid(clutter::Random& random, int count) {
@@ -47,44 +44,6 @@ Mesh on_planes(clutter::Random& random, int count) {
   return mesh;
 }
 
-struct Graze {
-  Body body;
-  Vec3 from, motion;
-  double time;
-};
-
-/// A motion that passes `triangle` at a distance of radius - kDepth, at `time`.
-Graze graze(clutter::Random& random, const Triangle& t, bool capsule) {
-  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
-  const double u = random.unit(), v = random.unit() * (1.0 - u);
-  // A face, an edge or a corner, and a direction from which it is the closest.
-  const int kind = static_cast<int>(random.engine() % 3);
-  Vec3 point, away;
-  if (kind == 0) {
-    point = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
-    away = random.unit() < 0.5 ? normal : -normal;
-  } else if (kind == 1) {
-    point = t[0] + u * (t[1] - t[0]);
-    away = cross(t[1] - t[0], normal) + random.between(-2.0, 2.0) * normal * length(t[1] - t[0]) / length(normal);
-  } else {
-    point = t[0];
-    away = -((t[1] - t[0]) / length(t[1] - t[0]) + (t[2] - t[0]) / length(t[2] - t[0]));
-  }
-  away = away / length(away);
-  Graze g;
-  g.body.radius = std::pow(10.0, random.between(-1.3, 2.3));
-  g.body.half_height = capsule ? random.between(0.1, 1.0) : 0.0;
-  // The end of the axis that faces the point is the sphere that grazes.
-  const Vec3 axis(0.0, 0.0, away.z >= 0.0 ? g.body.half_height : -g.body.half_height);
-  const Vec3 centre = point + away * (g.body.radius - kDepth) + axis;
-  Vec3 way = cross(away, random.direction());
-  way = way / length(way) * std::pow(10.0, random.between(-2.0, 1.75));
-  g.time = random.unit();
-  g.motion = way;
-  g.from = centre - g.time * way;
-  return g;
-}
-
 void graze_all(clutter::Random& random, const Mesh& mesh) {
   const World world = World::build({&mesh, 1});
   ASSERT_LT(world.stats().largest_error_m, 1e-12) << "quantization would hide what is tested";
@@ -92,7 +51,8 @@ void graze_all(clutter::Random& random, const Mesh& mesh) {
   for (int q = 0; q < kGrazes; ++q) {
     const Triangle t = mesh.triangle(random.engine() % mesh.triangles.size());
     if (!(length(cross(t[1] - t[0], t[2] - t[0])) > 1e-3)) continue;
-    const Graze g = graze(random, t, q % 2 == 1);
+    const Body body{std::pow(10.0, random.between(-1.3, 2.3)), q % 2 == 0 ? 0.0 : random.between(0.1, 1.0)};
+    const clutter::Graze g = clutter::graze(random, t, body, kDepth, std::pow(10.0, random.between(-2.0, 1.75)));
     const long double d = oracle::distance_on_the_way(g.body, g.from, g.motion, g.time, t);
     if (d > g.body.radius - kNearest) continue;  // rounding of the construction took it away
     ++tested;

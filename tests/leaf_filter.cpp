@@ -1,0 +1,178 @@
+// The leaf tests lose no triangle: bodies that just touch one far off in a tile, judged in higher precision. World may
+// let a body sink by more than a leaf's margin mostly is, so that whole worlds would not show what these do.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clutter.h"
+#include "graze.h"
+#include "index/leaf-inl.h"
+#include "oracle.h"
+
+namespace {
+
+using roam::Body;
+using roam::Triangle;
+using roam::Vec3;
+using roam::index::kWidth;
+using roam::index::Leaf;
+namespace lanes = roam::index::HWY_NAMESPACE;
+
+/// Metres. The triangles lie anywhere in a tile of this step, and bodies pass one of them that set out far from it.
+constexpr double kStep = 1.0 / 1024.0;
+const Vec3 kOrigin(-13739.0, 253.0, 182.0);
+
+struct Scene {
+  Leaf leaf{};
+  Triangle triangles[kWidth];
+
+  explicit Scene(clutter::Random& random) {
+    leaf.triangle_count = kWidth;
+    // Up to eight metres wide, as fits the tile.
+    const double half = std::pow(10.0, random.between(-1.0, 0.6));
+    const Vec3 middle = Vec3(32.0) + random.in_box(31.9 - half);
+    Vec3 vertices[kWidth];
+    for (int v = 0; v < kWidth; ++v) {
+      const Vec3 at = (middle + random.in_box(half)) / kStep;
+      for (int k = 0; k < 3; ++k) {
+        leaf.vertex[k][v] = static_cast<std::uint16_t>(at[k]);
+        vertices[v][k] = kOrigin[k] + kStep * leaf.vertex[k][v];
+      }
+    }
+    for (int i = 0; i < kWidth; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const auto v = static_cast<std::uint32_t>(random.engine() % kWidth);
+        leaf.corner[c][i / 8] |= v << (4 * (i % 8));
+        triangles[i][c] = vertices[v];
+      }
+    }
+  }
+};
+
+/// A body that passes one triangle of a scene, and touches it by less than a rounding of its radius.
+struct Touch {
+  Scene scene;
+  lanes::Frame frame{kOrigin, kStep, kOrigin};
+  clutter::Graze graze;
+  float radius = 0.0F;
+  bool some = false;  ///< there is one
+
+  Touch(clutter::Random& random, bool capsule, bool rests) : scene(random) {
+    const Triangle& t = scene.triangles[random.engine() % kWidth];
+    if (!(clutter::length(clutter::cross(t[1] - t[0], t[2] - t[0])) > 1e-3)) return;
+    some = true;
+    const Body body{std::pow(10.0, random.between(-3.0, 1.0)), capsule ? random.between(0.1, 1.0) : 0.0};
+    graze = clutter::graze(random, t, body, 0.0, std::pow(10.0, random.between(-2.0, 1.8)));
+    if (rests) {
+      graze.from += graze.time * graze.motion;
+      graze.motion = Vec3(0.0);
+    }
+    frame = lanes::Frame(kOrigin, kStep, graze.from);
+    const long double least = oracle::least_distance(graze.body, graze.from, graze.motion, 1.0, t);
+    radius = std::nextafter(static_cast<float>(least), 100.0F);
+  }
+  [[nodiscard]] long double least(int i, double time) const {
+    return oracle::least_distance(graze.body, graze.from, graze.motion, time, scene.triangles[i]);
+  }
+};
+
+void sweep_every_triangle(bool capsule) {
+  clutter::Random random(51);
+  int tested = 0, missed = 0, arrived = 0;
+  for (int q = 0; q < 10000; ++q) {
+    const Touch touch(random, capsule, false);
+    if (!touch.some) continue;
+    const lanes::Motion motion(touch.graze.motion, touch.graze.body.half_height);
+    const float limit = q % 2 == 0 ? -1.0F : touch.radius + roam::index::kHitLimit;
+    lanes::Met met;
+    lanes::sweep_leaf(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius, limit, 0.0F, 1.0F,
+                      met);
+    for (int i = 0; i < kWidth; ++i) {
+      ++tested;
+      const bool left = ((met.arrived | met.open) >> i & 1U) != 0;
+      const double free = left ? double(met.time[i]) : 1.0;
+      missed += left ? 0 : 1;
+      if (free > 0.0) {
+        ASSERT_GE(touch.least(i, free), (long double)(touch.radius)) << "query " << q << " triangle " << i;
+      }
+      if ((met.arrived >> i & 1U) == 0) continue;
+      ++arrived;
+      ASSERT_LE(oracle::distance_on_the_way(touch.graze.body, touch.graze.from, touch.graze.motion, free,
+                                            touch.scene.triangles[i]),
+                (long double)(limit))
+          << "query " << q << " triangle " << i;
+    }
+  }
+  EXPECT_GT(missed, tested / 4) << "the leaf tests tell nothing";
+  EXPECT_GT(arrived, 1000);
+}
+
+TEST(LeafFilter, LosesNoTriangleToASphere) { sweep_every_triangle(false); }
+
+TEST(LeafFilter, LosesNoTriangleToACapsule) { sweep_every_triangle(true); }
+
+template <class Bounds>
+void bound_every_triangle(bool capsule) {
+  clutter::Random random(52);
+  int tested = 0, left_out = 0;
+  for (int q = 0; q < 6000; ++q) {
+    const Touch touch(random, capsule, q % 3 == 0);
+    if (!touch.some) continue;
+    const lanes::Way way(touch.graze.motion, touch.graze.body.half_height);
+    const Bounds bounds(1.0 / 8.0, 0.0, 0.0, 100.0);
+    lanes::VF left = lanes::set(std::numeric_limits<float>::infinity());
+    lanes::Children triangles;
+    alignas(64) float most[kWidth], lanes_left[lanes::kLanes];
+    lanes::near_leaf(touch.scene.leaf, touch.frame, way, touch.radius, bounds, left, triangles, most);
+    lanes::hn::Store(left, lanes::kF, lanes_left);
+    const float others = *std::min_element(lanes_left, lanes_left + lanes::kLanes);
+    ASSERT_GT(others, touch.radius);
+    for (int i = 0; i < kWidth; ++i) {
+      ++tested;
+      const long double least = touch.least(i, 1.0);
+      if ((triangles.mask >> i & 1U) == 0) {
+        ++left_out;
+        ASSERT_GE(least, (long double)(others)) << "query " << q << " triangle " << i;
+        continue;
+      }
+      ASSERT_GE(least, (long double)(triangles.key[i])) << "query " << q << " triangle " << i;
+      ASSERT_LE(least, (long double)(most[i]) + 2e-5L) << "query " << q << " triangle " << i;
+    }
+  }
+  EXPECT_GT(left_out, tested / 4) << "the leaf tests tell nothing";
+}
+
+TEST(LeafFilter, BoundsEveryTriangleOfAClearance) {
+  bound_every_triangle<lanes::Tight>(false);
+  bound_every_triangle<lanes::Tight>(true);
+}
+
+TEST(LeafFilter, BoundsEveryTriangleOfAGap) {
+  bound_every_triangle<lanes::Slack>(false);
+  bound_every_triangle<lanes::Slack>(true);
+}
+
+/// What a ray leaves out rests on it: the vectors across are rounded, and so not quite across the way.
+TEST(LeafFilter, KnowsHowFarARayLeadsAlongTheVectorsAcrossIt) {
+  clutter::Random random(53);
+  for (int q = 0; q < 10000; ++q) {
+    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
+    if (q % 5 == 0) way[q % 3] *= 1e-6;
+    const lanes::Ray ray{lanes::Motion(way, 0.0)};
+    for (int i = 0; i < 2; ++i) {
+      long double along = 0.0L, square = 0.0L;
+      for (int k = 0; k < 3; ++k) {
+        const long double w = ray.across[i][k];
+        along += w * (long double)(way[k]);
+        square += w * w;
+      }
+      ASSERT_GE((long double)(ray.drift[i]), std::abs(along)) << q;
+      ASSERT_GE((long double)(ray.length[i]), std::sqrt(square)) << q;
+    }
+  }
+}
+
+}  // namespace
