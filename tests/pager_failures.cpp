@@ -77,6 +77,13 @@ void wander(Yard& yard, Pager& pager, Mode mode, double speed, int steps, std::u
   }
 }
 
+TEST(PagerFailures, RefusesToPageNothingAndNamesNoMiss) {
+  EXPECT_THROW(Pager(nullptr), roam::Error);
+  Yard yard("unnamed");
+  const Pager pager(yard.store);
+  EXPECT_EQ(pager.object_name(roam::no_triangle), "");
+}
+
 TEST(PagerFailures, WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits) {
   Yard yard("pager_hold");
   yard.bytes->hold();

@@ -66,8 +66,8 @@ class Pager final : public LiveSpace {
   /// How much more than its radius a body keeps from what is unknown, metres; see Patchwork::margin.
   static constexpr double margin = 1.99e-3;
 
-  /// Starts the loading threads. Throws roam::Error for options out of range, and for a store whose index alone needs
-  /// more than half of the memory (the message says how much would do).
+  /// Starts the loading threads. Throws roam::Error for options out of range, for a store whose index alone needs
+  /// more than half of the memory (the message says how much would do), and where `store` is null.
   explicit Pager(std::shared_ptr<const Store> store, const PagerOptions& options = {});
   ~Pager() override;
 

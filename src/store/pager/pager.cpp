@@ -197,8 +197,17 @@ bool Pager::State::exchange(const Traveller& traveller, double& latency) {
   return changed;
 }
 
+namespace {
+
+std::shared_ptr<const Store> demand(std::shared_ptr<const Store> store) {
+  if (!store) throw Error("a pager needs a store, and was given none; open one with Store::open");
+  return store;
+}
+
+}  // namespace
+
 Pager::Pager(std::shared_ptr<const Store> store, const PagerOptions& options)
-    : state_(std::make_unique<State>(std::move(store), options)) {}
+    : state_(std::make_unique<State>(demand(std::move(store)), options)) {}
 Pager::~Pager() = default;
 
 bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
@@ -274,7 +283,9 @@ std::uint64_t Pager::revision() const { return state_->revision; }
 
 double Pager::speed_limit() const { return state_->governor.limit(); }
 
-std::string Pager::object_name(TriangleId triangle) const { return state_->names.ask(triangle); }
+std::string Pager::object_name(TriangleId triangle) const {
+  return triangle == no_triangle ? std::string() : state_->names.ask(triangle);
+}
 
 const Store& Pager::store() const { return *state_->store; }
 
