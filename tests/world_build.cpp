@@ -82,6 +82,23 @@ TEST(WorldBuild, KnowsTheObjectOfATriangle) {
   EXPECT_EQ(s.feature, roam::Feature::face);
 }
 
+TEST(WorldBuild, KnowsNoObjectOfWhatIsNoTriangle) {
+  roam::Mesh mesh{.name = "roof", .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}, {2, 1, 0}}};
+  const World world = World::build({&mesh, 1});
+  const roam::Impact miss = world.ray({0.2, 0.2, 1.0}, {0.0, 0.0, 1.0});
+  ASSERT_FALSE(miss.hit);
+  EXPECT_EQ(miss.triangle, roam::no_triangle);
+  EXPECT_EQ(world.clearance({.radius = 0.1}, {0.0, 0.0, 9.0}, 1.0).triangle, roam::no_triangle);
+  EXPECT_EQ(world.object_name(1), "roof");
+  for (const roam::TriangleId none : {roam::TriangleId{2}, roam::no_triangle}) {
+    EXPECT_EQ(world.object_name(none), "");
+    EXPECT_EQ(World().object_name(none), "");
+    EXPECT_THROW((void)world.object(none), roam::Error);
+  }
+  EXPECT_EQ(World().object_name(0), "");
+  EXPECT_THROW((void)World().object(0), roam::Error);
+}
+
 TEST(WorldBuild, TakesFewBytes) {
   const World world = build(floor_mesh(500, 0.2, {0.0, 0.0, 0.0}));
   EXPECT_LE(double(world.stats().bytes) / double(world.stats().triangles), 14.0);

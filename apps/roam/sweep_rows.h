@@ -33,9 +33,6 @@ inline constexpr std::string_view answer_header = "hit,t,px,py,pz,nx,ny,nz,trian
 /// Reads one row. Throws roam::Error that says which field is wrong; the caller knows the line.
 [[nodiscard]] SweepQuery parse_query(std::string_view row);
 
-/// The triangle of a hit that cannot be found out; written as -1.
-inline constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
-
 /// Appends one row: 17 significant digits, so that every double reads back as it was. Of a miss only t (always 1) and
 /// distance mean something; its point and normal are zeros, its triangle is -1 and its feature `none`. Of a hit that is
 /// unknown the triangle is -1 and the feature `unknown`.

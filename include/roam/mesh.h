@@ -16,9 +16,9 @@ using Triangle = std::array<Vec3, 3>;
 
 /// A run of triangles that belong to one object of the scene: a node, a mesh or a layer of the file.
 struct Mesh {
-  std::string name;                                     ///< the object's name as the file gives it; may be empty
-  std::vector<Vec3> vertices;                           ///< metres, scene frame
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices; either winding
+  std::string name = {};                                     ///< of the object, for people; may be empty
+  std::vector<Vec3> vertices = {};                           ///< metres, scene frame
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< indices into vertices; either winding
 
   [[nodiscard]] Triangle triangle(std::size_t i) const {
     const auto& t = triangles[i];

@@ -37,7 +37,7 @@ struct BuildOptions {
   bool lossless = false;
   /// Called now and then with the fraction done, in [0, 1], from any one thread at a time. Returning false cancels:
   /// build throws roam::Cancelled.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress = {};
 };
 
 /// What a world holds and what it costs.
@@ -84,7 +84,8 @@ class World final : public Space {
   [[nodiscard]] bool tells_changes() const override { return true; }
 
   [[nodiscard]] const WorldStats& stats() const;
-  /// The object that a triangle belongs to. `triangle` must come from this world.
+  /// The object that a triangle belongs to. Throws roam::Error for a number that no triangle of this world has, such as
+  /// that of a miss.
   [[nodiscard]] ObjectId object(TriangleId triangle) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <string>
 
 #include "world/data.h"
 
@@ -29,9 +30,15 @@ const WorldStats& World::stats() const { return data_->stats; }
 
 ObjectId World::object(TriangleId triangle) const {
   const auto& first = data_->first;
+  if (triangle >= first.back()) {
+    throw Error("the world has " + std::to_string(first.back()) + " triangles, and none with the number " +
+                (triangle == no_triangle ? "of a miss" : std::to_string(triangle)) + "; ask of a hit only");
+  }
   return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;
 }
 
-std::string World::object_name(TriangleId triangle) const { return data_->names[object(triangle)]; }
+std::string World::object_name(TriangleId triangle) const {
+  return triangle < data_->first.back() ? data_->names[object(triangle)] : std::string();
+}
 
 }  // namespace roam
