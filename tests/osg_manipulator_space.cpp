@@ -95,7 +95,7 @@ TEST(ManipulatorSpace, WhoIsPutBackFromBelowTheSceneIsNotHeld) {
   Rig r(m, {}, roam::Mode::walk);
   r->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
   int put_back = 0;
-  r->setStepCallback([&](const roam::StepReport& report, double) { put_back += report.held; });
+  r->setStepCallback([&](const roam::StepReport& report, double) { put_back += report.put_back; });
   r.down('w');
   for (int i = 0; i < 600; ++i) {
     r.frame(frame);

@@ -133,7 +133,7 @@ struct Crossing {
     const Vec3 wish(speed, 0.0, 0.0);
     for (int i = 0; i < 60 * 20 && walker.position().x < goal; ++i) {
       walker.step({.velocity = wish}, 1.0 / 60.0);
-      falls += walker.report().has(roam::EventKind::fell) || walker.report().held ? 1 : 0;
+      falls += walker.report().has(roam::EventKind::fell) || walker.report().put_back ? 1 : 0;
       if (const auto lesson = learner.watch(walker, wish, 1.0 / 60.0)) {
         lessons.push_back(*lesson);
         learner.take(walker, *lesson);

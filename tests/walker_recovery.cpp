@@ -92,15 +92,15 @@ TEST(Recovery, ABodyThatTouchesAWallWalksAwayFromIt) {
 TEST(Recovery, WhereNothingIsBelowItIsPutBackToTheLastSafePlaceAndSaysSo) {
   const Mesh m = floor_mesh();
   Walk w(m, {}, Mode::walk, {15.0, 0.0, 0.95});
-  bool held = false;
-  for (int i = 0; i < 900 && !held; ++i) {
+  bool back = false;
+  for (int i = 0; i < 900 && !back; ++i) {
     const StepReport& r = w.step({1.4, 0.0, 0.0});
-    held = r.held;
-    if (!held) continue;
-    EXPECT_TRUE(r.has(EventKind::held));
-    EXPECT_TRUE(r.corners.size() > 0);
+    EXPECT_FALSE(r.held || r.has(EventKind::held));
+    back = r.put_back;
+    EXPECT_EQ(back, r.has(EventKind::put_back));
+    EXPECT_TRUE(!back || !r.corners.empty());
   }
-  EXPECT_TRUE(held);
+  EXPECT_TRUE(back);
   EXPECT_EQ(w.count(EventKind::fell), 1);
   EXPECT_FALSE(w.walker.held());
   EXPECT_TRUE(w.walker.grounded());
@@ -138,6 +138,105 @@ TEST(Recovery, AGhostPassesWallsAndReturnsToTheNearestSafePlace) {
   w.set_mode(Mode::walk);
   EXPECT_FALSE(w.report().has(EventKind::returned));
   EXPECT_EQ(w.position(), free);
+}
+
+TEST(Recovery, AGhostThatSankThroughTheFloorComesBackAboveIt) {
+  const World world = build(floor_mesh());
+  // The centre below the floor, in it to the neck, a hair above it, and the whole body far below.
+  for (const double centre : {-0.1, -0.8, 0.05, -5.0}) {
+    Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.95});
+    w.set_mode(Mode::ghost);
+    for (int i = 0; i < 30; ++i) w.step({{0.0, 0.0, (centre - 0.95) * 2.0}}, frame);
+    const StepReport& back = w.set_mode(Mode::walk);
+    EXPECT_TRUE(back.has(EventKind::returned)) << centre;
+    for (int i = 0; i < 60; ++i) w.step({{1.0, 0.0, 0.0}}, frame);
+    EXPECT_TRUE(w.grounded()) << centre;
+    EXPECT_NEAR(w.feet().z, 0.0, near_ground) << centre;
+    EXPECT_NEAR(w.position().x, 1.0, 0.01) << centre;
+  }
+}
+
+TEST(Recovery, AGhostThatMeetsGroundAgainOnItsWayComesBackToTheNearestOfIt) {
+  Mesh m = floor_mesh();
+  add_floor(m, 40.0, -10.0, 60.0, 10.0, 2.0);
+  const World world = build(m);
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.95});
+  w.set_mode(Mode::ghost);
+  for (int i = 0; i < 100; ++i) w.step({{50.0, 0.0, 5.0}}, 0.01);  // over the far floor
+  for (int i = 0; i < 100; ++i) w.step({{10.0, 0.0, -20.0}}, 0.01);
+  ASSERT_LT(w.position().z, -10.0);
+  w.set_mode(Mode::walk);
+  EXPECT_GT(w.position().x, 49.0);
+  EXPECT_GT(w.position().z, 2.0);
+}
+
+TEST(Recovery, WhoFliesOutOfTheSceneAndThenWalksIsPutBackToWhereItWalkedLast) {
+  const World world = build(floor_mesh());
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.95});
+  w.set_mode(Mode::fly);
+  for (int i = 0; i < 60; ++i) w.step({{50.0, 0.0, 5.0}}, frame);
+  w.set_mode(Mode::walk);
+  for (int i = 0; i < 300; ++i) w.step({}, frame);
+  EXPECT_FALSE(w.held());
+  EXPECT_TRUE(w.grounded());
+  EXPECT_NEAR(w.position().x, 0.0, 1e-6);
+}
+
+TEST(Recovery, WhereNothingIsBelowAtAllABodyIsHeldAndSaysSoByBoth) {
+  const World world = build(floor_mesh());
+  for (const double centre : {-0.001, -5.0}) {
+    Walker w(world, {}, Mode::walk, {0.0, 0.0, centre});
+    int put_back = 0;
+    for (int i = 0; i < 600; ++i) {
+      const StepReport& r = w.step({{1.0, 0.0, 0.0}}, frame);
+      put_back += r.put_back;
+      EXPECT_EQ(r.held, w.held());
+    }
+    EXPECT_EQ(put_back, 1) << centre;
+    EXPECT_TRUE(w.held()) << centre;
+    w.set_mode(Mode::fly);
+    EXPECT_FALSE(w.held()) << centre;
+    w.step({{1.0, 0.0, 0.0}}, 1.0);
+    EXPECT_NEAR(w.position().x, 1.0, 0.01) << centre;
+    w.set_mode(Mode::walk);
+    w.place_feet({0.0, 0.0, 0.0});
+    EXPECT_TRUE(w.grounded() && !w.held()) << centre;
+  }
+}
+
+TEST(Recovery, WhoSlidesOutOfTheSceneASecondTimeIsHeld) {
+  Mesh m;
+  scenes::add_quad(m, {-5.0, -5.0, 10.0}, {5.0, -5.0, -10.0}, {5.0, 5.0, -10.0}, {-5.0, 5.0, 10.0});
+  const World world = build(m);
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 3.0});
+  int put_back = 0;
+  for (int i = 0; i < 3000; ++i) put_back += w.step({}, frame).put_back;
+  EXPECT_EQ(put_back, 2);
+  EXPECT_TRUE(w.held());
+}
+
+TEST(Recovery, FeetOnTheFloorStandAndACentreOnTheFloorDoesNot) {
+  const World world = build(floor_mesh());
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 5.0});
+  w.place({1.0, 0.0, 0.0});
+  EXPECT_TRUE(w.held());
+  const StepReport& r = w.place_feet({1.0, 2.0, 0.0});
+  EXPECT_FALSE(r.held || r.has(EventKind::freed));
+  EXPECT_TRUE(w.grounded());
+  EXPECT_NEAR(w.feet().z, 0.0, near_ground);
+  EXPECT_NEAR(w.position().x, 1.0, 1e-9);
+  EXPECT_THROW(w.place_feet({1.0, 2.0, NAN}), roam::Error);
+}
+
+TEST(Recovery, FeetArePlacedInTheSizeThatTheBodyHasThere) {
+  const World world = build(floor_mesh());
+  Walker w(world, WalkerSettings::sphere(0.3), Mode::walk, {0.0, 0.0, 0.35});
+  const roam::SizeRegion small{.bounds = {{2.0, -1.0, -1.0}, {4.0, 1.0, 3.0}}, .radius = 0.1};
+  w.set_regions({&small, 1});
+  w.place_feet({3.0, 0.0, 0.0});
+  EXPECT_EQ(w.body().radius, 0.1);
+  EXPECT_NEAR(w.feet().z, 0.0, near_ground);
+  EXPECT_FALSE(w.report().has(EventKind::freed));
 }
 
 TEST(Recovery, AGhostAtRestHasNotMoved) {

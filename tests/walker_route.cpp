@@ -7,6 +7,7 @@
 
 #include "roam/error.h"
 #include "roam/route.h"
+#include "roam/standing.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -202,6 +203,25 @@ TEST(Route, IsHeldWhereItsStartDoesNotFit) {
   EXPECT_EQ(r.outcome, Outcome::held);
   EXPECT_EQ(r.steps, 0u);
   EXPECT_TRUE(has(r, EventKind::held));
+}
+
+TEST(Route, AWayOfTheFeetIsGoneBySomebodyWhoStandsOnIt) {
+  const std::vector<Vec3> feet{{0.0, 0.0, 0.0}, {5.0, 0.0, 0.0}};
+  EXPECT_EQ(follow(floor_mesh(), {}, Mode::walk, feet).outcome, Outcome::held) << "to the waist in the floor";
+  for (const WalkerSettings& s : {WalkerSettings{}, WalkerSettings::sphere(0.3)}) {
+    const RouteResult r = follow(floor_mesh(), s, Mode::walk, roam::standing(feet, s));
+    EXPECT_EQ(r.outcome, Outcome::reached);
+    EXPECT_NEAR(r.length, 5.0, 0.01);
+  }
+}
+
+TEST(Route, RefusesAStepAfterItsEnd) {
+  const World world = scenes::build(floor_mesh());
+  Walker walker(world, {}, Mode::walk, {0.0, 0.0, 0.95});
+  const std::vector<Vec3> here{{0.0, 0.0, 0.95}};
+  roam::Route route(walker, here);
+  ASSERT_TRUE(route.done());
+  EXPECT_THROW(route.advance(), roam::Error);
 }
 
 TEST(Route, IsHeldWhereItNeverFindsGround) {

@@ -169,6 +169,23 @@ TEST(WalkerUnknown, ABodyLetGoOverNothingIsPutBackToWhereItWasLetGo) {
   EXPECT_EQ(w.report().height, 1.8);
 }
 
+TEST(WalkerUnknown, WhoIsHeldOverNothingFallsWhenGroundComes) {
+  TwoRooms rooms;
+  rooms.space.deliver(rooms.far, World());
+  rooms.space.update();
+  Walker w(rooms.space, {}, Mode::walk, {15.0, 0.0, 1.0});
+  for (int i = 0; i < 300; ++i) w.step({}, frame);
+  ASSERT_TRUE(w.held());
+  const PatchId late = rooms.space.expect({{10.0, -5.0, -1.0}, {20.0, 5.0, 0.5}});
+  Mesh m;
+  add_floor(m, 10.0, -5.0, 20.0, 5.0, 0.0);
+  rooms.space.deliver(late, build(m));
+  rooms.update(w);
+  for (int i = 0; i < 60; ++i) w.step({}, frame);
+  EXPECT_FALSE(w.held());
+  EXPECT_TRUE(w.grounded());
+}
+
 TEST(WalkerUnknown, StandsOnItWaitingAndComesDownWhenTheGroundIsThere) {
   TwoRooms rooms;
   Walker w(rooms.space, {}, Mode::walk, {15.0, 0.0, 4.0});
@@ -250,13 +267,13 @@ TEST(WalkerUnknown, ABodyPutBackToWhereAWallHasComeMeanwhileIsFreed) {
   }
   ASSERT_FALSE(w.grounded());
   Mesh wall;
-  add_wall(wall, stood.x - 0.2, -5.0, stood.x - 0.2, 5.0, 0.0, 3.0);
-  rooms.space.deliver(rooms.space.expect({{stood.x - 0.3, -5.0, 0.0}, {stood.x - 0.1, 5.0, 3.0}}), build(wall));
-  for (int i = 0; i < 240 && !w.report().has(EventKind::held); ++i) {
+  add_wall(wall, stood.x + 0.2, -5.0, stood.x + 0.2, 5.0, 1.0, 3.0);
+  rooms.space.deliver(rooms.space.expect({{stood.x + 0.1, -5.0, 1.0}, {stood.x + 0.3, 5.0, 3.0}}), build(wall));
+  for (int i = 0; i < 240 && !w.report().put_back; ++i) {
     if (w.position().z < -0.3) rooms.update(w);  // past it
     w.step({}, frame);
   }
-  ASSERT_TRUE(w.report().has(EventKind::held));
+  ASSERT_TRUE(w.report().put_back);
   EXPECT_TRUE(w.report().has(EventKind::freed));
   EXPECT_FALSE(w.held());
   EXPECT_GE(w.report().clearance, w.settings().radius - 1e-6);

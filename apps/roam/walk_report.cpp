@@ -81,7 +81,7 @@ std::string explain(const WalkReport& report) {
             "by; move the first waypoint or take a smaller radius",
             at(result.end));
       }
-      if (!first(result, EventKind::held)) return explain_wait(report);
+      if (!first(result, EventKind::put_back)) return explain_wait(report);
       return fmt::format("at {} there is no ground below to stand on; move the waypoint onto the ground, or fly",
                          at(result.end));
   }

@@ -262,7 +262,7 @@ void Wander::note(const StepReport& report) {
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;
 
-  if (report.has(EventKind::held) && !done_ && result_.steps > 0) {
+  if (report.put_back && !done_ && result_.steps > 0) {
     // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
     voids_.push_back({report.to, heading_});
     voids_.push_back({leg_start_, heading_});

@@ -102,7 +102,7 @@ class Route {
 
   [[nodiscard]] bool done() const { return done_; }
 
-  /// One step. Must not be called when done().
+  /// One step. Throws roam::Error when done().
   const StepReport& advance();
 
   /// What has been so far; complete when done().

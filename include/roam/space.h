@@ -37,27 +37,29 @@ namespace roam {
 /// The number of a triangle in a space. A World numbers all meshes' triangles in the order in which they were passed;
 /// other spaces say what they number.
 using TriangleId = std::uint64_t;
+/// The number of no triangle: of a miss, and of what is found nowhere near.
+inline constexpr TriangleId no_triangle = ~TriangleId{0};
 
-/// The first impact of a sweep, or none (`hit` is false). See SweepResult for the other members, with these
-/// differences: `distance` of a miss is 0 (the way is free; Space::clearance says by how much); and because a space
-/// stores to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on the
-/// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
+/// The first impact of a sweep, or none (`hit` is false: then `distance` is 0, for Space::clearance says how free the
+/// way is, and the rest is as it was made). See SweepResult for the other members, with this difference: because a
+/// space stores to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on
+/// the triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct Impact : SweepResult {
-  TriangleId triangle = 0;  ///< of a hit: the triangle that is touched first; means nothing where `unknown`
-  bool unknown = false;     ///< of a hit: what is touched is the border of what is not known yet, or the body is in it
+  TriangleId triangle = no_triangle;  ///< that is touched first, of a hit; means nothing where `unknown`
+  bool unknown = false;  ///< of a hit: what is touched is the border of what is not known yet, or the body is in it
 };
 
 /// A triangle near a body. See Proximity for the other members.
 struct Contact : Proximity {
-  TriangleId triangle = 0;
+  TriangleId triangle = no_triangle;
   bool unknown = false;  ///< no triangle: the border of what is not known yet
 };
 
 /// How far a body's surface is from everything. See Proximity for the other members; they are set when `found`.
 struct Clearance : Proximity {
   bool found = false;  ///< something lies within the reach that was asked for; else distance is that reach
-  TriangleId triangle = 0;
-  bool unknown = false;  ///< what is nearest is not known yet
+  TriangleId triangle = no_triangle;  ///< when `found`
+  bool unknown = false;               ///< what is nearest is not known yet
 };
 
 /// What counts as floor, and which part of it.
@@ -117,6 +119,13 @@ class Space {
     return floor_clearance(body, place, reach, floor);
   }
 
+  /// Whether the body has room at `place`: a certified gap of a micrometre at least, so that a sweep from there starts
+  /// free. What is unknown is no room.
+  [[nodiscard]] bool fits(const Body& body, const Vec3& place) const {
+    constexpr double least_gap = 1e-6;
+    return clearance(body, place, least_gap).distance >= least_gap;
+  }
+
   /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
   /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
   /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
@@ -136,7 +145,7 @@ class Space {
   /// The farthest that any stored vertex lies from where the caller put it, metres. Does not grow in the life of a
   /// space.
   [[nodiscard]] virtual double largest_error() const = 0;
-  /// The name of the object that a triangle belongs to; may be empty. `triangle` must come from this space.
+  /// The name of the object that a triangle belongs to; may be empty, and is for a number that no triangle here has.
   [[nodiscard]] virtual std::string object_name(TriangleId triangle) const = 0;
   /// Becomes another number whenever something came or went: a body that is held then looks for a way out again. Stays
   /// what it is in a space that never changes, and in one that does not know.

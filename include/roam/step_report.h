@@ -26,16 +26,17 @@ enum class EventKind : std::uint8_t {
   placed,        ///< put at a place by the caller
   freed,         ///< was put where it did not fit and moved, by a checked way, to where it does; not said of the few
                  ///< millimetres that part a body put exactly in touch from what it touches
-  held,          ///< cannot move: does not fit here and no checked way leads out, or nothing is below and it was put
-                 ///< back to the last safe place
-  returned,      ///< left ghost mode inside a wall and was put to the nearest safe place
-  throttled,     ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
-  met_unknown,   ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
-                 ///< known
-  slowed,        ///< the wish was faster than Space::speed_limit() and was followed at that speed
-  narrowed,      ///< became a smaller body, in a region or on command: see Walker::set_regions
-  widened,       ///< became a larger one again
-  carried,       ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius
+  held,         ///< cannot move: does not fit here and no checked way leads out, or has nowhere to stand (see put_back)
+  put_back,     ///< fell below everything, and was put back to where it last had ground below; also said `held` where
+                ///< it has nothing below there either, or has fallen from there before without standing anywhere
+  returned,     ///< left ghost mode inside a wall and was put to the nearest safe place
+  throttled,    ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
+  met_unknown,  ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
+                ///< known
+  slowed,       ///< the wish was faster than Space::speed_limit() and was followed at that speed
+  narrowed,     ///< became a smaller body, in a region or on command: see Walker::set_regions
+  widened,      ///< became a larger one again
+  carried,      ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -116,11 +117,14 @@ struct StepReport {
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
   double least_gap = 0.0;
-  double elapsed = 0.0;      ///< seconds that were simulated: dt, or less when throttled
+  double elapsed = 0.0;  ///< seconds that were simulated: dt, or less when throttled
+  /// Metres per second, downward, at which it came to ground in this step, of several times the fastest; 0: it did not.
+  double landing_speed = 0.0;
   bool grounded = false;     ///< stands on something (walk mode)
   bool carried = false;      ///< stands on its foot over a crack: see WalkerSettings::support_radius
   bool blocked = false;      ///< ended this step unable to go on in the wished direction; contacts.back() is why
-  bool held = false;         ///< see EventKind::held
+  bool held = false;         ///< see EventKind::held: the same as Walker::held()
+  bool put_back = false;     ///< see EventKind::put_back
   bool met_unknown = false;  ///< see EventKind::met_unknown
 
   [[nodiscard]] bool has(EventKind kind) const {

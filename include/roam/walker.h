@@ -63,10 +63,17 @@ class Walker {
   /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
   /// body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as it
   /// is known there the next step goes on likewise, in spaces without revisions too.
+  ///
+  /// `centre` is half the height above the feet: a centre on the floor is a body that stands to the waist in it, held
+  /// or freed sideways. See place_feet().
   const StepReport& place(const Vec3& centre);
+  /// The same for the lowest point of the standing body, metres: `feet` may lie on the floor.
+  const StepReport& place_feet(const Vec3& feet);
 
   /// Changes the mode. Leaving ghost mode inside a wall puts the body to the nearest safe place: the nearest that is
-  /// found around it, or the last place of its way as a ghost where it fitted, whichever is nearer.
+  /// found around it, or the last place of its way as a ghost where it fitted, whichever is nearer. Into walk mode only
+  /// places with something below count, where there is one, and so a body that has sunk through the floor comes back
+  /// above it.
   const StepReport& set_mode(Mode mode);
 
   /// From now on the body has another size in these regions, and that of its settings outside all of them. Where
@@ -99,7 +106,8 @@ class Walker {
   [[nodiscard]] Body body() const;                                  ///< as it is now: in size, standing or crouched
   [[nodiscard]] bool crouched() const { return height_ < settings_.height; }
   [[nodiscard]] bool grounded() const { return stance_.grounded; }
-  /// Does not fit where it is and can not be freed: see place().
+  /// Cannot move: does not fit where it is and can not be freed, see place(). Or, in walk mode, would fall out of the
+  /// scene again, see EventKind::put_back: until there is something below, or in another mode.
   [[nodiscard]] bool held() const { return held_; }
   [[nodiscard]] const Stance& stance() const { return stance_; }
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
@@ -121,6 +129,13 @@ class Walker {
   [[nodiscard]] double fall_limit() const { return settings_.radius + settings_.step; }
 
  private:
+  /// A place to put the body back to, and its size there.
+  struct Refuge {
+    Vec3 place{0.0};
+    double height = 0.0;  ///< metres; 0: there is none yet
+    walking::Size size;
+  };
+
   [[nodiscard]] walking::Move under_way();
   [[nodiscard]] walking::Sizes sizes();
   void take_size_here();
@@ -136,10 +151,15 @@ class Walker {
   void put(const Vec3& place, double time);
   void hold();
   void release();
+  bool come_back_to(const Refuge& refuge, bool over_ground);
+  void put_back();
+  const StepReport& placed(const Vec3& at, double lift);
+  [[nodiscard]] bool over_ground(const Refuge& refuge) const;
   [[nodiscard]] bool embedded() const;
   [[nodiscard]] bool in_unknown() const;
   void come_to(const walking::Move& move);
   void look_again();
+  [[nodiscard]] Refuge here() const;
   void remember_safe();
   void finish();
 
@@ -152,9 +172,8 @@ class Walker {
   StepReport report_;
   Stance stance_;
   Vec3 position_{0.0};
-  Vec3 safe_{0.0};            ///< last place where the body stood or, where it has not stood yet, fitted
-  walking::Size safe_size_;   ///< there
-  double safe_height_ = 0.0;  ///< metres, there; 0: there is none yet
+  Refuge safe_;     ///< last place where the body stood or, where it has not stood yet, fitted
+  Refuge footing_;  ///< last place with something below: of the ghost, and of walking before another mode
   double height_ = 0.0;
   walking::Known known_;  ///< at position_
   double skin_ = 0.0;
@@ -162,6 +181,9 @@ class Walker {
   Mode mode_ = Mode::fly;
   bool held_ = false;
   bool waits_ = false;           ///< held by what is not known yet
+  bool footless_ = false;        ///< held because it would fall out of the scene
+  bool over_nothing_ = false;    ///< footless, and nothing is below
+  bool was_put_back_ = false;    ///< and has not been put elsewhere since
   bool resized_ = false;         ///< another size may be wanted than when the body was held
   std::uint64_t known_at_ = 0;   ///< the revision of the space of which known_ is
   std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held

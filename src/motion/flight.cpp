@@ -31,9 +31,15 @@ Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
   return along_planes(Vec3(sideways.x, sideways.y, motion.z), planes);
 }
 
-void land(Move& move, Stance& stance, const Footing& ground) {
-  stand_on(move, stance, ground);
+/// `speed`: downward, m/s.
+void note_landing(Move& move, double speed) {
+  move.report.landing_speed = std::max(move.report.landing_speed, speed);
   move.note(EventKind::landed);
+}
+
+void land(Move& move, Stance& stance, const Footing& ground, double speed) {
+  stand_on(move, stance, ground);
+  note_landing(move, speed);
   if (has_foot(move)) forget_other_storeys(move, stance);
 }
 
@@ -56,6 +62,7 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   double rise_speed = std::max(stance.rise_speed - gravity * seconds, -fastest);
   // The top of a jump is met exactly, or it would be divided for ever.
   if (stance.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
+  const auto falling = [&] { return std::min(gravity * (move.time - start) - stance.rise_speed, fastest); };
   Vec3 whole(velocity.x * seconds, velocity.y * seconds, fall);
   Vec3 motion = whole;
   const double begin_z = move.place.z;
@@ -70,8 +77,9 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     const Advance a = move.advance(motion * share, seconds * share);
     left -= a.fraction * share;
     if (until_foot && !a.touched) {
+      const double speed = falling();
       land_on_foot(move, stance);
-      move.note(EventKind::landed);
+      note_landing(move, speed);
       return true;
     }
     if (!a.touched) break;
@@ -84,7 +92,7 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
       std::optional<Footing> ground = footing(move, stance, a.contact);
       if (!ground && planes.size() > 1) ground = footing_here(move, stance);
       if (ground) {
-        land(move, stance, *ground);
+        land(move, stance, *ground, falling());
         return true;
       }
     } else if (a.contact.normal.z < 0.0) {

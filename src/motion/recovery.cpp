@@ -4,6 +4,8 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "motion/move.h"
+
 namespace roam::walking {
 namespace {
 
@@ -15,9 +17,6 @@ constexpr int push_limit = 48;
 
 /// Marches end after this many places; a march across a solid of one body's height takes some ten.
 constexpr int march_limit = 256;
-
-/// Metres. A body nearer than this to a triangle is as good as embedded: rounding decides whether a sweep starts free.
-constexpr double least_gap = 1e-6;
 
 double gap(const Space& space, const Body& body, const Vec3& place, double reach) {
   return space.clearance(body, place, reach).distance;
@@ -50,12 +49,14 @@ std::optional<Vec3> march(const Space& space, const Body& body, const Vec3& plac
 
 }  // namespace
 
-bool fits(const Space& space, const Body& body, const Vec3& place) {
-  return gap(space, body, place, least_gap) >= least_gap;
+bool above_ground(const Space& space, const Body& body, const Vec3& place) {
+  const Box bounds = space.bounds();
+  const double down = bounds.empty() ? longest_way : std::min(place.z - bounds.lower.z, longest_way);
+  return down > 0.0 && space.sweep(body, place, {0.0, 0.0, -down}).hit;
 }
 
 std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit, double skin,
-                                 Way way) {
+                                 Way way, Below below) {
   const double inner = inner_part * gap(space, {0.0, 0.0}, place, body.radius + body.half_height);
   if (way == Way::checked && !(inner > 0.0)) return std::nullopt;
   std::optional<Vec3> best;
@@ -65,6 +66,7 @@ std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec
     const double length = glm::length(*at - place);
     if (length > best_length || (best && length == best_length)) return;
     if (way == Way::checked && space.sweep({inner, 0.0}, place, *at - place).hit) return;
+    if (below == Below::ground && !above_ground(space, body, *at)) return;
     best = at;
     best_length = length;
   };

@@ -154,6 +154,8 @@ void Route::turn_to_next(bool hindered) {
 }
 
 const StepReport& Route::advance() {
+  if (done_)
+    throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
   double dt = options_.dt;
@@ -183,7 +185,8 @@ void Route::judge(const StepReport& report, double distance_before) {
   const Box scene = walker_->space().bounds();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
-  if (report.held) return finish(walker_->stance().stood && !walker_->held() ? Outcome::fell : Outcome::held);
+  if (report.held) return finish(Outcome::held);
+  if (report.put_back) return finish(walker_->stance().stood ? Outcome::fell : Outcome::held);
   const bool inside_now = inside(report.to, scene, walker_->body());
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;

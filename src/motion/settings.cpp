@@ -115,6 +115,8 @@ const char* name(EventKind kind) {
       return "freed";
     case EventKind::held:
       return "held";
+    case EventKind::put_back:
+      return "put_back";
     case EventKind::returned:
       return "returned";
     case EventKind::throttled:

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "motion/recovery.h"
-
 namespace roam::walking {
 namespace {
 
@@ -30,11 +28,11 @@ void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
   const Body body = Body::capsule(radius, height);
   const Vec3 raised(0.0, 0.0, 0.5 * (height - m.height));
   Vec3 lift(0.0);
-  if (!fits(m.space, body, m.place + raised)) {
+  if (!m.space.fits(body, m.place + raised)) {
     if (!stance.grounded) return;
     const double steepness = 1.0 / std::max(stance.ground.z, m.slope_cosine) - 1.0;
     lift.z = m.skin + (radius - m.settings.radius) * steepness;
-    if (m.probe(lift).touched || !fits(m.space, body, m.place + lift + raised)) return;
+    if (m.probe(lift).touched || !m.space.fits(body, m.place + lift + raised)) return;
   }
   // The old body's way up lies in the new one.
   if (lift.z + raised.z > 0.0) m.go(lift + raised);

@@ -93,11 +93,13 @@ void Walker::begin() {
   report_.events.clear();
   report_.from = position_;
   report_.elapsed = 0.0;
-  report_.blocked = report_.held = report_.met_unknown = false;
+  report_.landing_speed = 0.0;
+  report_.blocked = report_.held = report_.put_back = report_.met_unknown = false;
 }
 
 void Walker::finish() {
   report_.to = position_;
+  report_.held = held_;
   report_.height = height_;
   report_.radius = settings_.radius;
   report_.grounded = stance_.grounded;
@@ -121,11 +123,9 @@ void Walker::finish() {
   }
 }
 
-void Walker::remember_safe() {
-  safe_ = position_;
-  safe_height_ = height_;
-  safe_size_ = {settings_.radius, settings_.support_radius};
-}
+Walker::Refuge Walker::here() const { return {position_, height_, {settings_.radius, settings_.support_radius}}; }
+
+void Walker::remember_safe() { safe_ = here(); }
 
 void Walker::put(const Vec3& place, double time) {
   position_ = place;
@@ -146,7 +146,7 @@ void Walker::hold() {
   report_.events.push({EventKind::held, position_});
 }
 
-void Walker::release() { held_ = waits_ = false; }
+void Walker::release() { held_ = waits_ = footless_ = over_nothing_ = was_put_back_ = false; }
 
 bool Walker::embedded() const { return space_->clearance(body(), position_, 0.0).distance < -walking::world_tolerance; }
 
@@ -162,7 +162,9 @@ void Walker::look_again() {
     if (embedded()) fit_in();
     return;
   }
-  if (!changed && (!waits_ || in_unknown())) return hold();
+  const bool over_nothing = over_nothing_ && !walking::above_ground(*space_, body(), position_);
+  const bool goes_on = changed || (waits_ && !in_unknown()) || over_nothing_;
+  if (over_nothing || !goes_on) return hold();
   release();
   take_size_here();
   fit_in();
@@ -170,11 +172,11 @@ void Walker::look_again() {
 }
 
 void Walker::fit_in() {
-  if (walking::fits(*space_, body(), position_)) return;
+  if (space_->fits(body(), position_)) return;
   const double low = walking::crouched_height(settings_);
   const Vec3 lowered = position_ - Vec3(0.0, 0.0, 0.5 * (height_ - low));
   const auto fits_low = [&](const Vec3& place) {
-    return mode_ == Mode::walk && low < height_ && walking::fits(*space_, Body::capsule(settings_.radius, low), place);
+    return mode_ == Mode::walk && low < height_ && space_->fits(Body::capsule(settings_.radius, low), place);
   };
   const auto crouch_at = [&](const Vec3& place) {
     height_ = low;
@@ -202,7 +204,7 @@ void Walker::settle() {
   walking::Move m = under_way();
   walking::keep_ground(m, stance_, 0.0);
   come_to(m);
-  if (stance_.grounded || !(safe_height_ > 0.0)) remember_safe();
+  if (stance_.grounded || !(safe_.height > 0.0)) remember_safe();
 }
 
 const StepReport& Walker::step(const WalkerInput& input, double dt) {
@@ -216,7 +218,10 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
     position_ += motion;
     known_.forget();
     if (motion != Vec3(0.0)) report_.corners.push({position_, height_, settings_.radius, dt, 0.0, false});
-    if (walking::fits(*space_, body(), position_)) remember_safe();
+    if (space_->fits(body(), position_)) {
+      remember_safe();
+      if (walking::above_ground(*space_, body(), position_)) footing_ = safe_;
+    }
   } else {
     const bool changed = space_->revision() != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
@@ -248,16 +253,7 @@ void Walker::move(const WalkerInput& input, double dt) {
     if (!held_) end = move_for(input, dt - report_.elapsed);
   }
   if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, position_});
-  if (end == walking::Ending::bottomless) {
-    settings_ = walking::sized(given_, safe_size_);
-    height_ = safe_height_;
-    stance_ = {};
-    put(safe_, report_.elapsed);
-    report_.events.push({EventKind::held, position_});
-    report_.held = true;
-    if (embedded()) free_body();  // the space may have changed since
-    settle();
-  }
+  if (end == walking::Ending::bottomless) put_back();
   if (mode_ == Mode::fly && !held_) remember_safe();
 }
 
@@ -273,7 +269,7 @@ walking::Ending Walker::move_for(const WalkerInput& input, double dt) {
   if (walking) {
     if (input.jump) walking::jump(m, stance_);
     const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
-    end = walking::walk(m, stance_, horizontal, dt, {safe_, safe_height_, safe_size_}, sizes());
+    end = walking::walk(m, stance_, horizontal, dt, {safe_.place, safe_.height, safe_.size}, sizes());
   } else {
     end = fly(m, input.velocity, dt);
   }
@@ -338,19 +334,25 @@ bool Walker::resize(double radius, double support_radius) {
   return walking::wanted(sizes, position_, feet()) == walking::Size{settings_.radius, settings_.support_radius};
 }
 
-const StepReport& Walker::place(const Vec3& centre) {
-  if (!finite(centre)) throw Error("the place to put the walker to is not a finite point");
+const StepReport& Walker::place(const Vec3& centre) { return placed(centre, 0.0); }
+
+const StepReport& Walker::place_feet(const Vec3& feet) { return placed(feet, 0.5); }
+
+/// `lift`: how far the centre lies above `at`, part of the height.
+const StepReport& Walker::placed(const Vec3& at, double lift) {
+  if (!finite(at)) throw Error("the place to put the walker to is not a finite point");
   begin();
-  position_ = centre;
+  const double height = walking::sized(given_, outside_).height;
+  position_ = at + Vec3(0.0, 0.0, lift * height);
   take_size_here();
   stance_ = {};
   release();
-  safe_height_ = 0.0;
+  safe_.height = footing_.height = 0.0;
   looked_at_ = space_->revision();
-  put(centre, 0.0);
+  put(at + Vec3(0.0, 0.0, lift * height_), 0.0);
   report_.events.push({EventKind::placed, position_});
   if (mode_ != Mode::ghost) fit_in();
-  if (!held_ && walking::fits(*space_, body(), position_)) remember_safe();
+  if (!held_ && space_->fits(body(), position_)) remember_safe();
   settle();
   finish();
   return report_;

@@ -132,11 +132,11 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
       firm_feet_ = walker.feet().z;
     }
   }
-  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held) {
+  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held && !report.put_back) {
     lost_ = true;
     lost_at_ = walker.position();
   }
-  const bool fell = on_foot && (report.has(EventKind::fell) || (report.has(EventKind::held) && !walker.held()));
+  const bool fell = on_foot && (report.has(EventKind::fell) || report.put_back);
   pushed_ = report.blocked && wishes(wish) ? pushed_ + seconds : 0.0;
   const bool stuck = pushed_ >= limits_.patience;
   if (!fell && !stuck) {

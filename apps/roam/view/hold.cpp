@@ -91,7 +91,10 @@ void Hold::note_events(const Walker& walker) {
         tell("returned: no ghost any more, and put to the nearest free place", false);
         break;
       case EventKind::held:
-        tell(walker.held() ? "held: the body does not fit here" : "put back: there is nothing below to stand on", true);
+        if (!walker.report().put_back) tell("held: the body does not fit here", true);
+        break;
+      case EventKind::put_back:
+        tell("put back: there is nothing below to stand on", true);
         break;
       default:
         break;

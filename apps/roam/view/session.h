@@ -140,8 +140,6 @@ class Session {
   Hold hold_;
   std::optional<Learning> learning_;
   bool lesson_wanted_ = false;   ///< by the person
-  bool has_stood_ = false;       ///< since it was placed
-  int put_backs_ = 0;            ///< since it stood last
   bool without_ground_ = false;  ///< it walks, and would fall for ever
   Status status_;
   bool placed_ = false;

@@ -147,22 +147,17 @@ void Session::step_taken(const StepReport& report, double seconds) {
   watch_footing(report, seconds);
 }
 
-/// A person who falls out of the scene is put back; one who has nowhere to stand there would fall again, for ever.
+/// A person who falls out of the scene is put back; one who has nowhere to stand there is held, and flies instead.
 void Session::watch_footing(const StepReport& report, double seconds) {
   const Walker& walker = *roamer_->walker();
-  if (walker.mode() != Mode::walk || walker.held() || roamer_->piloted()) return;
-  if (seconds <= 0.0) {
-    has_stood_ = false;
-    put_backs_ = 0;
+  if (walker.mode() != Mode::walk || roamer_->piloted()) return;
+  if (report.put_back) {
+    without_ground_ = walker.held();
+  } else if (seconds <= 0.0 && !walker.held()) {
     without_ground_ = !report.grounded && !ground_below();
-  } else if (report.held) {
-    ++put_backs_;
-    without_ground_ = !has_stood_ || put_backs_ > 1;
+  } else if (report.grounded) {
+    without_ground_ = false;
   }
-  if (!report.grounded) return;
-  has_stood_ = true;
-  put_backs_ = 0;
-  without_ground_ = false;
 }
 
 /// Whether a body that falls from here comes down on something.

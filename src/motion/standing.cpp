@@ -1,0 +1,74 @@
+#include "roam/standing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "roam/error.h"
+#include "roam/walker.h"
+
+namespace roam {
+namespace {
+
+constexpr double most_columns = 4096.0;
+
+/// Storeys of one column that are looked at.
+constexpr int most_floors = 64;
+
+/// Metres below a floor from where the next one is looked for.
+constexpr double below_floor = 1e-3;
+
+/// Where a body that is put down on `floor` comes to stand.
+std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings, const Vec3& floor) {
+  Walker walker(space, settings, Mode::fly, floor + Vec3(0.0, 0.0, 0.5 * settings.height));
+  if (walker.held() || walker.set_mode(Mode::walk).met_unknown) return std::nullopt;
+  if (!walker.stance().firm || walker.crouched()) return std::nullopt;
+  return walker.position();
+}
+
+}  // namespace
+
+std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& settings) {
+  std::vector<Vec3> centres(feet.begin(), feet.end());
+  for (Vec3& place : centres) place.z += 0.5 * settings.height;
+  return centres;
+}
+
+std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& settings, const Vec3& near,
+                                   double within) {
+  check(settings);
+  if (!std::isfinite(near.x + near.y + near.z)) throw Error("the place to stand near to is not a finite point");
+  if (!(within > 0.0 && within <= Space::reach_limit)) {
+    std::ostringstream text;
+    text << "a place to stand is looked for within " << within << " m; it must be more than 0 and at most "
+         << Space::reach_limit << " m";
+    throw Error(text.str());
+  }
+  // Evenly over the disc by the golden angle, from the middle outwards.
+  const double parts = within / settings.radius, turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  const int columns = static_cast<int>(std::clamp(4.0 * parts * parts, 1.0, most_columns));
+  std::optional<Vec3> best;
+  double best_distance = within;
+  for (int i = 0; i < columns; ++i) {
+    const double aside = within * std::sqrt(static_cast<double>(i) / columns);
+    if (best && aside - settings.radius > best_distance) break;
+    const Vec3 middle = near + aside * Vec3(std::cos(i * turn), std::sin(i * turn), 0.0);
+    const double end = middle.z - within - settings.height;
+    Vec3 top = middle + Vec3(0.0, 0.0, within);
+    for (int floor = 0; floor < most_floors && top.z > end; ++floor) {
+      const Impact hit = space.ray(top, {0.0, 0.0, end - top.z});
+      if (!hit.hit) break;
+      const Vec3 at(top.x, top.y, top.z + hit.time * (end - top.z));
+      top.z = at.z - below_floor;
+      const std::optional<Vec3> place = hit.unknown ? std::nullopt : stands_at(space, settings, at);
+      if (!place || glm::length(*place - near) > best_distance) continue;
+      best = place;
+      best_distance = glm::length(*place - near);
+    }
+  }
+  return best;
+}
+
+}  // namespace roam
