@@ -30,6 +30,9 @@ if(ROAM_TOOLS)
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
 endif()
 
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
 configure_package_config_file(cmake/roamConfig.cmake.in roamConfig.cmake INSTALL_DESTINATION ${roam_package_dir})
 write_basic_package_version_file(roamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/roamConfig.cmake ${PROJECT_BINARY_DIR}/roamConfigVersion.cmake
