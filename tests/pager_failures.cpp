@@ -222,6 +222,18 @@ TEST(PagerFailures, ARouteIntoWhatDoesNotComeIsHeldByItNotBlocked) {
   }
 }
 
+TEST(PagerFailures, ARouteThatUpdatesItsPagerComesToItsEndAndOneThatDoesNotIsHeld) {
+  const std::vector<Vec3> path{{5.0, 5.0, 3.5}, {55.0, 55.0, 3.5}};  // over all boxes
+  for (const bool live : {false, true}) {
+    Yard yard("pager_live");
+    Pager pager(yard.store);
+    Walker w(pager, ball(0.3), Mode::fly, path[0]);
+    const roam::RouteOptions options{.speed = 20.0, .wait = 60.0};
+    const roam::RouteResult r = live ? roam::follow(w, pager, path, options) : roam::follow(w, path, options);
+    EXPECT_EQ(r.outcome, live ? roam::Outcome::reached : roam::Outcome::held);
+  }
+}
+
 TEST(PagerFailures, ARouteThatASpaceSlowsDownToNothingIsHeldAndBehindAWallBlocked) {
   Mesh mesh;
   add_floor(mesh, -10.0, -10.0, 10.0, 10.0, 0.0);

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "roam/patchwork.h"
+#include "roam/route.h"
 #include "walker_judged.h"
 
 namespace {
@@ -184,6 +187,52 @@ TEST(WalkerUnknown, WhoIsHeldOverNothingFallsWhenGroundComes) {
   for (int i = 0; i < 60; ++i) w.step({}, frame);
   EXPECT_FALSE(w.held());
   EXPECT_TRUE(w.grounded());
+}
+
+TEST(WalkerUnknown, ARouteIsHeldByWhatNobodyUpdatesAndGoesOnWhereItUpdatesItself) {
+  const std::vector<Vec3> path{{5.0, 0.0, 1.0}, {15.0, 0.0, 1.0}};
+  for (const bool live : {false, true}) {
+    TwoRooms rooms;
+    Walker w(rooms.space, {}, Mode::walk, path[0]);
+    rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
+    const roam::RouteResult r = live ? roam::follow(w, rooms.space, path) : roam::follow(w, path);
+    EXPECT_EQ(r.outcome, live ? roam::Outcome::reached : roam::Outcome::held);
+  }
+}
+
+TEST(WalkerUnknown, ARouteWaitsForWhatComesLaterAndNotForEverForWhatDoesNot) {
+  const std::vector<Vec3> path{{5.0, 0.0, 1.0}, {15.0, 0.0, 1.0}};
+  for (const bool comes : {true, false}) {
+    TwoRooms rooms;
+    Walker w(rooms.space, {}, Mode::walk, path[0]);
+    std::jthread loader([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      if (comes) rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
+    });
+    const roam::RouteResult r = roam::follow(w, rooms.space, path, {.wait = comes ? 60.0 : 0.05});
+    EXPECT_EQ(r.outcome, comes ? roam::Outcome::reached : roam::Outcome::held);
+    EXPECT_TRUE(comes || r.end.x > 9.5) << r.end.x;
+  }
+}
+
+TEST(WalkerUnknown, ARouteThatBeginsInItWaitsThereToo) {
+  TwoRooms rooms;
+  Walker w(rooms.space, {}, Mode::walk, {5.0, 0.0, 1.0});
+  std::jthread loader([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
+  });
+  const std::vector<Vec3> path{{15.0, 0.0, 1.0}, {5.0, 0.0, 1.0}};
+  EXPECT_EQ(roam::follow(w, rooms.space, path, {.wait = 60.0}).outcome, roam::Outcome::reached);
+}
+
+TEST(WalkerUnknown, ARouteUpdatesNoSpaceButTheWalkersOwn) {
+  TwoRooms rooms, other;
+  Walker w(rooms.space, {}, Mode::walk, {5.0, 0.0, 1.0});
+  const std::vector<Vec3> path{{5.0, 0.0, 1.0}, {6.0, 0.0, 1.0}};
+  EXPECT_THROW((void)roam::follow(w, other.space, path), roam::Error);
+  EXPECT_THROW((void)roam::follow(w, rooms.space, path, {.wait = -1.0}), roam::Error);
+  EXPECT_THROW((void)roam::follow(w, rooms.space, {}), roam::Error);
 }
 
 TEST(WalkerUnknown, StandsOnItWaitingAndComesDownWhenTheGroundIsThere) {

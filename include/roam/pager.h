@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// A space over a collision store, in fixed memory: tiles come before the body needs them, and go when it does not.
+/// A space over a collision store, in fixed memory: tiles come before the body needs them, and go when it does not. It
+/// serves one body: others in it find what is near that one. Target roam::store.
 ///
-///     roam::Pager pager(roam::Store::open("dam.roam"), {.memory = 64 << 20});
+///     roam::Pager pager(roam::Store::open("dam.roam"), {.memory = 64ull << 20});
 ///     // Until there is ground to stand on. Who does not wait is held until there is.
-///     pager.wait(body, start, Vec3(0.0), 10.0);
-///     roam::Walker walker(pager, {.radius = 0.3}, roam::Mode::walk, start);
+///     const roam::WalkerSettings person;
+///     pager.wait(person.body(), start, roam::Vec3(0.0), 10.0);
+///     roam::Walker walker(pager, person, roam::Mode::walk, start);
 ///     while (true) {
 ///       walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
 ///       pager.update(walker.body(), walker.position(), walker.velocity());  // between two steps
@@ -90,8 +92,9 @@ class Pager final : public LiveSpace {
   [[nodiscard]] double largest_error() const override;
   [[nodiscard]] std::uint64_t revision() const override;
   [[nodiscard]] bool tells_changes() const override { return true; }
-  /// The governor: (ready - radius) / (latency + dt), so that a body comes to rest before what is unknown instead of
-  /// against it. Slow, never through.
+  /// Metres per second: (ready - radius) / (latency + dt), so that a body comes to rest before what is unknown instead
+  /// of against it. `ready` is how far around the body everything is known (PagerStats::ready_m), `latency` how long a
+  /// read takes that is asked for now, s, and dt a step of 1/60 s. Slow, never through.
   [[nodiscard]] double speed_limit() const override;
   /// Asks a loading thread and answers "" until it knows: ask again later. Of what is unknown: why.
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;

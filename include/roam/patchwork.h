@@ -12,7 +12,7 @@
 ///     ...
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
-/// A patch is one World with a number. What is expected and delivered takes effect at the next update(), all at once,
+/// Before the first update() all is free. A patch is one World with a number. What is expected and delivered takes effect at the next update(), all at once,
 /// and never in the middle of a step. What was unknown is known at once. A patch that refines another takes its place
 /// only together with all others that refine it, and only when the body, where it is at that moment, is free in them:
 /// nobody is caught in a wall because it became more exact. Until then the coarse one stays, and every update() tries

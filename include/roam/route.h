@@ -2,7 +2,8 @@
 /// \file
 /// Walking or flying along waypoints, and telling how it ended.
 ///
-///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));  // or any other places
+///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));  // or other places, of the
+///                                                                                          // centre: see standing.h
 ///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, path[0]);
 ///     roam::Route route(walker, path, {.speed = 1.4});
 ///     while (!route.done()) route.advance();
@@ -19,6 +20,7 @@
 
 #include "roam/error.h"
 #include "roam/math.h"
+#include "roam/standing.h"
 #include "roam/walker.h"
 
 namespace roam {
@@ -31,7 +33,13 @@ struct RouteOptions {
   /// than a twentieth of what free motion at `speed` would have brought: sliding at less than that, 3 degrees off
   /// head-on, is not getting on.
   double patience = 1.0;
+  /// Seconds of real time, >= 0. Of follow() with a LiveSpace alone: how long it waits for what is not known yet, after
+  /// the space has changed last.
+  double wait = 10.0;
 };
+
+/// Throws what Route throws.
+void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker);
 
 /// How a route ended. The outcomes are those of `roam walk`.
 enum class Outcome : std::uint8_t {
@@ -41,7 +49,7 @@ enum class Outcome : std::uint8_t {
   /// starts outside may come in first. Walk mode: walked over the side of that box and fell.
   left_scene,
   fell,  ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
-  held,  ///< did not fit where it was put, found no ground below, or got on no more for what is not known yet (space.h)
+  held,  ///< cannot move: did not fit where it was put, found no ground below, or waits for what is not known (space.h)
 };
 
 /// "reached", "blocked", "left_scene", "fell" or "held".
@@ -87,7 +95,9 @@ class Route {
  public:
   static constexpr double shortest_step = 1e-6;  ///< seconds
 
-  /// Places the walker at waypoints[0]. In walk mode it first comes down to the ground there, on the spot.
+  /// Places the walker at waypoints[0], as Walker::place does: a place of the *centre*, half the height above the feet.
+  /// A way of the feet, as from train() or widest_way(), is for it only after standing() (standing.h): with the centre
+  /// on the floor a body is held, or freed sideways. In walk mode it first comes down to the ground there, on the spot.
   ///
   /// In walk mode a waypoint counts as reached when it is within the body's radius of the axis, seen from above, and at
   /// most the step height above the body's top or below its lowest point. For bodies lower than 2 m, paths being those
@@ -96,7 +106,8 @@ class Route {
   /// the next one when it is there, or when it counts as reached and something keeps the body from coming nearer:
   /// corners are not cut.
   ///
-  /// The walker must outlive the route and must not be moved by others meanwhile. Throws roam::Error for no waypoint, a
+  /// The waypoints are copied. The walker must outlive the route and must not be moved by others meanwhile; its space
+  /// is never updated here, which for a LiveSpace is the caller's, between two steps. Throws roam::Error for no waypoint, a
   /// waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
@@ -110,6 +121,9 @@ class Route {
   [[nodiscard]] const Walker& walker() const { return *walker_; }
 
  private:
+  friend RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,
+                            const RouteOptions& options);
+
   void start_window();
   void turn_to_next(bool hindered);
   void judge(const StepReport& report, double distance_before);
@@ -131,7 +145,15 @@ class Route {
   bool done_ = false;
 };
 
-/// Follows the whole route.
+/// Follows the whole route, in a space that stays as it is. In a LiveSpace nothing would come, and the body be held at
+/// the end of what is known: pass the space too.
 [[nodiscard]] RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
+/// Follows the whole route in a space that comes meanwhile: `space`, which must be the walker's, is updated between
+/// the steps, and where the body meets what is not known yet, or where it starts in it, it is waited for: see
+/// RouteOptions::wait. Where the space holds the body back the steps are made no faster than in life. So the time that
+/// it takes, and with it the result, depends on what brings the space. Throws roam::Error as Route does, as `update`
+/// does, and for a space that is not the walker's.
+[[nodiscard]] RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,
+                                 const RouteOptions& options = {});
 
 }  // namespace roam

@@ -83,7 +83,8 @@ class Space {
 
   virtual ~Space() = default;
 
-  /// First impact of `body`, its centre moved from `from` by `motion` (metres, up to 1e6 m).
+  /// First impact of `body`, its centre moved from `from` by `motion` (metres, up to 1e6 m). Asked again from where it
+  /// hit, it may answer a hit at time 0 whichever way `motion` leads: see the head of this file.
   [[nodiscard]] virtual Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const = 0;
 
   /// The triangles that come within `reach` (m) of the body's surface somewhere along the motion (zero motion: at

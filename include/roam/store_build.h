@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Makes a collision store of a scene of any size, in bounded memory.
+/// Makes a collision store of a scene of any size, in bounded memory. Target roam::store.
 ///
-///     roam::build_store({.scene = {"Data/"}, .output = "dam.roam", .memory = 1 << 30});
+///     roam::build_store({.scene = {"Data/"}, .output = "dam.roam", .memory = 1ull << 30});
 ///
 /// A build is three steps, each of which may be ended at any moment, by a power cut too, and run again: what is
 /// complete is kept, what is not is made again, and the result is the same to the last byte, for any number of threads
@@ -39,9 +39,9 @@ struct StoreBuildProgress {
 };
 
 struct StoreBuildOptions {
-  std::vector<std::filesystem::path> scene;  ///< files and folders, as import_scene takes them
-  std::filesystem::path output;              ///< the store's folder
-  ImportOptions import;                      ///< `progress` and `memory_limit` are not used
+  std::vector<std::filesystem::path> scene = {};  ///< files and folders, as import_scene takes them
+  std::filesystem::path output = {};              ///< the store's folder
+  ImportOptions import = {};                      ///< `progress` and `memory_limit` are not used
   std::uint64_t memory = 1ull << 30;         ///< bytes, >= least_memory: of this process and its readers together
   int threads = 0;                           ///< 0: one per core
   bool lossless = false;                     ///< as BuildOptions::lossless

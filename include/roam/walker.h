@@ -19,7 +19,8 @@
 /// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap
 /// between surfaces is clearance - radius. Positions are those of the body's centre. Up is +z.
 ///
-/// A Walker is one body: use it from one thread at a time. Any number of them may share a Space. Moving allocates
+/// A Walker is one body: use it from one thread at a time. A copy is a second body in the same space, as the first one
+/// is at that moment: a snapshot to come back to. Any number of them may share a Space. Moving allocates
 /// nothing. docs/walking.md explains the rules and their limits.
 
 #include <cstdint>
@@ -48,7 +49,8 @@ class Walker {
   Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start);
   Walker(Space&& space, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
 
-  /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. Throws roam::Error for
+  /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. The report that it returns
+  /// is the walker's own, report(): the next call of any kind overwrites it. Throws roam::Error for
   /// input that is not finite.
   ///
   /// Cost on free flat ground: one look for the nearest triangle, over the way, and one sweep down to the ground.

@@ -2,12 +2,14 @@
 /// \file
 /// What a Walker is told: what its body is and can do, in which mode it moves, and what a person wishes for one step.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
 #include "roam/error.h"
 #include "roam/math.h"
 #include "roam/size_region.h"
+#include "roam/sweep.h"
 
 namespace roam {
 
@@ -29,7 +31,9 @@ struct WalkerSettings {
   /// and does not sink. What is not known yet carries it as floor does, and the report says `met_unknown`. 0: no foot,
   /// the body stands on its round end. docs/walking.md says what is a crack and what a pit.
   double support_radius = 0.0;
-  /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4.
+  /// Whole height in metres, >= 2 * radius (equal: the sphere of the paper), <= Space::reach_limit / 4. In every mode:
+  /// {.radius = 0.3} flies as a capsule of 1.8 m too; see sphere(). A lower body needs a lower eye, and maybe a lower
+  /// step: person() sets them together.
   double height = 1.8;
   /// Camera above the lowest point when standing, metres, in [0, height]. Lowered in proportion when crouched.
   double eye = 1.6;
@@ -52,6 +56,23 @@ struct WalkerSettings {
   /// How far around the body's surface clearance is measured after each step, metres, in [0, Space::reach_limit].
   /// Reported clearances are capped at radius + clearance_reach. The larger, the slower in wide open scenes.
   double clearance_reach = 1.0;
+
+  /// The standing body: what a space is asked for before there is a Walker, as by Pager::wait.
+  [[nodiscard]] Body body() const { return Body::capsule(radius, height); }
+
+  /// A person of another size: the eye a ninth of the height below the top, at 1.6 m of 1.8 m, or at the centre of a
+  /// sphere; a step of 0.3 m, or half the height; crouched in proportion too. `height` >= 2 * radius, metres; check() says where they are out of range.
+  static WalkerSettings person(double radius, double height) {
+    if (height == 2.0 * radius) return sphere(radius);
+    WalkerSettings s;
+    const double scale = height / s.height;
+    s.radius = radius;
+    s.height = height;
+    s.eye *= scale;
+    s.crouch_height *= scale;
+    s.step = std::min(s.step, 0.5 * height);
+    return s;
+  }
 
   /// The settings of the paper's sphere: height 2 * radius, the eye at its centre, a step of at most its radius.
   static WalkerSettings sphere(double radius) {
@@ -78,7 +99,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 struct WalkerInput {
   /// Metres per second, finite. Walk mode takes the horizontal part; in the air it steers as on the ground.
   Vec3 velocity{0.0};
-  bool jump = false;    ///< walk mode: jump, when on the ground
+  bool jump = false;    ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A world of triangles that bodies are swept through.
+/// A world of triangles that bodies are swept through. Walkers keep its address: do not move a World under one.
 ///
 /// Build one from meshes, then ask it anything from any number of threads:
 ///

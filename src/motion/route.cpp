@@ -30,28 +30,6 @@ bool within_limit(const Vec3& v) {  // false for what is not a number
          std::abs(v.z) <= Space::coordinate_limit;
 }
 
-void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
-  const auto positive = [](const char* what, double value, const char* unit) {
-    if (!(value > 0.0) || !std::isfinite(value)) {
-      throw Error(std::string("the route's ") + what + " is " + std::to_string(value) + " " + unit +
-                  "; it must be more than 0");
-    }
-  };
-  positive("speed", options.speed, "m/s");
-  positive("time step", options.dt, "s");
-  if (options.dt < Route::shortest_step) {
-    throw Error("the route's time step is shorter than a microsecond; it would take for ever");
-  }
-  positive("patience", options.patience, "s");
-  if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    if (!within_limit(waypoints[i])) {
-      throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a point within 1e9 m of the origin");
-    }
-  }
-  if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
-}
-
 /// Whether a body is at home in a box: in it, or not farther out than its own size.
 bool inside(const Vec3& p, const Box& box, const Body& body) {
   return box.grown(Vec3(2.0 * body.radius, 2.0 * body.radius, body.height())).holds(p);
@@ -98,6 +76,31 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
 }
 
 }  // namespace
+
+void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
+  const auto positive = [](const char* what, double value, const char* unit) {
+    if (!(value > 0.0) || !std::isfinite(value)) {
+      throw Error(std::string("the route's ") + what + " is " + std::to_string(value) + " " + unit +
+                  "; it must be more than 0");
+    }
+  };
+  positive("speed", options.speed, "m/s");
+  positive("time step", options.dt, "s");
+  if (options.dt < Route::shortest_step) {
+    throw Error("the route's time step is shorter than a microsecond; it would take for ever");
+  }
+  positive("patience", options.patience, "s");
+  if (!(options.wait >= 0.0) || !std::isfinite(options.wait)) {
+    throw Error("the route's longest wait is " + std::to_string(options.wait) + " s; it must be at least 0");
+  }
+  if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (!within_limit(waypoints[i])) {
+      throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a point within 1e9 m of the origin");
+    }
+  }
+  if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
+}
 
 const char* name(Outcome outcome) {
   switch (outcome) {
