@@ -197,6 +197,30 @@ TEST(Walker, RefusesBadSettingsAndInputWithAReason) {
   EXPECT_THROW(w.place({0.0, nan, 0.0}), roam::Error);
 }
 
+TEST(WalkerSettings, OfAPersonAreTakenForEverySize) {
+  for (const double height : {0.6, 0.61, 0.7, 1.0, 1.2, 1.8, 2.4}) {
+    const WalkerSettings s = WalkerSettings::person(0.3, height);
+    EXPECT_NO_THROW(roam::check(s)) << height;
+    EXPECT_EQ(s.body().radius, 0.3);
+    EXPECT_NEAR(s.body().height(), height, 1e-12);
+    EXPECT_NEAR(s.eye, height == 0.6 ? 0.3 : height * 16.0 / 18.0, 1e-12);
+  }
+  const WalkerSettings grown, person = WalkerSettings::person(0.3, 1.8);
+  EXPECT_EQ(person.eye, grown.eye);
+  EXPECT_EQ(person.step, grown.step);
+  EXPECT_EQ(person.crouch_height, grown.crouch_height);
+  EXPECT_NO_THROW(roam::check(WalkerSettings::person(0.2, 0.4)));
+}
+
+TEST(WalkerSettings, WithABodyTooLowForTheEyeSayWhatToDo) {
+  try {
+    roam::check({.height = 1.2});
+    FAIL() << "the eye is above the body";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("WalkerSettings::person"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Walker, WishesAreAtMostOneAndFiveTimesAsFastInAHurry) {
   const WalkerSettings s;
   EXPECT_EQ(roam::wish_velocity(s, {0.5, 0.0, 0.0}, false).x, 0.7);

@@ -95,6 +95,7 @@ TEST(WorldBuild, KnowsNoObjectOfWhatIsNoTriangle) {
     EXPECT_EQ(World().object_name(none), "");
     EXPECT_THROW((void)world.object(none), roam::Error);
   }
+  EXPECT_EQ(World::build({&mesh, 1}, {.lossless = true}).object_name(0), "roof");
   EXPECT_EQ(World().object_name(0), "");
   EXPECT_THROW((void)World().object(0), roam::Error);
 }

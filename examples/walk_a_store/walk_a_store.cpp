@@ -19,10 +19,10 @@ int main(int argc, char** argv) {
     const roam::StoreBuildReport built = roam::build_store(options);
     std::printf("%s\n", built.unchanged ? "up to date" : "built");
 
-    roam::Pager pager(roam::Store::open(argv[2]), {.memory = 16 << 20});
+    roam::Pager pager(roam::Store::open(argv[2]), {.memory = 16ull << 20});
     const auto waypoints = roam::positions(roam::load_path(argv[3]));
     roam::WalkerSettings person;
-    pager.wait(roam::Body::capsule(person.radius, person.height), waypoints.front(), roam::Vec3(0.0), 10.0);
+    pager.wait(person.body(), waypoints.front(), roam::Vec3(0.0), 10.0);
     roam::Walker walker(pager, person, roam::Mode::walk, waypoints.front());
     roam::Route route(walker, waypoints, {});
     while (!route.done()) {

@@ -21,10 +21,10 @@
 /// Angles are radians. Yaw is 0 along +x and grows to the left, seen from above; pitch is 0 at the horizon and grows
 /// upwards, in [-pi/2, pi/2]. There is no roll.
 ///
-/// The body moves on FRAME events, by the time between two of them, and never by key repeat: for how long each key was
-/// down counts, not how many frames there were. Frames longer than longest_frame are cut short, and every frame is cut
-/// into steps of at most longest_step, to within the rounding of the clock. Time that stands still or runs backwards
-/// moves nothing.
+/// The body moves on FRAME events, by the time between two of them, as the events tell it (GUIEventAdapter::getTime),
+/// and never by key repeat: for how long each key was down counts, not how many frames there were. Frames longer than
+/// longest_frame are cut short, and every frame is cut into steps of at most longest_step, to within the rounding of
+/// the clock. Time that stands still or runs backwards moves nothing.
 ///
 /// Keys are those of controls(). The mouse looks while a button is dragged, or, with setMouseGrab(), whenever it moves;
 /// the wheel changes the speed; a double click goes to what was clicked. Events that another handler has taken
@@ -119,7 +119,8 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] const osg::Vec3d& origin() const;
 
   /// The feet stay where they are; where the new body does not fit it is put to the nearest safe place. Throws
-  /// roam::Error for settings out of range, and changes nothing then. A speed that is in its own range (roam::check),
+  /// roam::Error for settings out of range, and changes nothing then: a lower body needs a lower eye, see
+  /// WalkerSettings::person. A speed that is in its own range (roam::check),
   /// but not in [least_speed, greatest_speed], is brought into that, as by setSpeed.
   void setSettings(const roam::WalkerSettings& settings);
   [[nodiscard]] const roam::WalkerSettings& settings() const;  ///< with the speed as it is now
@@ -146,8 +147,7 @@ class Manipulator : public osgGA::CameraManipulator {
   void placed();
   /// Of the last step or placement; an empty one before.
   [[nodiscard]] const roam::StepReport& report() const;
-  /// Cannot move: there is no space yet, the body does not fit where it is (Walker::held), or there was a problem(). A
-  /// body that fell out of the bottom of the scene and was put back can move: only report() says `held` then.
+  /// Cannot move: there is no space yet, Walker::held() says so, or there was a problem().
   [[nodiscard]] bool held() const;
   /// What went wrong inside the viewer's loop, for people; empty when nothing did. The body is held from then on until
   /// it is placed, or gets another space.
@@ -168,7 +168,8 @@ class Manipulator : public osgGA::CameraManipulator {
   void look(double yaw, double pitch);
   [[nodiscard]] double yaw() const;
   [[nodiscard]] double pitch() const;
-  /// The camera, metres. Follows steps and stairs softly, and stays at least leastEyeDistance() from everything.
+  /// The camera, metres. Follows steps and stairs softly, and stays at least leastEyeDistance() from everything: so it
+  /// is not Walker::eye(), which may lie on the body's surface, but a quarter of the radius inside it or more.
   [[nodiscard]] roam::Vec3 eye() const;
   /// What the body guarantees, metres, > 0: no triangle is nearer to eye() than this, but for 1e-6 m and for the
   /// space's own error, in fly and walk mode and not held. A near plane that cuts nothing is at most this divided by

@@ -66,7 +66,8 @@ struct Passage {
   /// the largest that was seen to come nearest.
   double radius = 0.0;
   bool limited = false;  ///< an opening decides `radius`; false: nothing as narrow as `widest` is on the way
-  /// Of the feet (walk: on the floor) or the centre (fly), from the start to the end, straight between points.
+  /// Of the feet (walk: on the floor) or the centre (fly), from the start to the end, straight between points. On foot
+  /// not for follow() as it is, which takes places of the centre: see standing() in standing.h.
   std::vector<Vec3> way;
   double length = 0.0;  ///< of the way
   /// What decides, when limited. When not found: where what is reached from the start comes nearest to what is reached

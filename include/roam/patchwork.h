@@ -12,12 +12,12 @@
 ///     ...
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
-/// Before the first update() all is free. A patch is one World with a number. What is expected and delivered takes effect at the next update(), all at once,
-/// and never in the middle of a step. What was unknown is known at once. A patch that refines another takes its place
-/// only together with all others that refine it, and only when the body, where it is at that moment, is free in them:
-/// nobody is caught in a wall because it became more exact. Until then the coarse one stays, and every update() tries
-/// again. A body that does not fit where it is anyway (a ghost in a wall, a body that waits in what is unknown) holds
-/// nothing up.
+/// Before the first update() all is free. A patch is one World with a number. What is expected and delivered takes
+/// effect at the next update(), all at once, and never in the middle of a step. What was unknown is known at once. A
+/// patch that refines another takes its place only together with all others that refine it, and only when the body,
+/// where it is at that moment, is free in them: nobody is caught in a wall because it became more exact. Until then the
+/// coarse one stays, and every update() tries again. A body that does not fit where it is anyway (a ghost in a wall, a
+/// body that waits in what is unknown) holds nothing up.
 ///
 /// An unknown box is kept away from by Patchwork::margin beyond its surface, so that whatever comes to light in it, and
 /// is stored as inexactly as World::build may, leaves a body beside it free.

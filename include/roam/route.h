@@ -107,8 +107,9 @@ class Route {
   /// corners are not cut.
   ///
   /// The waypoints are copied. The walker must outlive the route and must not be moved by others meanwhile; its space
-  /// is never updated here, which for a LiveSpace is the caller's, between two steps. Throws roam::Error for no waypoint, a
-  /// waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in ghost mode.
+  /// is never updated here, which for a LiveSpace is the caller's, between two steps. Throws roam::Error for no
+  /// waypoint, a waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in
+  /// ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
   [[nodiscard]] bool done() const { return done_; }

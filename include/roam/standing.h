@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places for a body that stands: from those of its feet, and found in a space.
+/// Places for a body that stands: from those of its feet, and found in a space. Target roam::roam.
 ///
 ///     const roam::WalkerSettings person;
 ///     const std::optional<roam::Vec3> start = roam::place_to_stand(world, person, {2.0, 3.0, 0.0}, 5.0);

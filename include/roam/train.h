@@ -57,7 +57,7 @@ struct Trial {
 /// A planned path: the widest way between two places that were drawn.
 struct TrainedPath {
   Vec3 from{0.0}, to{0.0};        ///< of the feet, or the centre when flying
-  std::vector<Vec3> way;          ///< likewise
+  std::vector<Vec3> way;          ///< likewise; on foot not for follow() as it is: see standing() in standing.h
   std::optional<double> largest;  ///< radius that passes, m; none: not limited
   double smallest = 0.0;          ///< radius that falls into no crack on the way, m; 0: there is none
   std::vector<Trial> trials;
