@@ -42,9 +42,9 @@ struct StoreBuildOptions {
   std::vector<std::filesystem::path> scene = {};  ///< files and folders, as import_scene takes them
   std::filesystem::path output = {};              ///< the store's folder
   ImportOptions import = {};                      ///< `progress` and `memory_limit` are not used
-  std::uint64_t memory = 1ull << 30;         ///< bytes, >= least_memory: of this process and its readers together
-  int threads = 0;                           ///< 0: one per core
-  bool lossless = false;                     ///< as BuildOptions::lossless
+  std::uint64_t memory = 1ull << 30;              ///< bytes, >= least_memory: of this process and its readers together
+  int threads = 0;                                ///< 0: one per core
+  bool lossless = false;                          ///< as BuildOptions::lossless
   /// Shards whose boxes are nearest to this place are built first; does not change the result.
   std::optional<Vec3> nearest_first{};
   /// Called from one thread at a time, several times a second. Returning false ends the build: roam::Cancelled.

@@ -61,7 +61,8 @@ struct WalkerSettings {
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }
 
   /// A person of another size: the eye a ninth of the height below the top, at 1.6 m of 1.8 m, or at the centre of a
-  /// sphere; a step of 0.3 m, or half the height; crouched in proportion too. `height` >= 2 * radius, metres; check() says where they are out of range.
+  /// sphere; a step of 0.3 m, or half the height; crouched in proportion too. `height` >= 2 * radius, metres; check()
+  /// says where they are out of range.
   static WalkerSettings person(double radius, double height) {
     if (height == 2.0 * radius) return sphere(radius);
     WalkerSettings s;
@@ -99,7 +100,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 struct WalkerInput {
   /// Metres per second, finite. Walk mode takes the horizontal part; in the air it steers as on the ground.
   Vec3 velocity{0.0};
-  bool jump = false;    ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
+  bool jump = false;  ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.
 };
 

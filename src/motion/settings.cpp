@@ -42,8 +42,10 @@ void check(const WalkerSettings& s) {
   demand("support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no foot of its own");
   demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
          "a body is at least two radii high, and then a sphere");
-  demand("eye height", s.eye, "m", {0.0, s.height, false}, "the eye is in the body; set it with the height, as WalkerSettings::person does");
-  demand("step height", s.step, "m", {0.0, 0.5 * s.height, false}, "what is higher is climbed, not stepped on; WalkerSettings::person fits it to the height");
+  demand("eye height", s.eye, "m", {0.0, s.height, false},
+         "the eye is in the body; set it with the height, as WalkerSettings::person does");
+  demand("step height", s.step, "m", {0.0, 0.5 * s.height, false},
+         "what is higher is climbed, not stepped on; WalkerSettings::person fits it to the height");
   demand("slope limit", s.slope_degrees, "degrees", {0.0, slope_limit, false}, "");
   demand("speed", s.speed, "m/s", {0.0, speed_limit, true}, "");
   demand("fast factor", s.fast_factor, "times", {1.0, factor_limit, false}, "");
