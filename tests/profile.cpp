@@ -131,6 +131,26 @@ TEST(Profile, LiesBesideItsSceneAndItsStore) {
   EXPECT_EQ(roam::profile_path(many).string(), "x/part.ply+99.roam.json");
 }
 
+TEST(Profile, OfAnEmptyPathIsRefusedByTheOneTypeOfError) {
+  const std::vector<std::filesystem::path> scenes{"a.ply", ""}, none;
+  const std::filesystem::path empty;
+  for (const std::function<void()>& ask : std::vector<std::function<void()>>{
+           [&] { (void)roam::profile_path(empty); }, [&] { (void)roam::find_profile(empty); },
+           [&] { (void)roam::profile_path(scenes); }, [&] { (void)roam::find_profile(scenes); }}) {
+    EXPECT_TRUE(contains(complaint(ask), "empty; name its file or folder")) << complaint(ask);
+  }
+  EXPECT_THROW((void)roam::profile_path(none), roam::Error);
+}
+
+TEST(Profile, OfAMeshWithAVertexThatIsNotThereIsRefused) {
+  auto meshes = scene();
+  meshes.insert(meshes.begin(), roam::Mesh{});
+  meshes[1].name = "hall";
+  meshes[1].triangles[1][2] = 99;
+  const std::string said = complaint([&] { (void)roam::identity_of(meshes); });
+  EXPECT_TRUE(contains(said, "triangle 1 of mesh 1 (\"hall\") uses vertex 99, but the mesh has 4 vertices")) << said;
+}
+
 TEST(Profile, IsFoundBesideTheSceneOrNotAtAll) {
   const TestFolder folder;
   const std::filesystem::path dam = folder.file("dam.ply");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "roam/generate.h"
+#include "roam/profile.h"
 #include "train/trials.h"
 #include "train_scenes.h"
 
@@ -61,6 +62,33 @@ TEST(Training, FindsBothEndsAndTakesAPersonWhereOneFits) {
   EXPECT_EQ(t.decisive[1].kind, roam::Decisive::Kind::split);
   EXPECT_NEAR(t.decisive[1].width, 0.4, 1e-3);
   EXPECT_NEAR(t.decisive[1].point.x, 3.0, 0.01);
+}
+
+TEST(Training, BecomesAProfileThatHoldsAllOfTheBodyAndIsOfTheScene) {
+  const Survey survey = Survey::build({corridor_mesh({.door = 0.3})}, {.slope_degrees = 40.0, .lossless = true});
+  const roam::SceneIdentity scene = roam::identity_of(survey.meshes());
+  for (const auto& options :
+       std::vector<TrainOptions>{{.paths = 1, .height = 1.8, .step = 0.25},
+                                 {.paths = 1},
+                                 {.mode = Mode::fly, .paths = 1, .spacing = 0.4},
+                                 {.method = Method::paper, .paths = 1, .height = 1.8, .step = 0.25}}) {
+    const Training t = roam::train(survey, options);
+    const roam::Profile p = roam::profile_of(t, survey);
+    EXPECT_NO_THROW(roam::check(p));
+    EXPECT_TRUE(p.belongs_to(scene));
+    EXPECT_EQ(p.mode, options.mode);
+    EXPECT_EQ(p.method, roam::name(options.method));
+    EXPECT_EQ(p.radius, t.radius);
+    EXPECT_EQ(p.height, options.height > 0.0 ? 1.8 : 2.0 * t.radius);
+    EXPECT_EQ(p.support_radius, t.support_radius);
+    EXPECT_EQ(p.step, options.height > 0.0 ? 0.25 : std::min(t.step, t.radius));
+    EXPECT_EQ(p.slope_degrees, 40.0);
+    EXPECT_EQ(p.smallest, t.smallest);
+    EXPECT_EQ(p.largest, t.largest);
+    EXPECT_TRUE(p.complete);
+  }
+  const Training ended = roam::train(survey, {.progress = [](const std::string&, double) { return false; }});
+  EXPECT_FALSE(roam::profile_of(ended, survey).complete);
 }
 
 TEST(Training, TakesARadiusOfTheIntervalWhereAPersonIsTooWideOrTooSlim) {

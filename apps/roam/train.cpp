@@ -85,7 +85,7 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   } else if (!t.complete && !o.profile && std::filesystem::exists(file)) {
     fmt::print(stderr, "roam: {} is left as it is: this training ended early\n", file.string());
   } else {
-    save_profile(profile_of(report, identity), file);
+    save_profile(profile_of(t, identity), file);
     report.profile = file;
   }
 }
@@ -112,7 +112,7 @@ ExitStatus train(TrainVerbOptions o) {
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
   check_spacing(scene, o.train.spacing, narrow_door);
-  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, o.slope, {}, {}};
+  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}};
   {
     StagedProgress progress;
     o.train.progress = [&](const std::string& stage, double done) { return progress.at(stage, done); };
@@ -169,6 +169,10 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")
       ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("S");
+  verb->add_option("--radius-min", o.train.radius_min,
+                   "In metres: what lets less through decides nothing and gets no region (default: 0.15)")
+      ->check(number_within(0.01, 100.0))
+      ->type_name("R");
   verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
       ->check(number_within(0.01, 100.0))
       ->type_name("R");

@@ -12,35 +12,6 @@
 namespace roam::app {
 namespace {
 
-const char* name(Method method) { return method == Method::paper ? "paper" : "interval"; }
-
-const char* name(Decisive::Kind kind) {
-  switch (kind) {
-    case Decisive::Kind::opening:
-      return "opening";
-    case Decisive::Kind::split:
-      return "split";
-  }
-  return "unknown";
-}
-
-const char* name(Crack::Kind kind) {
-  switch (kind) {
-    case Crack::Kind::crack:
-      return "crack";
-    case Crack::Kind::step_down:
-      return "step_down";
-    case Crack::Kind::open_drop:
-      return "open_drop";
-  }
-  return "unknown";
-}
-
-double height_of(const TrainReport& report) {
-  return report.options.mode == Mode::walk && report.options.height > 0.0 ? report.options.height
-                                                                          : 2.0 * report.training.radius;
-}
-
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json json_of(const TrainedPath& path) {
@@ -100,24 +71,6 @@ double floor_under(const Training& training, const Vec3& point) {
 
 }  // namespace
 
-Profile profile_of(const TrainReport& report, const SceneIdentity& scene) {
-  const Training& t = report.training;
-  Profile profile;
-  profile.scene = scene;
-  profile.mode = report.options.mode;
-  profile.radius = t.radius;
-  profile.height = height_of(report);
-  profile.support_radius = t.support_radius;
-  profile.step = std::min(t.step, 0.5 * profile.height);
-  profile.slope_degrees = report.slope_degrees;
-  profile.largest = t.largest;
-  profile.smallest = t.smallest;
-  profile.regions = t.regions;
-  profile.method = name(report.options.method);
-  profile.complete = t.complete;
-  return profile;
-}
-
 Json json_report(const TrainReport& report) {
   const Training& t = report.training;
   Json paths = Json::array(), decisive = Json::array(), regions = Json::array(), cracks = Json::array();
@@ -155,10 +108,10 @@ Json json_report(const TrainReport& report) {
                {"seed", report.options.seed},
                {"answer", t.answer},
                {"radius", t.radius},
-               {"height", height_of(report)},
+               {"height", t.height},
                {"support_radius", t.support_radius},
                {"step", t.step},
-               {"slope", report.slope_degrees},
+               {"slope", t.slope_degrees},
                {"spacing", report.options.spacing},
                {"interval", {{"min", t.smallest}, {"max", or_null(t.largest)}}},
                {"trapped_radius", t.trapped_radius},
@@ -184,7 +137,7 @@ std::string text_report(const TrainReport& report) {
     text += fmt::format("  {:<17}{}\n", what, value);
   };
   std::string body =
-      fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::name(report.options.mode), t.radius, height_of(report));
+      fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::name(report.options.mode), t.radius, t.height);
   if (t.support_radius > 0.0) body += fmt::format(", foot {:.3f} m", t.support_radius);
   line("body", body);
   if (!t.paths.empty()) {
@@ -223,7 +176,7 @@ std::vector<picture::OpeningView> views_of(const TrainReport& report) {
     view.floor = split ? d.point.z : floor_under(t, d.point);
     if (view.mode == Mode::fly) view.floor = d.point.z - t.radius;
     view.radius = t.radius;
-    view.height = height_of(report);
+    view.height = t.height;
     view.step = std::min(t.step, 0.5 * view.height);
     view.support_radius = t.support_radius;
     view.fits = split ? std::max(t.radius, t.support_radius) > 0.5 * d.width : 2.0 * t.radius < d.width;

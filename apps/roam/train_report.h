@@ -8,7 +8,6 @@
 
 #include "picture/opening.h"
 #include "report.h"
-#include "roam/profile.h"
 #include "roam/train.h"
 
 namespace roam::app {
@@ -18,13 +17,9 @@ struct TrainReport {
   std::string scene;
   std::uint64_t triangles = 0;
   TrainOptions options;
-  double slope_degrees = 45.0;
   Training training;
   std::filesystem::path profile;  ///< that was written; empty: none
 };
-
-/// The body that was trained, its height included.
-[[nodiscard]] Profile profile_of(const TrainReport& report, const SceneIdentity& scene);
 
 [[nodiscard]] Json json_report(const TrainReport& report);
 [[nodiscard]] std::string text_report(const TrainReport& report);

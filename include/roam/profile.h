@@ -25,6 +25,9 @@
 
 namespace roam {
 
+class Survey;
+struct Training;
+
 /// By what a scene, or the store that was made of it, is known again.
 struct SceneIdentity {
   /// Of a scene: XXH3-128 over the corners of all triangles in their order, each three little-endian doubles, in 32
@@ -36,7 +39,7 @@ struct SceneIdentity {
   Box bounds;                   ///< of the scene's triangles, metres
 };
 
-/// Reads every triangle once: about 10 ns each.
+/// Reads every triangle once: about 10 ns each. Throws roam::Error for one that uses a vertex which its mesh has not.
 [[nodiscard]] SceneIdentity identity_of(std::span<const Mesh> meshes);
 [[nodiscard]] SceneIdentity identity_of(const StoreInfo& store);
 
@@ -54,7 +57,7 @@ struct Profile {
   std::optional<double> largest;  ///< upper end of the feasible interval, m; none: no opening limits it
   double smallest = 0.0;          ///< lower end, m; 0: no crack
   std::vector<SizeRegion> regions;
-  std::string method = "interval";  ///< "paper", "interval" or "roaming" (learned by roam view --adapt)
+  std::string method = "interval";  ///< name(Method), or "roaming": learned by a SizeLearner
   bool complete = true;             ///< false: training was interrupted, and this is the best so far
 
   /// Whether it is of this scene. Where the hash, or the geometry hash, is known of both, that decides. A scene and a
@@ -63,14 +66,20 @@ struct Profile {
   [[nodiscard]] bool belongs_to(const SceneIdentity& other) const;
 };
 
+/// The profile of what was trained, ready to be saved: all members, of the scene that `survey` was built of (another
+/// identity_of where it was read from a store). A training that found no place (Training::places 0) is not worth it.
+[[nodiscard]] Profile profile_of(const Training& training, const Survey& survey);
+[[nodiscard]] Profile profile_of(const Training& training, const SceneIdentity& scene);
+
 /// Throws roam::Error, naming the member, its value and its range, for numbers that no body has.
 void check(const Profile& profile);
 
-/// Where the profile of a scene is: "dam.ply" has "dam.ply.roam.json" beside it, a folder of tiles "Data/" has
-/// "Data.roam.json", and so have their stores, "dam.ply.roam" and "Data.roam". A store elsewhere, "dam.roam", has
-/// "dam.roam.json".
+/// Where the profile of a scene is; the scene need not be there. "dam.ply" has "dam.ply.roam.json" beside it, a folder
+/// of tiles "Data/" has "Data.roam.json", and so have their stores, "dam.ply.roam" and "Data.roam". A store elsewhere,
+/// "dam.roam", has "dam.roam.json".
 [[nodiscard]] std::filesystem::path profile_path(const std::filesystem::path& scene);
 /// Of several files or folders that make one scene: beside the first, named by all: "a.ply+b.ply.roam.json".
+/// Both throw roam::Error for an empty path.
 [[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
 
 /// Throws roam::Error naming file, line or member, and what to do, for what is no profile, is of a newer version, or

@@ -4,6 +4,7 @@
 ///
 ///     const roam::Training t = roam::train(survey, {.height = 1.8});
 ///     if (t.feasible) std::cout << "any radius from " << t.smallest << " to " << t.largest.value_or(1.0) << " m\n";
+///     if (t.places > 0) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));  // profile.h
 ///
 /// Xie & Niu 2020 (PLoS ONE 15(2): e0229038, figure 6) roam n random paths with a radius that goes down where the
 /// viewpoint cannot enter and up where it flies off. Method::paper does that and no more; Method::interval finds both
@@ -28,11 +29,18 @@ namespace roam {
 
 enum class Method : std::uint8_t { interval, paper };
 
+/// "interval" or "paper".
+[[nodiscard]] const char* name(Method method);
+
 struct TrainOptions {
   Mode mode = Mode::walk;  ///< walk or fly
   Method method = Method::interval;
-  std::uint64_t seed = 1;    ///< of the paths
-  int paths = 0;             ///< that are planned; 0: 5, or one for each dead-end room where there are more
+  std::uint64_t seed = 1;  ///< of the paths
+  int paths = 0;           ///< that are planned; 0: 5, or one for each dead-end room where there are more
+  /// m: what lets less than this radius through is for nobody. It decides no body that is answered, and gets no region.
+  /// More than half of the largest radius that there can be counts as that half. Ways are looked at, and told of, down
+  /// to 0.05 m or this, whichever is less.
+  double radius_min = 0.15;
   double radius_max = 1.0;   ///< of the body, m: larger ones are not looked for
   double support_max = 1.0;  ///< of the foot, m: a crack that is wider is an open drop, where a body is held back
   double height = 0.0;       ///< of the body on foot, m; 0: a sphere
@@ -77,6 +85,9 @@ struct Crack {
   bool on_a_path = false;  ///< one of the paths goes over it
 };
 
+/// "crack", "step_down" or "open_drop".
+[[nodiscard]] const char* name(Crack::Kind kind);
+
 /// What decides one end of the interval.
 struct Decisive {
   enum class Kind : std::uint8_t { opening, split };
@@ -85,6 +96,9 @@ struct Decisive {
   double width = 0.0;   ///< m: of the door, or the split
   Vec3 direction{0.0};  ///< unit, across
 };
+
+/// "opening" or "split".
+[[nodiscard]] const char* name(Decisive::Kind kind);
 
 /// What of the scene hangs together for the smallest body, and is no scrap.
 struct ConnectedPart {
@@ -97,9 +111,15 @@ struct ConnectedPart {
 };
 
 struct Training {
-  double radius = 0.0;          ///< of the body that serves: use it from now on
-  double support_radius = 0.0;  ///< of its foot; 0: it needs none of its own
-  double step = 0.3;  ///< that it climbs, m: TrainOptions::step or less, for a sphere climbs at most its radius
+  Mode mode = Mode::walk;            ///< as asked
+  Method method = Method::interval;  ///< likewise
+  /// The body that serves: use it from now on. profile_of() in profile.h makes a Profile of it, and apply() settings.
+  /// Where no place was found (places 0), or no path planned, it is only what a person has.
+  double radius = 0.0;          ///< m
+  double height = 0.0;          ///< m: as asked; of a sphere twice the radius
+  double support_radius = 0.0;  ///< of its foot, m; 0: it needs none of its own
+  double step = 0.3;            ///< that it climbs, m: TrainOptions::step or less, a sphere at most its radius
+  double slope_degrees = 45.0;  ///< that it climbs: the survey's
   /// The feasible interval of one radius for all paths: [smallest, largest]. None: no opening limits it. 0: no crack.
   double smallest = 0.0;
   std::optional<double> largest;

@@ -273,3 +273,23 @@ std::string ended_early(const std::string& stage) {
 }
 
 }  // namespace roam::training
+
+namespace roam {
+
+const char* name(Method method) { return method == Method::paper ? "paper" : "interval"; }
+
+const char* name(Crack::Kind kind) {
+  switch (kind) {
+    case Crack::Kind::crack:
+      return "crack";
+    case Crack::Kind::step_down:
+      return "step_down";
+    case Crack::Kind::open_drop:
+      return "open_drop";
+  }
+  return "unknown";
+}
+
+const char* name(Decisive::Kind kind) { return kind == Decisive::Kind::opening ? "opening" : "split"; }
+
+}  // namespace roam

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <memory>
+#include <string>
 
 #include "roam/profile.h"
 
@@ -10,13 +11,30 @@ namespace roam {
 
 static_assert(std::endian::native == std::endian::little, "the hash is defined over little-endian doubles");
 
+namespace {
+
+void demand_vertices(const Mesh& mesh, std::size_t number, std::size_t triangle) {
+  for (const std::uint32_t vertex : mesh.triangles[triangle]) {
+    if (vertex < mesh.vertices.size()) continue;
+    throw Error(
+        fmt::format("cannot identify the scene: triangle {} of mesh {}{} uses vertex {}, but the mesh has {} "
+                    "vertices; correct the mesh",
+                    triangle, number, mesh.name.empty() ? std::string() : fmt::format(" (\"{}\")", mesh.name), vertex,
+                    mesh.vertices.size()));
+  }
+}
+
+}  // namespace
+
 SceneIdentity identity_of(std::span<const Mesh> meshes) {
   SceneIdentity identity;
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());
-  for (const Mesh& mesh : meshes) {
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const Mesh& mesh = meshes[m];
     identity.triangles += mesh.triangles.size();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      demand_vertices(mesh, m, i);
       Triangle triangle = mesh.triangle(i);
       for (Vec3& corner : triangle) {
         identity.bounds.include(corner);

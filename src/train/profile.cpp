@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "roam/train.h"
 #include "train/whole_file.h"
 
 namespace roam {
@@ -164,7 +165,7 @@ Json json_of(const Profile& p) {
           {"complete", p.complete}};
 }
 
-Profile profile_of(const Json& json) {
+Profile parsed(const Json& json) {
   const Members all(json, {});
   const std::uint64_t version = all.count("roam_profile");
   if (version > Profile::version) {
@@ -201,16 +202,43 @@ Profile profile_of(const Json& json) {
 
 /// The scene's name without a slash behind it, as near to how it was given as can be.
 std::filesystem::path named(const std::filesystem::path& scene) {
+  if (scene.empty()) throw Error("the path of the scene whose profile is meant is empty; name its file or folder");
   const auto trimmed = [](const std::filesystem::path& path) {
     const std::filesystem::path normal = path.lexically_normal();
     return normal.has_filename() ? normal : normal.parent_path();
   };
   const std::filesystem::path path = trimmed(scene);
   const std::string last = path.filename().string();
-  return last.empty() || last == "." || last == ".." ? trimmed(std::filesystem::absolute(path)) : path;
+  if (!last.empty() && last != "." && last != "..") return path;
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  if (error) throw Error(fmt::format("cannot tell where {} is: {}; name the scene", path.string(), error.message()));
+  return trimmed(whole);
 }
 
 }  // namespace
+
+Profile profile_of(const Training& training, const SceneIdentity& scene) {
+  Profile profile;
+  profile.scene = scene;
+  profile.mode = training.mode;
+  profile.radius = training.radius;
+  profile.height = training.height;
+  profile.support_radius = training.support_radius;
+  // What flies was asked for any step.
+  profile.step = std::min(training.step, 0.5 * training.height);
+  profile.slope_degrees = training.slope_degrees;
+  profile.largest = training.largest;
+  profile.smallest = training.smallest;
+  profile.regions = training.regions;
+  profile.method = name(training.method);
+  profile.complete = training.complete;
+  return profile;
+}
+
+Profile profile_of(const Training& training, const Survey& survey) {
+  return profile_of(training, identity_of(survey.meshes()));
+}
 
 void check(const Profile& p) {
   if (p.scene.hash.empty() && p.scene.geometry_hash.empty()) {
@@ -274,7 +302,7 @@ Profile load_profile(const std::filesystem::path& file) {
     throw fail("is no JSON: " + what.substr(std::min(what.find("] ") + 2, what.size())));
   }
   try {
-    Profile profile = profile_of(json);
+    Profile profile = parsed(json);
     check(profile);
     return profile;
   } catch (const Error& error) {

@@ -36,6 +36,7 @@ void check(const TrainOptions& options) {
       throw Error(fmt::format("training: the {} is {:g}; it must be from {:g} to {:g}", what, value, low, high));
   };
   if (options.mode == Mode::ghost) throw Error("training: a ghost passes everywhere; train to walk or to fly");
+  in("smallest radius", options.radius_min, 0.01, most_metres);
   in("largest radius", options.radius_max, 0.01, most_metres);
   in("largest support radius", options.support_max, 0.1, most_metres);
   in("step", options.step, 0.0, most_metres);
@@ -122,7 +123,7 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const BodyK
   }
   PaperOptions how;
   how.largest = std::min(options.radius_max, largest_radius(kind));
-  how.smallest = std::min(smallest_radius, how.largest);
+  how.smallest = std::min({smallest_radius, options.radius_min, how.largest});
   std::size_t furthest = 0;
   const PaperResult result =
       adjust_radius(layout.paths.size(), how, [&](std::size_t path, double radius) -> std::optional<Trial> {
@@ -155,6 +156,9 @@ Training train(const Survey& survey, const TrainOptions& options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   Stages stages(options.progress);
   Training training;
+  training.mode = options.mode;
+  training.method = options.method;
+  training.slope_degrees = survey.slope_degrees();
   TrainOptions laid = options;
   if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
   Layout layout = lay_out_for_body(survey, laid, kind_of(survey, options), stages);
@@ -177,6 +181,7 @@ Training train(const Survey& survey, const TrainOptions& options) {
     training.feasible = false;
     training.answer += ended_early(stages.stage());
   }
+  training.height = kind.height > 0.0 ? kind.height : 2.0 * training.radius;
   training.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return training;
 }
