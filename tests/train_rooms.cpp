@@ -192,7 +192,7 @@ TEST(TrainRegions, ANeckAndARoomTooSmallForTheBodyGetASmallerOne) {
   passage.found = true;
   passage.radius = 0.25;
   passage.opening = Opening{};
-  const auto regions = make_regions(look.measure, look.tree, rooms, radius, {&passage, 1});
+  const auto regions = make_regions(look.measure, look.tree, rooms, 0.15, radius, {&passage, 1});
   ASSERT_EQ(regions.size(), 2u);
   for (const SizeRegion& region : regions) EXPECT_DOUBLE_EQ(region.radius, region_share * 0.25);
   EXPECT_EQ(regions[0].why, "door 0.50 m wide");
@@ -204,6 +204,18 @@ TEST(TrainRegions, ANeckAndARoomTooSmallForTheBodyGetASmallerOne) {
   EXPECT_LT(regions[0].bounds.upper.x - regions[0].bounds.lower.x, 4.0);
 }
 
+TEST(TrainRegions, WhatLetsLessThanTheLeastThroughGetsNoneNorWhatIsBehindIt) {
+  const Look look(hall_with_grotto());
+  const double radius = 0.7;
+  const Rooms rooms = find_rooms(look.survey, look.measure, look.tree, scene_of(look), radius);
+  Passage passage;
+  passage.found = true;
+  passage.radius = 0.14;
+  passage.opening = Opening{};
+  EXPECT_TRUE(make_regions(look.measure, look.tree, rooms, 0.15, radius, {&passage, 1}).empty());
+  EXPECT_EQ(make_regions(look.measure, look.tree, rooms, 0.14, radius, {&passage, 1}).size(), 2u);
+}
+
 TEST(TrainRegions, ARoomThatTheBodyFitsIntoGetsNone) {
   const Look look(gallery());
   const Rooms rooms = find_rooms(look.survey, look.measure, look.tree, scene_of(look), 0.4);
@@ -213,7 +225,7 @@ TEST(TrainRegions, ARoomThatTheBodyFitsIntoGetsNone) {
   openings[0].radius = 0.35;
   openings[1].radius = 0.3;
   openings[2].found = false;
-  EXPECT_EQ(make_regions(look.measure, look.tree, rooms, 0.4, openings).size(), 2u);
+  EXPECT_EQ(make_regions(look.measure, look.tree, rooms, 0.15, 0.4, openings).size(), 2u);
 }
 
 }  // namespace

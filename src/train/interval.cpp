@@ -27,12 +27,14 @@ constexpr double foot_precision = 0.03;
 constexpr std::size_t most_searched = 8;
 constexpr double least_searched = 0.01;
 
-/// m: nobody, and hardly a device on wheels, is narrower.
-constexpr double least_useful = 0.15;
-
 /// Radii that a body of this kind can have at all.
 double cap(const BodyKind& kind, const TrainOptions& options) {
   return std::min(options.radius_max, largest_radius(kind));
+}
+
+/// m: what lets less through decides no body and gets no region.
+double least_useful(const BodyKind& kind, const TrainOptions& options) {
+  return std::min(options.radius_min, 0.5 * cap(kind, options));
 }
 
 /// The least of what the paths let through, of those that let `useful` through; none where there are none.
@@ -214,7 +216,7 @@ double trapped_below(double crack_radius, double step) {
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training) {
   const double largest = training.largest.value_or(cap(kind, options));
   // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
-  const double useful = std::min(least_useful, cap(kind, options));
+  const double useful = least_useful(kind, options);
   const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
   const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
   const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
@@ -231,6 +233,7 @@ void choose_body(const BodyKind& kind, const TrainOptions& options, const Eviden
 void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
                  Training& training) {
   stages.begin("looking beside the paths");
+  const double least = least_useful(kind_of(survey, options), options);
   for (const Component& component : layout.components) {
     if (stages.ended()) return;
     const Rooms rooms = find_rooms(survey, layout.measure, layout.tree, component, training.radius);
@@ -240,7 +243,7 @@ void add_regions(const Survey& survey, const TrainOptions& options, const Layout
       if (ways[i].size() > 1 && !stages.ended()) openings[i] = refine(survey, layout.measure, options.spacing, ways[i]);
     });
     if (stages.ended()) return;
-    for (SizeRegion& region : make_regions(layout.measure, layout.tree, rooms, training.radius, openings)) {
+    for (SizeRegion& region : make_regions(layout.measure, layout.tree, rooms, least, training.radius, openings)) {
       region.support_radius = training.support_radius;
       training.regions.push_back(std::move(region));
     }

@@ -17,7 +17,8 @@ namespace roam::training {
 
 namespace {
 
-/// m. No narrower way is looked for: nothing that a person or a device on wheels could be sent through.
+/// m. No narrower way is looked for, unless narrower bodies are: nothing that a person or a device on wheels could be
+/// sent through.
 constexpr double narrowest = 0.05;
 
 /// A part that no body gets to from a part with more than so many times its places is no part that paths are planned
@@ -105,7 +106,7 @@ Measure measure_of(const TrainOptions& options) {
   measure.height = options.mode == Mode::walk ? options.height : 0.0;
   measure.step = options.step;
   measure.widest = options.radius_max;
-  measure.narrowest = std::min(narrowest, 0.5 * options.radius_max);
+  measure.narrowest = std::min({narrowest, options.radius_min, 0.5 * options.radius_max});
   measure.support_max = options.support_max;
   return measure;
 }

@@ -31,13 +31,13 @@ Box box_around(const Measure& measure, const WidestTree& tree, const std::vector
 
 }  // namespace
 
-std::vector<SizeRegion> make_regions(const Measure& measure, const WidestTree& tree, const Rooms& rooms, double radius,
-                                     std::span<const Passage> openings) {
+std::vector<SizeRegion> make_regions(const Measure& measure, const WidestTree& tree, const Rooms& rooms, double least,
+                                     double radius, std::span<const Passage> openings) {
   std::vector<SizeRegion> regions;
   std::vector<const Passage*> best(rooms.rooms.size(), nullptr);
   for (std::size_t i = 0; i < rooms.necks.size() && i < openings.size(); ++i) {
     const Passage& passage = openings[i];
-    if (!passage.found || passage.radius >= radius) continue;
+    if (!passage.found || passage.radius >= radius || passage.radius < least) continue;
     regions.push_back({.bounds = box_around(measure, tree, rooms.necks[i].nodes, radius),
                        .radius = region_share * passage.radius,
                        .why = why(passage)});

@@ -18,9 +18,9 @@ inline constexpr double region_share = 0.97;
 /// Regions for a body of `radius`, `rooms` being those found for it, and `openings` the refined passage through each
 /// of rooms.necks, in their order. One for each neck that is passed by a smaller body only: its box, grown by `radius`
 /// to all sides and to the body's head and feet, with region_share of the passage's radius; and one for each room that
-/// a body of `radius` does not fit into, with the largest radius that gets there. Where none is found there is no
-/// region. Feet are none of these: SizeRegion::support_radius is 0.
+/// a body of `radius` does not fit into, with the largest radius that gets there. Passages of less than `least` do not
+/// count. Where none is found there is no region. Feet are none of these: SizeRegion::support_radius is 0.
 [[nodiscard]] std::vector<SizeRegion> make_regions(const Measure& measure, const WidestTree& tree, const Rooms& rooms,
-                                                   double radius, std::span<const Passage> openings);
+                                                   double least, double radius, std::span<const Passage> openings);
 
 }  // namespace roam::training
