@@ -57,6 +57,9 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
     EXPECT_EQ(scene.meshes[0].name, "Floor");
     EXPECT_TRUE(notes_contain(scene, "its unit is 0.0254 m"));
     EXPECT_EQ(notes_contain(scene, "axis is up"), up != "Z_UP");
+    // Words for the command line and for a program.
+    EXPECT_TRUE(notes_contain(scene, "read it with its unit (--unit "));
+    EXPECT_EQ(notes_contain(scene, "read it with up = y (--up y)"), up == "Y_UP");
   }
   const auto file = folder.write("floor.dae", collada("Y_UP", "0.0254"));
   const Scene told = import_scene(file, {.up = UpAxis::y, .unit = LengthUnit::in});

@@ -42,6 +42,24 @@ TEST(ImportPly, KeepsEveryDigitInAllThreeEncodings) {
   }
 }
 
+TEST(ImportPly, IsLeftOutByTheNameOfItsFileThatItIsCalledBy) {
+  const TemporaryFolder folder;
+  const std::string triangle = header("ascii", double_vertices + faces) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::filesystem::path dungeon = folder.write("dungeon.ply", triangle),
+                              house = folder.write("house.ply", triangle);
+  // An OBJ's first object has no name, the second has.
+  const std::filesystem::path yard = folder.write("yard.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng gate\nf 1 2 3\n");
+  EXPECT_EQ(import_scene(dungeon).meshes.at(0).name, "dungeon");
+  EXPECT_TRUE(contains(import_error(dungeon, {.ignore = {"*"}}), "to be ignored"));
+  const Scene scene = import_scene({dungeon, yard}, {.ignore = {"yard"}});
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.meshes[1].name, "gate");
+  EXPECT_EQ(scene.report.ignored_triangles, 1u);
+  EXPECT_TRUE(scene.report.notes.empty());
+  // What has a name of its own is called by that alone.
+  EXPECT_TRUE(notes_contain(import_scene(yard, {.ignore = {"gate", "house"}}), "No object's name matches 'house'"));
+}
+
 template <class Count, class Index>
 std::string one_face(bool big) {
   std::string data;

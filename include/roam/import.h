@@ -57,10 +57,12 @@ struct ImportProgress {
 
 /// What an import may be told. The defaults suit files in metres with z up.
 struct ImportOptions {
-  std::optional<UpAxis> up{};         ///< unset: y for glTF, z for everything else
-  LengthUnit unit = LengthUnit::m;    ///< multiplies every coordinate by metres_per(unit)
-  std::vector<std::string> ignore{};  ///< leaves out objects whose name, or an ancestor's, matches one of these shell
-                                      ///< patterns (fnmatch: * ? [a-z], case counts, * matches / too)
+  std::optional<UpAxis> up{};       ///< unset: y for glTF, z for everything else
+  LengthUnit unit = LengthUnit::m;  ///< multiplies every coordinate by metres_per(unit)
+  /// Leaves out objects whose name, or an ancestor's, matches one of these shell patterns (fnmatch: * ? [a-z], case
+  /// counts, * matches / too). Names are those of Mesh::name: of what has none in its file, the file's without its
+  /// extension ("dungeon" of dungeon.ply).
+  std::vector<std::string> ignore{};
   std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= 64 MiB: of the reader's memory, and of the meshes it sends
   double silence_limit = 120.0;    ///< seconds, > 0: a reader that reports nothing for so long, plus 1 s for each 4 MB
                                    ///< of its file, has hung and is ended

@@ -71,16 +71,16 @@ void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<doubl
     const char axis = axes[static_cast<std::size_t>(*up)];
     report_note(
         fmt::format("{}: the file states that its {} axis is up; its coordinates are left as they are, z up. If "
-                    "the file is right, turn it by --up {}.",
-                    file, axis, axis));
+                    "the file is right, read it with up = {} (--up {}).",
+                    file, axis, axis, axis));
   }
   const double read_as = settings_.metres_per_unit;
   // Files round what they state: inches are 0.02539999969 m in some.
   constexpr double stated_rounding = 1e-6;
   if (metres_per_unit && std::abs(*metres_per_unit - read_as) > stated_rounding * read_as) {
     report_note(
-        fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. Scale it by --unit "
-                    "(m, cm, mm, ft or in).",
+        fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. If the file "
+                    "is right, read it with its unit (--unit m, cm, mm, ft or in).",
                     file, *metres_per_unit, read_as));
   }
 }
@@ -120,7 +120,8 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
   finish_object();
   name_ = name;
   names_.assign(names.begin(), names.end());
-  ignored_ = matches_ignore(names);
+  const bool unnamed = std::all_of(names.begin(), names.end(), [](const std::string& n) { return n.empty(); });
+  ignored_ = matches_ignore(unnamed ? std::span<const std::string>(&name_, 1) : names);
   begun_ = true;
   ++object_number_;
   if (pieces_ != nullptr) pieces_->begin_object(name_);

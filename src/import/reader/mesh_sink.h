@@ -53,7 +53,7 @@ class MeshSink {
 
   /// Begins an object. `names` are the object's own name and its ancestors', outermost first; empty ones do not count.
   /// It is called after the innermost that is not empty, else `fallback`; patterns of objects to ignore match any of
-  /// `names` (not `fallback`, which the file does not say). Where the names are those of the current object, that one
+  /// `names`, or `fallback` where all of them are empty. Where the names are those of the current object, that one
   /// goes on and the answer is false.
   bool begin_object(std::span<const std::string> names, std::string_view fallback);
 
