@@ -1,7 +1,10 @@
 #include "roam/path_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "roam/error.h"
@@ -80,6 +83,51 @@ TEST(PathFile, SaysWhichFileCannotBeOpened) {
     EXPECT_EQ(std::string(error.what()), "cannot open the path file no/such.path; check its name and permissions");
   }
   EXPECT_THROW((void)roam::load_path("."), roam::Error);
+}
+
+/// A file that is gone when the test ends.
+struct PathOnDisk {
+  std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / ("roam-saved-" + std::to_string(::getpid()) + ".path");
+  ~PathOnDisk() {
+    std::error_code none;
+    std::filesystem::remove(file, none);
+  }
+};
+
+std::string saving(const std::filesystem::path& file, const std::vector<roam::Vec3>& path) {
+  try {
+    roam::save_path(file, path);
+  } catch (const roam::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PathFile, IsSavedSoThatItIsReadBackToTheLastBit) {
+  const PathOnDisk disk;
+  const std::vector<roam::Vec3> way{{-13739.123456789012, 0.1 + 0.2, -0.0}, {1e-300, 1e9, 1.0 / 3.0}, {2, 3, 4}};
+  roam::save_path(disk.file, way);
+  EXPECT_EQ(roam::positions(roam::load_path(disk.file)), way);
+  roam::WalkerSettings body;
+  body.support_radius = 0.65;
+  roam::save_path(disk.file, way, &body, roam::Mode::walk);
+  EXPECT_EQ(roam::positions(roam::load_path(disk.file)), way);
+  std::ifstream in(disk.file);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45 support 0.65");
+}
+
+TEST(PathFile, IsNotSavedWhereItCouldNotBeReadOrWritten) {
+  const PathOnDisk disk;
+  EXPECT_NE(saving(disk.file, {{1, 2, 3}}).find("this one has 1 places"), std::string::npos);
+  EXPECT_NE(saving(disk.file, {{1, 2, 3}, {1, std::nan(""), 3}}).find("place 1 is (1, nan, 3)"), std::string::npos);
+  EXPECT_NE(saving(disk.file, {{1, 2, 3e9}, {1, 2, 3}}).find("place 0"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(disk.file));
+  EXPECT_NE(saving("no/such/folder/way.path", {{1, 2, 3}, {4, 5, 6}}).find("cannot write no/such"), std::string::npos);
+  EXPECT_NE(saving("", {{1, 2, 3}, {4, 5, 6}}).find("has no name"), std::string::npos);
+  EXPECT_THROW((void)roam::load_path(""), roam::Error);
 }
 
 }  // namespace

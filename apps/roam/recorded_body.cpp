@@ -38,13 +38,6 @@ std::string describe(double radius, double height) {
 
 }  // namespace
 
-std::string body_line(const WalkerSettings& s, Mode mode) {
-  std::string line = fmt::format("{}{} radius {} height {} eye {} step {} slope {}", mark, name(mode), s.radius,
-                                 s.height, s.eye, s.step, s.slope_degrees);
-  if (s.support_radius > 0.0) line += fmt::format(" support {}", s.support_radius);
-  return line;
-}
-
 std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode)); }
 
 std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {

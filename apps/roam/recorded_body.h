@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "roam/path_file.h"
 #include "roam/walker.h"
 
 namespace roam::app {
@@ -24,9 +25,7 @@ struct RecordedBody {
   double support_radius = 0.0;  ///< metres; 0: no foot of its own, and the line does not speak of one
 };
 
-/// The first line, without its end.
-[[nodiscard]] std::string body_line(const WalkerSettings& settings, Mode mode);
-/// A further one.
+/// A further line; the first is body_line() of path_file.h.
 [[nodiscard]] std::string mode_line(Mode mode);
 
 /// None when the file does not say it, or cannot be opened: load_path says that, after wrong options were refused.

@@ -10,11 +10,13 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "roam/error.h"
 #include "roam/math.h"
+#include "roam/walker_settings.h"
 
 namespace roam {
 
@@ -38,6 +40,16 @@ struct Waypoint {
 
 /// The same from a file. Throws roam::Error also when it cannot be opened.
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
+
+/// The comment by which a path file says whose centre went there, without an end of line:
+/// "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45". `roam walk --path` takes that body.
+[[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
+
+/// Writes a path that load_path reads back to the last bit: places of the centre of `body`, which is told in a comment
+/// where it is given. Throws roam::Error for fewer than two places, for one that load_path would refuse, and when the
+/// file cannot be written.
+void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
+               Mode mode = Mode::walk);
 
 /// The places alone, as Walker and Route take them.
 [[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);

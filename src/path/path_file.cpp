@@ -68,6 +68,10 @@ Waypoint waypoint(const Numbers& numbers, const std::string& name, int line) {
                    numbers.count));
 }
 
+void demand_name(const std::filesystem::path& file) {
+  if (file.empty()) throw Error("the path file has no name; say which file is meant");
+}
+
 }  // namespace
 
 std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
@@ -103,11 +107,46 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
 }
 
 std::vector<Waypoint> load_path(const std::filesystem::path& file) {
+  demand_name(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
+  std::error_code none;
+  if (!in || std::filesystem::is_directory(file, none)) {
     throw Error(fmt::format("cannot open the path file {}; check its name and permissions", file.string()));
   }
   return read_path(in, file.string());
+}
+
+std::string body_line(const WalkerSettings& s, Mode mode) {
+  std::string line = fmt::format("# roam: mode {} radius {} height {} eye {} step {} slope {}", name(mode), s.radius,
+                                 s.height, s.eye, s.step, s.slope_degrees);
+  if (s.support_radius > 0.0) line += fmt::format(" support {}", s.support_radius);
+  return line;
+}
+
+void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body, Mode mode) {
+  demand_name(file);
+  if (path.size() < 2)
+    throw Error(
+        fmt::format("cannot write {}: a path needs a start and at least one place to go to, and this one has {} "
+                    "places",
+                    file.string(), path.size()));
+  std::string text;
+  if (body != nullptr) text = body_line(*body, mode) + "\n";
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vec3& p = path[i];
+    for (int k = 0; k < 3; ++k) {
+      if (!(std::abs(p[k]) <= largest_number))
+        throw Error(
+            fmt::format("cannot write {}: place {} is ({:g}, {:g}, {:g}); it must be finite and within 1e9 m of "
+                        "the origin",
+                        file.string(), i, p.x, p.y, p.z));
+    }
+    text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("cannot write {}; is its folder yours, and the disk not full?", file.string()));
 }
 
 std::vector<Vec3> positions(const std::vector<Waypoint>& path) {
