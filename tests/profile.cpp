@@ -163,6 +163,43 @@ TEST(Profile, IsFoundBesideTheSceneOrNotAtAll) {
   EXPECT_THROW((void)roam::find_profile(dam), roam::Error);
 }
 
+TEST(Profile, OfAnotherSceneIsNotFoundInSilence) {
+  const TestFolder folder;
+  const std::filesystem::path dam = folder.file("dam.ply");
+  EXPECT_FALSE(roam::find_profile(dam, roam::identity_of(scene())));
+  roam::save_profile(full_profile(), folder.file("dam.ply.roam.json"));
+  EXPECT_TRUE(roam::find_profile(dam, roam::identity_of(scene())));
+  const std::string said =
+      complaint([&] { (void)roam::find_profile(dam, roam::identity_of(std::vector<roam::Mesh>{})); });
+  EXPECT_TRUE(contains(said, "dam.ply.roam.json is of another scene")) << said;
+  EXPECT_TRUE(contains(said, "train again")) << said;
+}
+
+TEST(Profile, OfNoSceneBelongsToNone) {
+  EXPECT_FALSE(roam::Profile{}.belongs_to({}));
+  EXPECT_FALSE(roam::Profile{}.belongs_to(roam::identity_of(scene())));
+  EXPECT_FALSE(full_profile().belongs_to({}));
+}
+
+TEST(Profile, ThatIsNotThereOrNotGoodSaysWhatToDo) {
+  const TestFolder folder;
+  const std::string missing = complaint([&] { (void)roam::load_profile(folder.file("nope.json")); });
+  EXPECT_TRUE(contains(missing, "nope.json: No such file or directory; check its name")) << missing;
+  EXPECT_TRUE(contains(complaint([] { (void)roam::load_profile(""); }), "name the file"));
+  EXPECT_TRUE(contains(complaint([] { roam::save_profile(full_profile(), ""); }), "name the file"));
+  roam::Profile profile = full_profile();
+  profile.scene = {};
+  const std::string nameless = complaint([&] { roam::save_profile(profile, folder.file("p.json")); });
+  EXPECT_TRUE(contains(nameless, "p.json") && contains(nameless, "set Profile::scene to identity_of")) << nameless;
+  profile = full_profile();
+  profile.method = "guessed";
+  const std::string method = complaint([&] { roam::save_profile(profile, folder.file("p.json")); });
+  EXPECT_TRUE(contains(method, "p.json") && contains(method, "\"guessed\"")) << method;
+  profile = full_profile();
+  profile.mode = roam::Mode::ghost;
+  EXPECT_TRUE(contains(complaint([&] { roam::check(profile); }), "not \"ghost\""));
+}
+
 TEST(Profile, BelongsToItsSceneAlone) {
   roam::Profile profile;
   profile.scene = roam::identity_of(scene());
@@ -217,6 +254,9 @@ TEST(Profile, GivesAPersonTheBodyThatWasTrained) {
   roam::Profile low = profile;
   low.height = 1.2;
   EXPECT_EQ(roam::apply(low, person).eye, 1.2);
+  roam::Profile sphere = profile;
+  sphere.height = 2.0 * sphere.radius;
+  EXPECT_EQ(roam::apply(sphere, person).eye, roam::WalkerSettings::sphere(sphere.radius).eye);
 }
 
 /// A change of a good file, and what must be said of it.

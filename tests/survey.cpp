@@ -82,6 +82,13 @@ TEST(Survey, SpecksAreNoFloorAndNothingIsNothing) {
 TEST(Survey, RefusesWhatIsOutOfRangeAndWhatWorldRefuses) {
   EXPECT_THROW(static_cast<void>(Survey::build({}, {.slope_degrees = 89.5})), roam::Error);
   EXPECT_THROW(static_cast<void>(Survey::build({}, {.slope_degrees = std::nan("")})), roam::Error);
+  EXPECT_THROW(static_cast<void>(Survey::build({}, {.threads = -1})), roam::Error);
+  try {
+    static_cast<void>(Survey::build({}, {.slope_degrees = 95.0}));
+    ADD_FAILURE() << "a slope of 95 degrees was taken";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("95 degrees"), std::string::npos) << error.what();
+  }
   Mesh mesh;
   mesh.vertices = {{0.0, 0.0, 0.0}};
   mesh.triangles = {{0, 1, 2}};

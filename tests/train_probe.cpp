@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "messages.h"
 #include "roam/probe.h"
 #include "walker_scenes.h"
 
@@ -205,6 +206,21 @@ TEST(Probe, HasNoPathOfANo) {
   for (const ProbeQuestion& question : {across, flying(across)}) {
     const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.6});
     EXPECT_TRUE(probed_path(survey, question, answer).empty());
+  }
+}
+
+TEST(Probe, HasTheEyeOfASphereInItsCentre) {
+  EXPECT_DOUBLE_EQ(probed_body(across, {.radius = 0.3, .height = 0.6}).eye, WalkerSettings::sphere(0.3).eye);
+  EXPECT_DOUBLE_EQ(probed_body(across, {.radius = 0.3, .height = 1.2}).eye, 1.2);
+}
+
+TEST(Probe, SaysWhichEndIsNoPlace) {
+  const Survey survey = survey_of(room(0.0));
+  for (const bool from : {true, false}) {
+    ProbeQuestion question = across;
+    (from ? question.from : question.to).y = std::nan("");
+    const std::string said = error_of([&] { static_cast<void>(probe(survey, question, ProbedSize{})); });
+    EXPECT_TRUE(contains(said, from ? "\"from\" is (" : "\"to\" is (") && contains(said, "nan")) << said;
   }
 }
 

@@ -30,8 +30,10 @@
 namespace roam {
 
 struct PassageOptions {
-  Mode mode = Mode::walk;    ///< walk or fly
-  double height = 0.0;       ///< of the body on foot; 0: a sphere, 2 * radius high. At least `step` where it is not 0.
+  Mode mode = Mode::walk;  ///< walk or fly
+  /// Of the body on foot: say 1.8 for a person (as WalkerSettings{} is); 0: a sphere, 2 * radius high. At least `step`
+  /// where it is not 0.
+  double height = 0.0;
   double step = 0.3;         ///< what walking climbs, see WalkerSettings::step. A sphere climbs at most its radius.
   double widest = 1.0;       ///< > 0: no larger radius is looked for, and a way where it fits is "not limited"
   double narrowest = 0.05;   ///< > 0, < widest: ways for no larger radius than this are not looked for

@@ -45,14 +45,14 @@ struct ProbeQuestion {
 
 struct ProbedSize {
   double radius = 0.3;
-  double height = 0.6;  ///< at least twice the radius; exactly that, as flying must be: a sphere
+  double height = 0.6;  ///< at least twice the radius; exactly that, as flying must be: a sphere. A person: say 1.8
 };
 
 /// What a body of that size climbs: a sphere at most its radius, a capsule at most what is below its round head when it
 /// stands on its round foot.
 [[nodiscard]] double climbed(const ProbeQuestion& question, const ProbedSize& size);
 
-/// The body as a Walker takes it. Throws Error for a size that no walker has.
+/// The body as a Walker takes it, its eye as apply() in profile.h has it. Throws Error for a size that no walker has.
 [[nodiscard]] WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size,
                                          double slope_degrees = 45.0);
 

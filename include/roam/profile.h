@@ -3,8 +3,11 @@
 /// What training found out about a scene, kept beside it, so that everybody who roams there has a body that fits.
 ///
 ///     const roam::Scene scene = roam::import_scene("dam.ply");
-///     const std::optional<roam::Profile> profile = roam::find_profile("dam.ply");   // reads dam.ply.roam.json
-///     if (profile && profile->belongs_to(roam::identity_of(scene.meshes))) settings = roam::apply(*profile, settings);
+///     const auto profile = roam::find_profile("dam.ply", roam::identity_of(scene.meshes));  // reads dam.ply.roam.json
+///     if (profile) {
+///       settings = roam::apply(*profile, settings);   // and, once there is a walker:
+///       walker.set_regions(profile->regions);
+///     }
 ///
 /// Library target roam::train. docs/training.md describes the file member by member. A reader of format version 1
 /// takes every file of version 1, and passes over members that it does not know.
@@ -62,7 +65,7 @@ struct Profile {
 
   /// Whether it is of this scene. Where the hash, or the geometry hash, is known of both, that decides. A scene and a
   /// store have neither in common: then the number of triangles and the box of them all decide, to the last bit, for
-  /// nothing else of the source is left in a store.
+  /// nothing else of the source is left in a store. What has no hash at all, as Profile{}, is of no scene.
   [[nodiscard]] bool belongs_to(const SceneIdentity& other) const;
 };
 
@@ -85,15 +88,21 @@ void check(const Profile& profile);
 /// Throws roam::Error naming file, line or member, and what to do, for what is no profile, is of a newer version, or
 /// holds numbers out of range.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
-/// Written under a temporary name, synced and renamed: whole or as it was. Throws roam::Error when it cannot be
-/// written, and what check throws.
+/// Written under a temporary name, synced and renamed: whole or as it was. Throws roam::Error naming the file when it
+/// cannot be written, and for what check refuses.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 /// The profile beside a scene, see profile_path; none when there is no such file. Throws what load_profile throws.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
 
+/// The same, and throws roam::Error where it is not of the scene that was read: train again.
+[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity);
+[[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
+                                                  const SceneIdentity& identity);
+
 /// A person's settings with the profile's body: its radius, height, step, slope and support; the eye stays where it is,
-/// or at the top of a lower body. The regions are for Walker::set_regions.
+/// or at the top of a lower body, and is in the centre of a sphere, as WalkerSettings::sphere has it. The regions are
+/// for Walker::set_regions. Nothing here asks of which scene the profile is.
 [[nodiscard]] WalkerSettings apply(const Profile& profile, const WalkerSettings& settings);
 
 }  // namespace roam

@@ -80,6 +80,7 @@ void check(std::span<const Source> sources, const ImportOptions& options) {
   }
   for (const Source& source : sources) {
     const fs::path& path = source.path;
+    if (path.empty()) throw Error("the path of a scene is empty; name its file or folder.");
     std::error_code why;
     const fs::file_status status = fs::status(path, why);
     if (!fs::exists(status)) {

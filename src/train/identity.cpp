@@ -52,6 +52,8 @@ SceneIdentity identity_of(std::span<const Mesh> meshes) {
 SceneIdentity identity_of(const StoreInfo& store) { return {{}, store.geometry_hash, store.triangles, store.bounds}; }
 
 bool Profile::belongs_to(const SceneIdentity& other) const {
+  const auto unknown = [](const SceneIdentity& one) { return one.hash.empty() && one.geometry_hash.empty(); };
+  if (unknown(scene) || unknown(other)) return false;
   if (!scene.hash.empty() && !other.hash.empty()) return scene.hash == other.hash;
   if (!scene.geometry_hash.empty() && !other.geometry_hash.empty()) return scene.geometry_hash == other.geometry_hash;
   return scene.triangles == other.triangles && scene.bounds.lower == other.bounds.lower &&

@@ -130,7 +130,7 @@ WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size
   WalkerSettings settings;
   settings.radius = size.radius;
   settings.height = size.height;
-  settings.eye = std::min(settings.eye, settings.height);
+  settings.eye = is_sphere(size) ? size.radius : std::min(settings.eye, settings.height);
   settings.step = std::min(question.step, 0.5 * settings.height);
   settings.slope_degrees = slope_degrees;
   settings.support_radius = question.support_radius;
@@ -157,6 +157,14 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
     if (question.mode == Mode::fly && !is_sphere(size))
       throw Error(fmt::format("what flies is a sphere: a height of {:g} m is not twice the radius of {:g} m",
                               size.height, size.radius));
+  }
+  for (const auto& [end, place] : {std::pair("from", question.from), std::pair("to", question.to)}) {
+    for (int k = 0; k < 3; ++k) {
+      if (!(std::abs(place[k]) <= Space::coordinate_limit))
+        throw Error(
+            fmt::format("cannot probe: \"{}\" is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin",
+                        end, place.x, place.y, place.z));
+    }
   }
   // Bodies that are measured alike, each with its largest and smallest radius.
   struct Group {

@@ -180,7 +180,7 @@ Profile parsed(const Json& json) {
   const std::string mode = all.text("mode");
   const auto is_mode = [&](Mode m) { return mode == name(m); };
   const auto found = std::find_if(modes.begin(), modes.end(), is_mode);
-  if (found == modes.end()) refuse("mode", "must be \"walk\" or \"fly\"");
+  if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", mode));
   p.mode = *found;
   p.radius = all.number("radius");
   p.height = all.number("height");
@@ -245,18 +245,23 @@ void check(const Profile& p) {
     refuse("scene", "must have a \"hash\" or a \"geometry_hash\"");
   }
   if (!p.scene.hash.empty() && !is_digits(p.scene.hash, 32)) {
-    refuse("scene.hash", "must be 32 hexadecimal digits in lower case, or null");
+    refuse("scene.hash", fmt::format("must be 32 hexadecimal digits in lower case, or null, not \"{}\"", p.scene.hash));
   }
   if (!p.scene.geometry_hash.empty() && !is_digits(p.scene.geometry_hash, 16)) {
-    refuse("scene.geometry_hash", "must be 16 hexadecimal digits in lower case, or null");
+    refuse("scene.geometry_hash",
+           fmt::format("must be 16 hexadecimal digits in lower case, or null, not \"{}\"", p.scene.geometry_hash));
   }
   demand_box("scene.bounds", p.scene.bounds);
-  if (std::find(modes.begin(), modes.end(), p.mode) == modes.end()) refuse("mode", "must be \"walk\" or \"fly\"");
+  if (std::find(modes.begin(), modes.end(), p.mode) == modes.end()) {
+    refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", name(p.mode)));
+  }
   demand_body("radius, height, step or slope", p, p.radius);
   demand_foot("support_radius", p.support_radius);
-  if (!(p.smallest >= 0.0 && std::isfinite(p.smallest))) refuse("interval.min", "must be a number of at least 0");
+  if (!(p.smallest >= 0.0 && std::isfinite(p.smallest))) {
+    refuse("interval.min", fmt::format("must be a number of at least 0, not {}", p.smallest));
+  }
   if (p.largest && !(*p.largest > 0.0 && std::isfinite(*p.largest))) {
-    refuse("interval.max", "must be a number greater than 0, or null");
+    refuse("interval.max", fmt::format("must be a number greater than 0, or null, not {}", *p.largest));
   }
   for (std::size_t i = 0; i < p.regions.size(); ++i) {
     const std::string path = fmt::format("regions[{}].", i);
@@ -265,7 +270,7 @@ void check(const Profile& p) {
     demand_foot(path + "support_radius", p.regions[i].support_radius);
   }
   if (std::find(methods.begin(), methods.end(), p.method) == methods.end()) {
-    refuse("method", "must be \"paper\", \"interval\" or \"roaming\"");
+    refuse("method", fmt::format("must be \"paper\", \"interval\" or \"roaming\", not \"{}\"", p.method));
   }
 }
 
@@ -290,8 +295,7 @@ std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes
 Profile load_profile(const std::filesystem::path& file) {
   const std::string text = training::read_whole(file, file_limit);
   const auto fail = [&](const std::string& what) -> Error {
-    return Error(
-        fmt::format("{}: {}; correct the file, or delete it and train again (roam train)", file.string(), what));
+    return Error(fmt::format("{}: {}; correct the file, or delete it and train again", file.string(), what));
   };
   Json json;
   try {
@@ -311,7 +315,14 @@ Profile load_profile(const std::filesystem::path& file) {
 }
 
 void save_profile(const Profile& profile, const std::filesystem::path& file) {
-  check(profile);
+  try {
+    check(profile);
+  } catch (const Error& error) {
+    const bool unknown = profile.scene.hash.empty() && profile.scene.geometry_hash.empty();
+    throw Error(fmt::format("cannot write {}: {}; {}", file.string(), error.what(),
+                            unknown ? "set Profile::scene to identity_of the meshes or the store it was trained on"
+                                    : "correct the profile"));
+  }
   // Names of objects come from files and may be any bytes.
   training::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -327,11 +338,27 @@ std::optional<Profile> find_profile(std::span<const std::filesystem::path> scene
   return load_profile(file);
 }
 
+std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity) {
+  return find_profile({&scene, 1}, identity);
+}
+
+std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes, const SceneIdentity& identity) {
+  std::optional<Profile> profile = find_profile(scenes);
+  if (profile && !profile->belongs_to(identity)) {
+    throw Error(
+        fmt::format("{} is of another scene, or of this one before it changed or read in another way (up, unit "
+                    "or ignore): train again, or delete the file",
+                    profile_path(scenes).string()));
+  }
+  return profile;
+}
+
 WalkerSettings apply(const Profile& profile, const WalkerSettings& settings) {
   WalkerSettings applied = settings;
   applied.radius = profile.radius;
   applied.height = profile.height;
-  applied.eye = std::min(settings.eye, profile.height);
+  const bool is_sphere = profile.height <= 2.0 * profile.radius;
+  applied.eye = is_sphere ? profile.radius : std::min(settings.eye, profile.height);
   applied.step = profile.step;
   applied.slope_degrees = profile.slope_degrees;
   applied.support_radius = profile.support_radius;

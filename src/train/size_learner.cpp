@@ -106,13 +106,19 @@ bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 }  // namespace
 
 SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
-  if (!(profile_.radius > 0.0)) throw Error("learning begins with a body: the profile's radius must be greater than 0");
+  if (!(profile_.radius > 0.0))
+    throw Error(fmt::format("learning begins with a body: the profile's radius is {:g} m; it must be greater than 0",
+                            profile_.radius));
   if (!(limits.radius_min > 0.0 && limits.radius_min <= Space::reach_limit))
-    throw Error("the smallest radius that may be learned must be greater than 0");
+    throw Error(
+        fmt::format("the smallest radius that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
+                    limits.radius_min, Space::reach_limit));
   if (!(limits.support_max > 0.0 && limits.support_max <= 0.25 * Space::reach_limit))
-    throw Error("the largest foot that may be learned must be greater than 0");
+    throw Error(
+        fmt::format("the largest foot that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
+                    limits.support_max, 0.25 * Space::reach_limit));
   if (!(limits.patience >= 0.0 && std::isfinite(limits.patience)))
-    throw Error("the patience of learning must be 0 s or more");
+    throw Error(fmt::format("the patience of learning is {:g} s; it must be a number of at least 0", limits.patience));
 }
 
 std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {

@@ -1,5 +1,7 @@
 #include "roam/survey.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -38,7 +40,11 @@ Mesh floor_of(const Survey& survey, const Mesh& mesh, TriangleId first, std::vec
 
 Survey Survey::build(std::vector<Mesh> meshes, const SurveyOptions& options) {
   if (!(options.slope_degrees >= 0.0 && options.slope_degrees <= kSteepest))
-    throw Error("the slope limit must be between 0 and 89 degrees");
+    throw Error(fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}",
+                            options.slope_degrees, kSteepest));
+  if (options.threads < 0)
+    throw Error(fmt::format("the number of threads of a survey is {}; it must be at least 1, or 0 for one per core",
+                            options.threads));
   // Most of the work is the whole scene; the floors are a part of it.
   constexpr double whole_share = 0.8;
   const auto part = [&](double begin, double share) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "train/answer.h"
 #include "train/confirm.h"
@@ -42,6 +43,7 @@ void check(const TrainOptions& options) {
   in("step", options.step, 0.0, most_metres);
   in("spacing", options.spacing, 0.02, most_metres);
   in("speed", options.speed, 0.01, 1e4);
+  in("number of threads", options.threads, 0, std::numeric_limits<int>::max());
   in("number of paths", options.paths, 0, 10'000);
   if (options.mode == Mode::walk && options.height != 0.0) {
     in("height", options.height, 0.1, most_metres);

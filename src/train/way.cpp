@@ -32,9 +32,11 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
     if (!(value > 0.0 && value <= Space::reach_limit))
       refuse(fmt::format("{} is {} m; it must be more than 0 and at most 1000 m", what, value));
   };
-  for (const Vec3& p : {from, to}) {
+  for (const auto& [end, p] : {std::pair("start", from), std::pair("end", to)}) {
     for (int k = 0; k < 3; ++k)
-      if (!(std::abs(p[k]) <= Space::coordinate_limit)) refuse("a place is not a point within 1e9 m of the origin");
+      if (!(std::abs(p[k]) <= Space::coordinate_limit))
+        refuse(fmt::format("its {} is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin", end, p.x, p.y,
+                           p.z));
   }
   if (o.mode == Mode::ghost) refuse("a ghost passes everything; say walk or fly");
   positive(o.widest, "the widest radius");

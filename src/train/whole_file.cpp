@@ -14,9 +14,18 @@
 namespace roam::training {
 namespace {
 
-[[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error) {
-  throw Error(fmt::format("cannot {} {}: {}; is its folder yours, and the disk not full?", what, file.string(),
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, int error) {
+  throw Error(fmt::format("cannot write {}: {}; is its folder yours, and the disk not full?", file.string(),
                           std::strerror(error)));
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& file, int error) {
+  throw Error(
+      fmt::format("cannot read {}: {}; check its name, and that you may read it", file.string(), std::strerror(error)));
+}
+
+void demand_name(const std::filesystem::path& file) {
+  if (file.empty()) throw Error("the path of the file is empty; name the file");
 }
 
 /// A file in the making, which is removed again unless it gets its name.
@@ -29,7 +38,7 @@ class Unfinished {
     if (descriptor_ < 0) {
       const int error = errno;
       temporary_.clear();
-      fail("write", file, error);
+      fail_to_write(file, error);
     }
   }
   ~Unfinished() {
@@ -59,7 +68,7 @@ class Unfinished {
   }
 
  private:
-  [[noreturn]] void give_up() const { fail("write", file_, errno); }
+  [[noreturn]] void give_up() const { fail_to_write(file_, errno); }
 
   std::filesystem::path file_;
   std::string temporary_;
@@ -69,20 +78,22 @@ class Unfinished {
 }  // namespace
 
 std::string read_whole(const std::filesystem::path& file, std::uint64_t limit) {
+  demand_name(file);
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) fail("read", file, EISDIR);
+  if (std::filesystem::is_directory(file, error)) fail_to_read(file, EISDIR);
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail("read", file, errno);
+  if (!in) fail_to_read(file, errno);
   std::string text(limit + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) fail("read", file, errno);
+  if (in.bad()) fail_to_read(file, errno);
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > limit) fail("read", file, EFBIG);
+  if (text.size() > limit) fail_to_read(file, EFBIG);
   return text;
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {
+  demand_name(file);
   Unfinished unfinished(file);
   unfinished.write(text);
   unfinished.finish();
