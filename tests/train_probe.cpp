@@ -224,6 +224,18 @@ TEST(Probe, SaysWhichEndIsNoPlace) {
   }
 }
 
+TEST(Probe, SaysANoInWordsWhereNothingIsNearEnoughToBeNamed) {
+  Mesh m;
+  for (const double x : {0.0, 210.0}) add_floor(m, x, -5.0, x + 10.0, 5.0, 0.0);
+  ProbeQuestion question{.from = {5.0, 0.0, 0.0}, .to = {215.0, 0.0, 0.0}};
+  const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passable || answer.passage.found);
+  EXPECT_FALSE(answer.limit);
+  const std::string said = explain(question, answer);
+  EXPECT_TRUE(said.starts_with("No: ") && contains(said, "No way was found")) << said;
+  EXPECT_TRUE(contains(said, "nor come near each other")) << said;
+}
+
 TEST(Probe, LetsASphereClimbItsRadiusAndACapsuleWhatIsBelowItsHead) {
   EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.2, .height = 0.4}), 0.2);
   EXPECT_DOUBLE_EQ(climbed(across, {.radius = 0.3, .height = 0.8}), 0.2);

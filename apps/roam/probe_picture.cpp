@@ -12,6 +12,7 @@
 #include "interrupt.h"
 #include "picture/opening.h"
 #include "probe_text.h"
+#include "train/probe_words.h"
 
 namespace roam::app {
 namespace {
@@ -73,8 +74,8 @@ OpeningView empty_view(const ProbeQuestion& question, const ProbeAnswer& answer)
 OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const ProbeLimit& limit = *answer.limit;
   OpeningView view = empty_view(question, answer);
-  view.heading =
-      text_of(limit) + ", at " + fmt::format("({:.2f}, {:.2f}, {:.2f})", limit.point.x, limit.point.y, limit.point.z);
+  view.heading = training::text_of(limit) + ", at " +
+                 fmt::format("({:.2f}, {:.2f}, {:.2f})", limit.point.x, limit.point.y, limit.point.z);
   view.heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(view.heading.front())));
   view.point = limit.point;
   view.direction = limit.direction;
@@ -143,7 +144,8 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
   overview.target = answer.target;
   overview.spacing = question.spacing;
   overview.way = answer.passage.way;
-  if (answer.limit) overview.marks.push_back({answer.limit->point, text_of(*answer.limit), answer.wide_enough});
+  if (answer.limit)
+    overview.marks.push_back({answer.limit->point, training::text_of(*answer.limit), answer.wide_enough});
   if (answer.walk && !answer.passable)
     overview.marks.push_back({answer.walk->at, std::string("walker ") + name(answer.walk->outcome), false});
   if (overview.way.empty()) {

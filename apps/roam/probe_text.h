@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `roam probe` reads and says: sizes, sentences, a table, JSON.
+/// What `roam probe` reads and says: sizes, a table, JSON. Its sentences are explain() of roam/probe.h.
 
 #include <span>
 #include <string>
@@ -15,10 +15,6 @@ namespace roam::app {
 /// Throws UsageError for what is none.
 [[nodiscard]] std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where);
 
-/// What decides, in a few words, with its size: "door 0.520 m wide".
-[[nodiscard]] std::string text_of(const ProbeLimit& limit);
-/// One to four sentences.
-[[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 /// The members of one size; `way` and what belongs to it only where they are asked for.
 [[nodiscard]] Json json_report(const ProbeAnswer& answer, bool with_way);
 /// One line a size.

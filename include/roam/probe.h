@@ -6,8 +6,8 @@
 ///     const roam::ProbeAnswer answer = roam::probe(survey, question, {.radius = 0.3, .height = 1.9});
 ///     if (answer.passable) {
 ///       go(roam::probed_path(survey, question, answer));
-///     } else if (answer.limit) {
-///       std::cout << name(answer.limit->kind) << ": " << answer.missing << " m are missing\n";
+///     } else {
+///       std::cout << roam::explain(question, answer) << "\n";  // "No: ... The door at ... is 0.520 m wide; ..."
 ///     }
 ///
 /// passage.h says how wide the widest way is; this says what that means to one body, or to many in one search. A yes is
@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "roam/error.h"
@@ -74,7 +75,8 @@ struct ProbeLimit {
     target,  ///< the same of `to`
     height,  ///< a lower body passes; `size` is the height from the feet that one of this radius may have
     step,    ///< who stepped more would pass; `size` is by how much the floor rises or falls at once
-    apart,   ///< nothing joins both ends: here they come nearest to each other; no `size`
+    apart,   ///< nothing joins both ends: here what is reached from them comes nearest to each other; no `size`.
+             ///< Told only where that is 1 m or nearer on foot, and 2 m flying
   };
   Kind kind = Kind::door;
   Vec3 point{0.0};       ///< the middle of what is measured; of a height and a step on the floor
@@ -100,11 +102,17 @@ struct ProbeAnswer {
   /// an end that is too low, that it is.
   bool proven = false;
   Vec3 start{0.0}, target{0.0};     ///< where a body stands for `from` and `to`: at most 2 m aside, in sight
-  std::optional<ProbeLimit> limit;  ///< none where nothing on the way is as narrow as is looked for
+  /// None where nothing on the way is as narrow as is looked for. Of a no, none where nothing joins both ends (not
+  /// passage.found) and they come nowhere near each other: two floors, say.
+  std::optional<ProbeLimit> limit;
   double missing = 0.0;           ///< what `limit` leaves too little for the body; 0 where it is enough, and for apart
   std::optional<Vec3> room;       ///< where an end is in the way: the nearest place found where it would not be
   std::optional<ProbeWalk> walk;  ///< where the way is wide enough
 };
+
+/// The answer in words: yes or no, by which way, or what stops the body, where, and how sure that is; one to four
+/// sentences.
+[[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 
 /// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins with "from" or "to" and says why.
 class NoRoomAtEnd : public Error {
