@@ -95,6 +95,7 @@ TEST(TrainVerb, RefusesWhatCannotBeMeant) {
   EXPECT_EQ(Train({}, {"--picture", "@scene.obj"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--paths", "0"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--height", "0.05"}).result.status, 2);
+  EXPECT_EQ(Train({}, {"--radius-min", "0.001"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--height", "500"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--seed", "-1"}).result.status, 2);
   const Train step({}, {"--height", "1.8", "--step", "1.75"});

@@ -17,7 +17,8 @@
 /// surface has no cracks; docs/gallery.md lists what is closed, what is open, what is from the paper and what is our
 /// choice.
 ///
-/// Options out of range throw roam::Error. All functions are safe to call from any thread.
+/// Options out of range throw roam::Error. All functions are safe to call from any thread. Library target
+/// roam::generate.
 
 #include <array>
 #include <cstdint>

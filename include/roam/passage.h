@@ -17,6 +17,7 @@
 /// what stops it.
 ///
 /// Lengths are metres, up is +z. Same input, same bits, on every machine and for any number of threads.
+/// Library target roam::train.
 
 #include <cstdint>
 #include <functional>

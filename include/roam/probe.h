@@ -15,6 +15,7 @@
 /// a step, the wall beside an end. `roam probe` asks just this; docs/training.md, "Probing", has it in a shell's words.
 ///
 /// Lengths are metres, up is +z. Same input, same bits. Functions may be called at the same time for one survey.
+/// Library target roam::train.
 
 #include <cstdint>
 #include <functional>
@@ -101,7 +102,7 @@ struct ProbeAnswer {
   /// Where a way is wide enough: as Passage::proven. Else: that none for a body of this radius exists is certified; of
   /// an end that is too low, that it is.
   bool proven = false;
-  Vec3 start{0.0}, target{0.0};     ///< where a body stands for `from` and `to`: at most 2 m aside, in sight
+  Vec3 start{0.0}, target{0.0};  ///< where a body stands for `from` and `to`: at most 2 m aside, in sight
   /// None where nothing on the way is as narrow as is looked for. Of a no, none where nothing joins both ends (not
   /// passage.found) and they come nowhere near each other: two floors, say.
   std::optional<ProbeLimit> limit;
@@ -114,7 +115,8 @@ struct ProbeAnswer {
 /// sentences.
 [[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 
-/// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins with "from" or "to" and says why.
+/// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins
+/// with "from" or "to" and says why.
 class NoRoomAtEnd : public Error {
  public:
   NoRoomAtEnd(const std::string& why, const std::optional<Vec3>& place) : Error(why), nearest(place) {}

@@ -18,7 +18,8 @@
 /// the larger foot has gone to where the body lost the ground, and is carried there. Nothing that is learned lets a
 /// body violate what Walker promises.
 ///
-/// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson.
+/// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson. Library target
+/// roam::train.
 
 #include <cstdint>
 #include <optional>

@@ -12,9 +12,9 @@
 /// with the real Walker just inside and just outside. docs/training.md has the definitions, the measured errors and
 /// what is certified.
 ///
-/// It takes a second or so for some rooms, a minute for a mine or a dam of half a million triangles, on two cores.
+/// It takes a second or so for some rooms, 5 to 30 s for a furnished house, a mine or a dam of 2 million triangles.
 ///
-/// Same survey, options and seed, same bits. Safe to call from any thread.
+/// Same survey, options and seed, same bits. Safe to call from any thread. Library target roam::train.
 
 #include <cstdint>
 #include <functional>

@@ -224,9 +224,8 @@ std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
     text = fmt::format("Yes: {} gets {} on a way of {:.1f} m; {}.", body, ways, p.length, narrowest(answer));
   } else if (answer.walk && falls(*answer.walk, question.mode)) {
     text = fmt::format(
-        "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (support_radius, "
-        "--support-radius), or a bridge. "
-        "Else it would get {} on a way of {:.1f} m; {}.",
+        "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (a support radius, "
+        "--support-radius), or a bridge. Else it would get {} on a way of {:.1f} m; {}.",
         body, walked_to(question, answer), ways, p.length, narrowest(answer));
   } else if (answer.walk) {
     const char* how = answer.walk->outcome == Outcome::left_scene ? "left the scene"
