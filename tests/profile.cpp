@@ -142,15 +142,6 @@ TEST(Profile, OfAnEmptyPathIsRefusedByTheOneTypeOfError) {
   EXPECT_THROW((void)roam::profile_path(none), roam::Error);
 }
 
-TEST(Profile, OfAMeshWithAVertexThatIsNotThereIsRefused) {
-  auto meshes = scene();
-  meshes.insert(meshes.begin(), roam::Mesh{});
-  meshes[1].name = "hall";
-  meshes[1].triangles[1][2] = 99;
-  const std::string said = complaint([&] { (void)roam::identity_of(meshes); });
-  EXPECT_TRUE(contains(said, "triangle 1 of mesh 1 (\"hall\") uses vertex 99, but the mesh has 4 vertices")) << said;
-}
-
 TEST(Profile, IsFoundBesideTheSceneOrNotAtAll) {
   const TestFolder folder;
   const std::filesystem::path dam = folder.file("dam.ply");
@@ -173,12 +164,6 @@ TEST(Profile, OfAnotherSceneIsNotFoundInSilence) {
       complaint([&] { (void)roam::find_profile(dam, roam::identity_of(std::vector<roam::Mesh>{})); });
   EXPECT_TRUE(contains(said, "dam.ply.roam.json is of another scene")) << said;
   EXPECT_TRUE(contains(said, "train again")) << said;
-}
-
-TEST(Profile, OfNoSceneBelongsToNone) {
-  EXPECT_FALSE(roam::Profile{}.belongs_to({}));
-  EXPECT_FALSE(roam::Profile{}.belongs_to(roam::identity_of(scene())));
-  EXPECT_FALSE(full_profile().belongs_to({}));
 }
 
 TEST(Profile, ThatIsNotThereOrNotGoodSaysWhatToDo) {
