@@ -17,8 +17,8 @@ namespace {
 
 constexpr double same = 2e-4;  ///< m, of both ends
 
-Training trained(std::vector<Mesh> meshes) {
-  return train(Survey::build(std::move(meshes), {.lossless = true, .progress = {}}), {.height = 1.8});
+Training trained(std::vector<Mesh> meshes, double height = 1.8) {
+  return train(Survey::build(std::move(meshes), {.lossless = true, .progress = {}}), {.height = height});
 }
 
 Mesh joined(const std::vector<Mesh>& meshes) {
@@ -109,6 +109,14 @@ TEST(TrainRealScenes, WaysInAHouseLeadOverNoFurnitureThatNobodyClimbs) {
   EXPECT_TRUE(t.contradictions.empty()) << t.answer;
   ASSERT_TRUE(t.largest.has_value()) << t.answer;
   EXPECT_NEAR(*t.largest, 0.240, 1e-3);
+}
+
+// A bit lower, a path begins on a bench, whose edge is the narrowest of its way: a body of any size drops off it.
+TEST(TrainRealScenes, NobodyIsExpectedToBeStoppedByAnEdgeThatAllDropOff) {
+  ROAM_NEEDS_TEST_DATA();
+  const Training t = trained(import_scene(test_data() / "building/small_house.glb").meshes, 1.7);
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -22,6 +23,9 @@ constexpr double longest_run_up = 12.0;
 
 /// m beyond an opening that a path must lead, and a body's radius, for a body to be stopped by it.
 constexpr double past_opening = 0.1;
+/// m, seen from above, over which a way falls at an edge.
+constexpr double edge = 0.1;
+
 /// m/s. Who is to fall goes slowly: at a walking pace a body hops across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
@@ -107,6 +111,7 @@ class Proof {
                    "just inside the opening"});
     // Beside a way that was planned round something there is a wider one, and a larger body may find it.
     if (!layout_.paths[path].is_widest) return;
+    if (drops_off(stretch(passage.way, place, outside + layout_.measure.step))) return;
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)
@@ -114,6 +119,18 @@ class Proof {
     // Where the path begins or ends in what is narrow, or within a radius of it, nothing is to be stopped.
     if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
     all.push_back({path, outside, foot_, std::move(through), Judgement::cannot_enter, "just outside the opening"});
+  }
+
+  /// Whether a way leads over an edge higher than a step: who comes down drops off it however wide he is, and nobody
+  /// goes up.
+  [[nodiscard]] bool drops_off(std::span<const Vec3> way) const {
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      for (std::size_t k = i + 1; k < way.size(); ++k) {
+        const Vec3 apart = way[k] - way[i];
+        if (std::hypot(apart.x, apart.y) <= edge && std::abs(apart.z) > layout_.measure.step) return true;
+      }
+    }
+    return false;
   }
 
   [[nodiscard]] bool sinks_into_shallow(std::size_t path) const {
