@@ -224,6 +224,9 @@ TEST_F(StoreVerbs, AWalkIsCheckedAgainstTheSceneAsTheStoreWasReadOfIt) {
   std::vector<std::string> otherwise = walk;
   otherwise.insert(otherwise.end(), {"--unit", "mm"});
   EXPECT_TRUE(contains(run(otherwise).out, "no triangle came near")) << "what is said counts";
+  std::vector<std::string> besides = walk;
+  besides.insert(besides.end(), {"--ignore", "nothing is called so"});
+  EXPECT_FALSE(contains(run(besides).out, "no triangle came near")) << "and what is not is the store's";
 }
 
 TEST_F(StoreVerbs, WhatIsNotThereOrNotCompleteIsSaidSo) {

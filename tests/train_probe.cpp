@@ -146,6 +146,22 @@ TEST(Probe, SaysWhyNobodyCanBeAtAnEndAndWhereOneCould) {
   }
 }
 
+TEST(Probe, NamesOpenGroundInSightToWhoIsOffTheScene) {
+  Mesh m;
+  add_floor(m, 0.0, 0.0, 20.0, 20.0, 0.0);
+  add_box(m, {0.0, 8.0, 0.0}, {4.0, 12.0, 2.9});
+  ProbeQuestion question = across;
+  question.from = {-3.0, 10.0, 1.5};
+  question.to = {10.0, 3.0, 0.0};
+  try {
+    static_cast<void>(probe(survey_of(m), question, {.radius = 0.3, .height = 1.8}));
+    FAIL() << "somebody stands off the scene";
+  } catch (const NoRoomAtEnd& error) {
+    ASSERT_TRUE(error.nearest);
+    EXPECT_LT(error.nearest->z, 0.5) << "the box's top is nearer, but too high to get to";
+  }
+}
+
 TEST(Probe, EndsWhenItIsToldTo) {
   const Survey survey = survey_of(room(0.84));
   for (const Mode mode : {Mode::walk, Mode::fly}) {

@@ -186,7 +186,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
 void check_usage(const BuildVerb& verb) {
   if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
   if (verb.memory < StoreBuildOptions::least_memory) {
-    throw UsageError(fmt::format("build: --memory {:.3g} MiB: a build needs at least {} MiB",
+    throw UsageError(fmt::format("build: --memory {:.5g} MiB: a build needs at least {} MiB",
                                  std::ldexp(static_cast<double>(verb.memory), -20),
                                  StoreBuildOptions::least_memory >> 20));
   }

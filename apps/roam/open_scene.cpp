@@ -189,11 +189,12 @@ Verification OpenScene::verified(std::span<const Piece> pieces,
 void read_as(SceneOptions& scene, const Store& store) {
   ImportOptions options;
   store::read_as(store.state().manifest.options, options);
-  scene.up = options.up ? std::string(1, "xyz"[static_cast<int>(*options.up)]) : std::string();
+  const SceneOptions unsaid;
+  if (scene.up.empty() && options.up) scene.up = "xyz"[static_cast<int>(*options.up)];
   for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
-    if (parse_length_unit(unit) == options.unit) scene.unit = unit;
+    if (scene.unit == unsaid.unit && parse_length_unit(unit) == options.unit) scene.unit = unit;
   }
-  scene.ignore = options.ignore;
+  if (scene.ignore.empty()) scene.ignore = options.ignore;
 }
 
 void check_against(const SceneOptions& scene) {

@@ -67,7 +67,8 @@ class OpenScene {
   std::unique_ptr<Pager> pager_;
 };
 
-/// Lets a scene be read as the store was that was made of it. Throws roam::Error where this program does not know how.
+/// Lets a scene be read as the store was that was made of it, in what its options do not say. Throws roam::Error where
+/// this program does not know how.
 void read_as(SceneOptions& scene, const Store& store);
 
 /// What verify_against needs, looked for before a walk that may take hours. Throws UsageError for a store, and

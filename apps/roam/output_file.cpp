@@ -25,9 +25,10 @@ void check_output(std::span<const std::filesystem::path> scenes, const std::stri
   if (!fs::is_directory(folder, none))
     throw UsageError(fmt::format("{} {}: there is no folder {}; make it first, or name a file elsewhere", option,
                                  file.string(), folder.string()));
-  if (::access(folder.c_str(), W_OK) != 0) {
-    throw UsageError(fmt::format("{} {}: its folder cannot be written: {}; name a file elsewhere", option,
-                                 file.string(), std::strerror(errno)));
+  const bool there = fs::exists(file, none);
+  if (::access(there ? file.c_str() : folder.c_str(), W_OK) != 0) {
+    throw UsageError(fmt::format("{} {}: {} cannot be written: {}; name a file elsewhere", option, file.string(),
+                                 there ? "it" : "its folder", std::strerror(errno)));
   }
 }
 

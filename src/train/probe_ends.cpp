@@ -102,9 +102,13 @@ double off_scene(const ProbeSearch& search, const Vec3& place) {
 /// one.
 std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& asked, double radius) {
   const Measure measure = search.measure();
+  // From far off a floor is mostly hidden, and to look around each takes long.
+  constexpr int most_from_off = 8;
   const bool is_off = off_scene(search, asked) > 0.0;
+  int tried = 0;
   std::array<std::optional<Vec3>, 4> found;
   for (const Vec3& floor : nearest_floors(search.survey, asked)) {
+    if (is_off && (found.front() || tried++ == most_from_off)) break;
     const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
     const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
     if (!room) continue;
@@ -112,7 +116,6 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& ask
     const bool higher = measure.mode == Mode::walk && room->z > asked.z + measure.step;
     std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
     if (!best || glm::distance(*room, asked) < glm::distance(*best, asked)) best = room;
-    if (is_off) break;  // all floors are hidden from there, and others are hardly nearer
   }
   for (const auto& place : found) {
     if (place) return place;
