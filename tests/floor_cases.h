@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -278,11 +279,96 @@ inline void add_drops(std::vector<FloorCase>& cases) {
                    .is_reached = anywhere});
 }
 
+// ------------------------------------------------------------------------------------------ cracks that lead to drops
+
+/// A floor at z = 0 with these corners, as a fan.
+inline void add_fan(Mesh& mesh, const std::vector<Vec3>& corners) {
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    scenes::add_triangle(mesh, corners[0], corners[i], corners[i + 1]);
+}
+
+/// Walls from each place to the next.
+inline void add_walls(Mesh& mesh, const std::vector<std::pair<double, double>>& places) {
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+    scenes::add_wall(mesh, places[i].first, places[i].second, places[i + 1].first, places[i + 1].second, -3.0, 3.0);
+}
+
+/// A split between two floors, 12 m long and `from` to `to` wide, that ends in a pit 3 m long.
+inline Mesh split_to_pit(double from, double to) {
+  constexpr double length = 12.0;
+  Mesh mesh;
+  add_fan(mesh, {{0.0, 0.0, 0.0}, {4.0 - 0.5 * from, 0.0, 0.0}, {4.0 - 0.5 * to, length, 0.0}, {0.0, length, 0.0}});
+  add_fan(mesh, {{4.0 + 0.5 * from, 0.0, 0.0}, {8.0, 0.0, 0.0}, {8.0, length, 0.0}, {4.0 + 0.5 * to, length, 0.0}});
+  add_walls(mesh, {{0.0, 0.0}, {8.0, 0.0}, {8.0, length + 3.0}, {0.0, length + 3.0}, {0.0, 0.0}});
+  return mesh;
+}
+
+/// A floor x < 3.55 and beside it a gap `length` long that a wall makes 0.6 to 0.9 m wide, with open drop beyond;
+/// `nose` narrower in the last 0.2 m.
+inline Mesh gap_to_drop(double length, double nose) {
+  Mesh mesh;
+  add_fan(mesh, {{0.0, 0.0, 0.0}, {3.55, 0.0, 0.0}, {3.55, length + 0.8, 0.0}, {0.0, length + 0.8, 0.0}});
+  add_walls(mesh, {{4.15, 0.0},
+                   {4.45, length},
+                   {4.45, length + 0.6},
+                   {4.45 - nose, length + 0.6},
+                   {4.45 - nose, length + 0.8},
+                   {8.0, length + 0.8}});
+  add_walls(mesh, {{0.0, 0.0}, {8.0, 0.0}, {8.0, length + 4.0}, {0.0, length + 4.0}, {0.0, 0.0}});
+  return mesh;
+}
+
+inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
+  // As straight as it is long: no climb leaves the part that belongs to the drop, and none comes to it.
+  Mesh gap;
+  add_fan(gap, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 9.3, 0.0}, {0.0, 9.3, 0.0}});
+  add_walls(gap, {{4.9, 0.0}, {4.9, 9.0}, {9.0, 9.0}});
+  add_walls(gap, {{0.0, 0.0}, {9.0, 0.0}, {9.0, 13.0}, {0.0, 13.0}, {0.0, 0.0}});
+  cases.push_back({.name = "LongGapAlongAWallToADrop", .mesh = std::move(gap), .cracks = {0.45}, .has_drop = true});
+  // Two floors; the one ends at a pier, beyond which the gap is as wide as 0.9 m, then 0.85 m, then open.
+  Mesh pier;
+  add_fan(pier, {{0.0, 0.0, 0.0}, {3.55, 0.0, 0.0}, {3.55, 3.6, 0.0}, {0.0, 3.6, 0.0}});
+  add_fan(pier, {{0.0, 3.6, 0.0}, {3.575, 3.6, 0.0}, {3.575, 3.8, 0.0}, {0.0, 3.8, 0.0}});
+  add_fan(pier, {{4.15, 0.0, 0.0}, {8.0, 0.0, 0.0}, {8.0, 2.6, 0.0}, {4.39375, 2.6, 0.0}});
+  add_walls(pier, {{8.0, 2.6}, {4.39375, 2.6}, {4.45, 3.2}, {4.45, 3.6}, {4.425, 3.6}, {4.425, 3.8}, {8.0, 3.8}});
+  enclose(pier);
+  cases.push_back(
+      {.name = "SplitThatEndsAtAPierBesideADrop", .mesh = std::move(pier), .cracks = {0.45}, .has_drop = true});
+  cases.push_back({.name = "GapAlongAWallThatWidensUpToANarrowOutlet",
+                   .mesh = gap_to_drop(4.0, 0.025),
+                   .cracks = {0.45},
+                   .has_drop = true});
+  // What is nearer than r + 1 m to the first open disc that a body of r comes to, around the wall's corner, belongs to
+  // the drop: y > 4.0, where the gap is 0.9 m wide.
+  cases.push_back({.name = "GapAlongAWallThatWidensTowardsADrop",
+                   .mesh = gap_to_drop(4.0, 0.0),
+                   .cracks = {0.445},
+                   .has_drop = true,
+                   .tolerance = 0.02});
+  // Measured up to where an open disc that touches both corners of the mouth takes over, 1 - sqrt(1 - w^2 / 4) inside.
+  const auto widest = [](double from, double to) {
+    const double slant = 0.5 * (to - from) / 12.0, cosine = 1.0 / std::hypot(1.0, slant);
+    if (slant < 0.0) return 0.5 * from * cosine / (1.0 - slant * cosine);  // touches the wall
+    return (0.5 * to - slant * (1.0 - std::sqrt(1.0 - 0.25 * to * to))) * cosine;
+  };
+  for (const auto& [name, from, to] : {std::tuple{"SplitToAPit2MillimetresWiderThere", 0.6, 0.602},
+                                       {"SplitToAPit2MillimetresNarrowerThere", 0.602, 0.6},
+                                       {"SplitToAPit30CentimetresWiderThere", 0.6, 0.9},
+                                       {"SplitToAPit30CentimetresNarrowerThere", 0.9, 0.6},
+                                       {"SplitToAPitAsWideAllAlong", 0.6, 0.6}})
+    cases.push_back({.name = name,
+                     .mesh = split_to_pit(from, to),
+                     .cracks = {widest(from, to)},
+                     .has_drop = true,
+                     .tolerance = 5e-4});
+}
+
 inline std::vector<FloorCase> floor_cases() {
   std::vector<FloorCase> cases;
   add_holes(cases);
   add_floors(cases);
   add_drops(cases);
+  add_cracks_to_drops(cases);
   return cases;
 }
 

@@ -20,27 +20,17 @@ constexpr double same_depth = 2e-3;
 
 /// From the floor that a disc touches first to what it touches most nearly opposite.
 Vec3 across(const FloorPlan& plan, const Disc& disc) {
-  std::vector<NearPlace> near;
-  plan.touching(disc.centre, 2.0 * disc.radius, 0.02 * disc.radius, near);
-  const auto away = [&](const NearPlace& n) {
-    const Vec3 d = disc.centre - n.point;
-    const double length = std::hypot(d.x, d.y);
-    return length > 0.0 ? Vec3(d.x / length, d.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
-  };
-  const Vec3 first = away(near.front());
-  NearPlace other = near.front();
-  double least = 1.0;
-  for (const NearPlace& n : near) {
-    const Vec3 from = away(n);
-    if (const double along = first.x * from.x + first.y * from.y; along < least) {
-      least = along;
-      other = n;
-    }
-  }
+  const std::vector<TouchedFloor> touched = touched_floor(plan, disc);
+  if (touched.empty()) return {1.0, 0.0, 0.0};
+  const TouchedFloor& first = touched.front();
+  const auto along = [&](const TouchedFloor& t) { return first.way.x * t.way.x + first.way.y * t.way.y; };
+  const auto other =
+      std::min_element(touched.begin(), touched.end(),
+                       [&](const TouchedFloor& a, const TouchedFloor& b) { return along(a) < along(b); });
   // Beside a wall there is floor on one side only.
-  Vec3 direction = least < 0.0 ? other.point - near.front().point : first;
-  direction /= std::hypot(direction.x, direction.y);
+  Vec3 direction = along(*other) < 0.0 ? other->near.point - first.near.point : first.way;
   direction.z = 0.0;
+  direction /= std::hypot(direction.x, direction.y);
   return direction.x < 0.0 || (direction.x == 0.0 && direction.y < 0.0) ? -direction : direction;
 }
 
@@ -62,7 +52,9 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
 /// Discs that overlap at about one level belong to one drop.
 std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<RimPlace>& open) {
   std::vector<FoundCrack> all;
-  for (const std::vector<std::size_t>& group : together(open, options.support_max, options.step)) {
+  std::vector<Vec3> centres;
+  for (const RimPlace& place : open) centres.push_back(place.disc.centre);
+  for (const std::vector<std::size_t>& group : together(centres, options.support_max, options.step)) {
     FoundCrack& drop = all.emplace_back();
     const RimPlace& first = open[group.front()];
     drop.kind = Crack::Kind::open_drop;
@@ -89,8 +81,14 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
   const std::vector<RimPlace> voids = find_voids(survey, options, probe, is_reached, finding, ended);
   std::vector<RimPlace> open, rest;
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
-  std::vector<FoundCrack> cracks;
   const OpenDrops drops(options, probe, open);
+  // A rim belongs to a drop by where it lies, not by where its climb ends: that may be at the far end of a long split.
+  const auto split = std::stable_partition(open.begin(), open.end(),
+                                           [&](const RimPlace& place) { return drops.cover(place.outside); });
+  rest.insert(rest.end(), split, open.end());
+  open.erase(split, open.end());
+  std::sort(rest.begin(), rest.end(), lies_before);
+  std::vector<FoundCrack> cracks;
   for (const MeasuredVoid& measured : measure_voids(options, probe, drops, rest, is_reached, measuring, ended)) {
     if (measured.disc.radius >= probe.open()) {
       for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});

@@ -38,7 +38,31 @@ std::optional<Climb> steepest(const Vec3& centre, const std::vector<NearPlace>& 
   return Climb{std::cos(middle), std::sin(middle), std::cos(0.5 * arc)};
 }
 
+/// Of the way from a place to one where a disc is as large as `enough`, the first place where it is.
+Vec3 first_enough(const Plan& plan, const Vec3& from, const Vec3& to, double enough) {
+  constexpr double precision = 1e-6;  // m
+  double below = 0.0, above = 1.0;
+  while ((above - below) * std::hypot(to.x - from.x, to.y - from.y) > precision) {
+    const double middle = 0.5 * (below + above);
+    (plan.nearest(from + middle * (to - from), enough).distance >= enough ? above : below) = middle;
+  }
+  return from + above * (to - from);
+}
+
 }  // namespace
+
+std::vector<TouchedFloor> touched_floor(const FloorPlan& plan, const Disc& disc) {
+  constexpr double touch_share = 0.02;  // of the radius: floor that is so little farther
+  const double reach = 2.0 * disc.radius;
+  std::vector<NearPlace> near;
+  plan.touching(disc.centre, reach, touch_share * disc.radius, near);
+  std::vector<TouchedFloor> touched;
+  for (const NearPlace& n : near) {
+    const double x = n.point.x - disc.centre.x, y = n.point.y - disc.centre.y, length = std::hypot(x, y);
+    if (n.distance < reach && length > 0.0) touched.push_back({n, {x / length, y / length, 0.0}});
+  }
+  return touched;
+}
 
 Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, const MayMove& may_move) {
   // Rims that part by less than this a metre are taken for parallel: 0.04 mm over the 4 m that are looked at.
@@ -62,7 +86,9 @@ Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, 
         const Vec3 next = disc.centre + Vec3(way * climb->x, way * climb->y, 0.0);
         moved = plan.nearest(next, enough).distance >= std::min(disc.radius + fair_share * climb->rate * way, enough) &&
                 may_move(disc.centre, next);
-        if (moved) disc.centre = next;
+        if (!moved) continue;
+        const bool is_enough = plan.nearest(next, enough).distance >= enough;
+        disc.centre = is_enough ? first_enough(plan, disc.centre, next, enough) : next;
       }
     }
     if (moved) continue;

@@ -75,12 +75,21 @@ struct Disc {
   double radius = 0.0;
 };
 
+/// Floor that a disc touches, or nearly (2 % of its radius), and the way to it: level, of length 1.
+struct TouchedFloor {
+  NearPlace near;
+  Vec3 way{0.0};
+};
+
+/// All floor that a disc touches, the nearest first.
+[[nodiscard]] std::vector<TouchedFloor> touched_floor(const FloorPlan& plan, const Disc& disc);
+
 /// Whether a disc's centre may be moved straight from one place to another.
 using MayMove = std::function<bool(const Vec3& from, const Vec3& to)>;
 
 /// Climbs from `start` to a place where the free disc is largest, to `precision` (m), along the bisector of
-/// what it nearly touches: so it follows a ridge between two rims that part slowly. Ends early where it is as large as
-/// `enough`.
+/// what it nearly touches: so it follows a ridge between two rims that part slowly. Ends early where it is just as
+/// large as `enough`.
 [[nodiscard]] Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, const MayMove& may_move);
 
 }  // namespace roam::training

@@ -22,6 +22,7 @@ constexpr double kWindow = 4.0;         ///< m around a rim's disc that one floo
 constexpr double kSpacingShare = 0.7;   ///< of the probe's radius: each place of a ridge has a cell within half of it
 constexpr double kSinkMargin = 0.003;   ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
 constexpr std::size_t kMostDiscs = 32;  ///< of one flood that are grown
+constexpr std::size_t kMostBeside = 3;  ///< likewise, up to where an open drop begins, which takes long
 
 /// A place of the lattice at the level of one void.
 struct Cell {
@@ -31,6 +32,7 @@ struct Cell {
   double floor = 0.0;     ///< of floor
   std::uint32_t flood = 0;
   bool inside = false;  ///< of the flood; else floor, a wall, filled up, or an open drop
+  bool drop = false;    ///< turned out to belong to an open drop
 };
 
 /// The voids of one part of the scene that no other part's floods come to.
@@ -47,7 +49,7 @@ class Floods {
         spacing_(kSpacingShare * probe.radius()) {}
 
   void add(const RimPlace& place) {
-    if (drops_.cover(place.disc.centre)) return;
+    if (drops_.cover(place.outside)) return;
     std::optional<std::uint32_t> flood = flood_at(place.outside);
     if (!flood) flood = fill(place.outside);
     rims_[*flood].push_back(place.rim);
@@ -60,12 +62,14 @@ class Floods {
     return flood.has_value();
   }
 
+  /// Of each void that floods make up, the largest disc that is no open drop; and what of it is one, by itself.
   std::vector<MeasuredVoid> measured() {
-    std::map<std::uint32_t, MeasuredVoid> voids;
+    std::map<std::pair<std::uint32_t, bool>, MeasuredVoid> voids;
     for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
-      MeasuredVoid& whole = voids[sets_.find(flood)];
-      whole.foot = std::max({whole.foot, discs_[flood].radius, feet_[flood]});
       const Disc& disc = discs_[flood];
+      const bool is_open = disc.radius >= probe_.open();
+      MeasuredVoid& whole = voids[{sets_.find(flood), is_open}];
+      whole.foot = std::max({whole.foot, disc.radius, feet_[flood]});
       if (disc.radius > whole.disc.radius ||
           (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
         whole.disc = disc;
@@ -120,7 +124,6 @@ class Floods {
   std::uint32_t fill(const Vec3& seed) {
     const std::uint32_t flood = sets_.add();
     rims_.emplace_back();
-    beside_open_.push_back(false);
     std::deque<Cell> open;
     std::vector<Cell> filled;
     const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
@@ -140,9 +143,10 @@ class Floods {
       enter(from, cell.x, cell.y + 1);
       enter(from, cell.x, cell.y - 1);
     }
-    const OpenPart open_part = open_part_of(flood, filled);
-    discs_.push_back(largest(seed, filled, open_part));
-    feet_.push_back(foot_over(filled, open_part));
+    std::vector<Vec3> own_drops = open_discs(filled);
+    discs_.push_back(largest(seed, filled, own_drops));
+    const Disc& disc = discs_.back();
+    feet_.push_back(disc.radius > 0.0 && disc.radius < probe_.open() ? foot_over(filled, own_drops) : 0.0);
     return flood;
   }
 
@@ -159,16 +163,13 @@ class Floods {
       const double floor = probe_.floor().nearest(place, options_.support_max).distance;
       const double body = probe_.body().nearest_wall(place, floor).distance;
       std::vector<Cell>& square = cells_[square_number(x, y)];
-      square.push_back({x, y, level, body, floor, flood, false});
+      square.push_back({x, y, level, body, floor, flood, false, false});
       cell = &square.back();
     }
     // A ridge where the probe just fits has cells on it with so much less.
     const double least = probe_.radius() - half_diagonal();
     if (cell->distance < least) return std::nullopt;
-    if (drops_.cover(place)) {
-      beside_open_[flood] = true;
-      return std::nullopt;
-    }
+    if (drops_.cover(place, cell->floor)) return std::nullopt;
     const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
     if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
     cell->level = level;
@@ -177,79 +178,116 @@ class Floods {
     return *cell;
   }
 
+  /// None of the flood's cells about it is higher, but for some that belong to an open drop and rise from it slowly, as
+  /// along a ridge. One that rises steeply has this cell on the flank of its ridge.
   bool is_highest(const Cell& cell) {
+    constexpr double slowly = 0.5;
     for (std::int64_t x = cell.x - 1; x <= cell.x + 1; ++x) {
       for (std::int64_t y = cell.y - 1; y <= cell.y + 1; ++y) {
-        if (const Cell* near = find(x, y, cell.level); near && near->distance > cell.distance) return false;
+        const Cell* near = find(x, y, cell.level);
+        if (!near || !near->inside) continue;
+        const double rise = near->distance - cell.distance;
+        if (rise > (near->drop ? slowly * level_distance(place_of(*near), place_of(cell)) : 0.0)) return false;
       }
     }
     return true;
   }
 
-  /// What of a flood is an open drop.
-  struct OpenPart {
-    std::vector<Vec3> centres;  ///< of its own open discs
-    bool any = false;           ///< it comes to one, of its own or of those that were climbed to
-  };
-
-  OpenPart open_part_of(std::uint32_t flood, const std::vector<Cell>& cells) const {
-    OpenPart open{open_discs(cells), beside_open_[flood]};
-    open.any = open.any || !open.centres.empty();
-    return open;
+  /// Whether one of a flood's own open discs takes in a place of it.
+  bool is_in(const std::vector<Vec3>& own_drops, const Vec3& place, double floor) const {
+    return std::any_of(own_drops.begin(), own_drops.end(),
+                       [&](const Vec3& centre) { return takes_in(options_, probe_, centre, place, floor); });
   }
 
   /// Whether a place lies in an open disc that is known.
-  bool is_open(const Vec3& place, const OpenPart& open) const {
-    return drops_.cover(place) || std::any_of(open.centres.begin(), open.centres.end(), [&](const Vec3& centre) {
-             return level_distance(centre, place) <= options_.support_max && probe_.sees(centre, place);
-           });
+  bool is_open(const Vec3& place, const std::vector<Vec3>& own_drops) const {
+    const double floor = probe_.floor().nearest(place, options_.support_max).distance;
+    return drops_.cover(place, floor) || is_in(own_drops, place, floor);
   }
 
-  bool belongs_to_drop(const Disc& disc, const OpenPart& open) const {
-    return is_open(disc.centre, open) || (open.any && opens_into_drop(options_, probe_, is_reached_, disc));
+  /// Whether a place in no open disc is a part of the drop that it lies beside.
+  bool is_beside_drop(const Vec3& place, const std::vector<Vec3>& own_drops) const {
+    // Of a body and on to where it comes to, and of an arc about a corner: open discs are known on its two ends.
+    const double reach = 2.5 * options_.support_max;
+    return (drops_.any_near(place, reach) || is_near(own_drops, place, reach)) &&
+           opens_into_drop(options_, probe_, is_reached_, place, ended_);
   }
 
   /// The farthest from floor that the axis of a smallest body comes, outside open drops: no foot carries there.
-  double foot_over(std::vector<Cell>& cells, const OpenPart& open) const {
+  double foot_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.floor != b.floor ? a.floor > b.floor : std::tie(a.x, a.y) < std::tie(b.x, b.y);
     });
-    const auto carried = std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) {
-      return cell.distance >= probe_.radius() && cell.floor < probe_.open() && !is_open(place_of(cell), open);
-    });
-    return carried == cells.end() ? 0.0 : carried->floor;
+    std::vector<Vec3> beside;
+    for (const Cell& cell : cells) {
+      const Vec3 place = place_of(cell);
+      if (cell.distance < probe_.radius() || cell.floor >= probe_.open() || is_in(own_drops, place, cell.floor) ||
+          is_near(beside, place, 2.0 * options_.smallest))
+        continue;
+      if (!is_beside_drop(place, own_drops)) return cell.floor;
+      beside.push_back(place);
+    }
+    return 0.0;
   }
 
-  /// Grown from the best cells that none beside them exceeds, and from the seed. Of discs that grow into an open drop,
-  /// or come to lie in one, nothing remains: what is left is measured without them. Radius 0 where nothing is left;
-  /// open where the whole void is.
-  Disc largest(const Vec3& seed, std::vector<Cell>& cells, const OpenPart& open) {
+  static bool is_near(const std::vector<Vec3>& places, const Vec3& place, double reach) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Vec3& other) { return level_distance(other, place) < reach; });
+  }
+
+  /// Grown from the best cells that none beside them exceeds, and from the seed, but to no place that belongs to an
+  /// open drop. Radius 0 where no place is left; open where the flood itself found such a drop. The open discs that are
+  /// met go to `own_drops`.
+  Disc largest(const Vec3& seed, std::vector<Cell>& cells, std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
     });
-    Disc best, drop = open.centres.empty() ? Disc{} : Disc{open.centres.front(), options_.support_max};
-    const auto try_from = [&](const Vec3& start) {
-      if (is_open(start, open)) return;
-      const Disc disc = grown(start);
-      if (disc.radius >= probe_.open()) {
-        drop = disc;
-      } else if (disc.radius > best.radius && !belongs_to_drop(disc, open)) {
-        best = disc;
-      }
-    };
-    try_from(seed);
-    std::vector<Vec3> starts;
+    Disc best = grown_outside(seed, own_drops);
+    if (best.radius > 0.0 && is_beside_drop(best.centre, own_drops)) best = {};
+    std::vector<Vec3> starts, beside;
+    std::size_t again = 0;
     for (const Cell& cell : cells) {
-      if (cell.distance + half_diagonal() <= best.radius || starts.size() == kMostDiscs) break;
+      const double most = cell.distance + half_diagonal();
+      if (most <= std::max(best.radius, options_.smallest - VoidProbe::precision) || starts.size() == kMostDiscs) break;
       const Vec3 start = place_of(cell);
-      const bool again = std::any_of(starts.begin(), starts.end(), [&](const Vec3& other) {
-        return level_distance(other, start) < 0.5 * cell.distance;
-      });
-      if (again || !is_highest(cell) || is_open(start, open)) continue;
+      Cell& marked = *find(cell.x, cell.y, cell.level);
+      marked.drop = cell.floor >= probe_.open() || is_in(own_drops, start, cell.floor) ||
+                    is_near(beside, start, std::max(0.25 * cell.distance, 2.0 * options_.smallest));
+      if (marked.drop || is_near(starts, start, 0.5 * cell.distance) || !is_highest(cell)) continue;
+      Disc disc = grown_outside(start, own_drops);
+      if (disc.radius > best.radius && is_beside_drop(disc.centre, own_drops)) {
+        marked.drop = is_beside_drop(start, own_drops);
+        if (marked.drop) {
+          beside.push_back(start);
+          continue;
+        }
+        disc = again++ < kMostBeside ? grown_beside(start, own_drops) : Disc{start, cell.distance};
+      }
       starts.push_back(start);
-      try_from(start);
+      if (disc.radius > best.radius) best = disc;
     }
-    return best.radius > 0.0 ? best : drop;
+    if (best.radius > 0.0 || own_drops.empty()) return best;
+    return {own_drops.front(), options_.support_max};
+  }
+
+  /// As grown, into no open disc; those that are met go to `own_drops`. Radius 0 where one takes in `start`.
+  Disc grown_outside(const Vec3& start, std::vector<Vec3>& own_drops) const {
+    while (!is_open(start, own_drops)) {
+      const Disc disc = grown(start, [&](const Vec3& to) { return !is_open(to, own_drops); });
+      if (disc.radius < probe_.open()) return disc;
+      own_drops.push_back(disc.centre);
+    }
+    return {};
+  }
+
+  /// As grown, past no place that belongs to an open drop, as far as `about`.
+  Disc grown_beside(const Vec3& start, const std::vector<Vec3>& own_drops) const {
+    constexpr double about = 0.01;  // m: where such places begin is not sharper
+    const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
+    const Disc near = grow(probe_.body(), start, probe_.open(), about,
+                           [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
+    return grown(near.centre,
+                 [&](const Vec3& to) { return level_distance(to, near.centre) <= about && !is_open(to, own_drops); });
   }
 
   /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
@@ -265,21 +303,23 @@ class Floods {
     return discs;
   }
 
-  /// The largest body that goes in near `start`, and a foot that carries it there. Where walls leave no room for a body
-  /// as wide as the gap, it takes the foot that carries the widest bodies that they let in.
-  Disc grown(const Vec3& start) const {
+  /// The way between two places lies in the void.
+  bool stays(const Vec3& from, const Vec3& to) const {
+    return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - kSinkMargin);
+  }
+
+  /// The largest body that goes in near `start` and where it may, and a foot that carries it there. Where walls leave
+  /// no room for a body as wide as the gap, it takes the foot that carries the widest bodies that they let in.
+  Disc grown(const Vec3& start, const std::function<bool(const Vec3& to)>& may_be) const {
     constexpr double finest = 0.1 * VoidProbe::precision;
     constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
     constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
-    const double sphere = probe_.radius() - kSinkMargin;
-    const auto stays = [&](const Vec3& from, const Vec3& to) {
-      return probe_.sees(from, to) && probe_.sinks(to, sphere);
-    };
-    const Disc body = grow(probe_.body(), start, probe_.open(), finest, stays);
+    const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
+    const Disc body = grow(probe_.body(), start, probe_.open(), finest, may_move);
     if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
     return grow(probe_.floor(), body.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
       const double room = widest_share * body.radius;
-      return stays(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
+      return may_move(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
     });
   }
 
@@ -294,14 +334,15 @@ class Floods {
   std::vector<Disc> discs_;              ///< of each flood
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
   std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
-  std::vector<bool> beside_open_;        ///< likewise: it comes to open drops that were climbed to
 };
 
 /// What was climbed to and not measured: the widest disc of each void.
 std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& drops, std::vector<RimPlace> places) {
-  std::erase_if(places, [&](const RimPlace& place) { return drops.cover(place.disc.centre); });
+  std::erase_if(places, [&](const RimPlace& place) { return drops.cover(place.outside); });
   std::vector<MeasuredVoid> voids;
-  for (const std::vector<std::size_t>& group : together(places, options.support_max, options.step)) {
+  std::vector<Vec3> centres;
+  for (const RimPlace& place : places) centres.push_back(place.disc.centre);
+  for (const std::vector<std::size_t>& group : together(centres, options.support_max, options.step)) {
     MeasuredVoid& found = voids.emplace_back();
     for (const std::size_t i : group) {
       if (places[i].disc.radius > found.disc.radius) found.disc = places[i].disc;
@@ -312,39 +353,15 @@ std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& 
   return voids;
 }
 
-/// Places in parts that are farther from each other than two floods reach, in the order of their first places.
-std::vector<std::vector<RimPlace>> apart(const std::vector<RimPlace>& places) {
-  constexpr double side = 2.0 * kWindow + 0.5;
-  std::unordered_map<std::uint64_t, std::uint32_t> squares;
-  DisjointSets sets;
-  std::vector<std::uint32_t> square_of;
-  for (const RimPlace& place : places) {
-    const Vec3& c = place.disc.centre;
-    const auto [square, is_new] = squares.try_emplace(square_at(c.x, c.y, side), std::uint32_t(sets.size()));
-    if (is_new) sets.add();
-    square_of.push_back(square->second);
-    for (int k = 0; is_new && k < 9; ++k) {
-      const auto beside = squares.find(square_at(c.x + (k % 3 - 1) * side, c.y + (k / 3 - 1) * side, side));
-      if (beside != squares.end()) sets.unite(beside->second, square->second);
-    }
-  }
-  std::vector<std::vector<RimPlace>> parts;
-  std::unordered_map<std::uint32_t, std::size_t> part_of;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto [part, is_new] = part_of.try_emplace(sets.find(square_of[i]), parts.size());
-    if (is_new) parts.emplace_back();
-    parts[part->second].push_back(places[i]);
-  }
-  return parts;
-}
-
 }  // namespace
 
 std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
                                         const std::vector<RimPlace>& places,
                                         const std::function<bool(const Vec3& foot)>& is_reached,
                                         const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
-  const std::vector<std::vector<RimPlace>> parts = apart(places);
+  std::vector<Vec3> seeds;
+  for (const RimPlace& place : places) seeds.push_back(place.outside);
+  const std::vector<std::vector<std::size_t>> parts = apart(seeds, 2.0 * kWindow + 0.5);
   std::vector<std::vector<MeasuredVoid>> measured(parts.size());
   std::vector<std::vector<RimPlace>> left(parts.size());
   std::mutex mutex;
@@ -356,7 +373,8 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
   };
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     Floods floods(options, probe, drops, is_reached, ended);
-    for (const RimPlace& place : parts[i]) {
+    for (const std::size_t k : parts[i]) {
+      const RimPlace& place = places[k];
       asked();
       if (!ended)
         floods.add(place);

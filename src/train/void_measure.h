@@ -16,8 +16,8 @@ struct MeasuredVoid {
   std::vector<Vec3> rim;
 };
 
-/// The voids of rim places whose climbs ended below probe.open(), and those that turned out to be as large after all.
-/// Places that `drops` cover belong to them and are left out. `is_reached` as find_cracks. `goes_on` is asked from
+/// The voids of rim places that lie in no drop that was climbed to, and what of them turned out to be one after all.
+/// Places that belong to drops are left out. `is_reached` as find_cracks. `goes_on` is asked from
 /// several threads, one at a time, with the fraction done; when it says so, or `ended` is set before, what is not
 /// measured yet is as wide as its best climb, to some millimetres.
 [[nodiscard]] std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe,

@@ -46,6 +46,11 @@ bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
   return !met.hit;
 }
 
+bool VoidProbe::lets_pass(const Vec3& from, const Vec3& to, double body) const {
+  if (body <= 0.0) return true;
+  return !survey_.world().sweep({body, 0.0}, from + Vec3(0.0, 0.0, options_.knee + body), to - from).hit;
+}
+
 bool VoidProbe::sinks(const Vec3& place, double radius) const {
   const Vec3 knee = place + Vec3(0.0, 0.0, options_.knee);
   return !survey_.world().sweep({radius, 0.0}, knee, {0.0, 0.0, radius - step_ - options_.knee}).hit;
@@ -128,9 +133,7 @@ std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& optio
   });
   std::vector<RimPlace> all;
   for (const std::vector<RimPlace>& part : found) all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end(), [](const RimPlace& a, const RimPlace& b) {
-    return comes_before(a.rim, b.rim) || (a.rim == b.rim && comes_before(a.outside, b.outside));
-  });
+  std::sort(all.begin(), all.end(), lies_before);
   return all;
 }
 

@@ -31,6 +31,8 @@ class VoidProbe {
   /// Nothing between two places at knee height. A sphere is swept, as small as goes between a rail and a wall and
   /// larger than the gaps of badly made walls: a ray would slip through those.
   [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const;
+  /// A body as large comes straight from one place to another without meeting a wall.
+  [[nodiscard]] bool lets_pass(const Vec3& from, const Vec3& to, double body) const;
   /// A sphere let go at knee height sinks farther than a step below the place.
   [[nodiscard]] bool sinks(const Vec3& place, double radius) const;
   /// Where a foot comes to rest that sinks there; none where there is no bottom.
@@ -46,7 +48,7 @@ class VoidProbe {
   BodyPlan body_;
 };
 
-/// A place of a rim and the disc that its void was climbed to from there.
+/// A place of a rim and the disc that its void was climbed to from there, which may be far away.
 struct RimPlace {
   Vec3 rim{0.0};
   Vec3 outside{0.0};  ///< in the void
@@ -63,6 +65,11 @@ struct RimPlace {
 /// Level by level, first by x.
 [[nodiscard]] inline bool comes_before(const Vec3& a, const Vec3& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+/// By where the rim is.
+[[nodiscard]] inline bool lies_before(const RimPlace& a, const RimPlace& b) {
+  return comes_before(a.rim, b.rim) || (a.rim == b.rim && comes_before(a.outside, b.outside));
 }
 
 }  // namespace roam::training
