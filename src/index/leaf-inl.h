@@ -188,7 +188,7 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// Any w bounds: over the whole way m, from any place of the axis t of the way along,
 /// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
 /// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
-/// `most` becomes how near they come at least, but for rounding.
+/// `most` becomes a distance that they come within, but for rounding.
 template <class Bounds>
 HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
                           VF& left, Children& out, float* most) {

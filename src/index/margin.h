@@ -60,7 +60,8 @@ inline constexpr float kHitLimit = 1.99e-3F;
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double kLongestPiece = 64.0;
 
-/// From so many on, the children of a node that a body may meet are bounded by a second plane.
+/// From so many on, the children of a node that a body may meet on a motion of up to kShortMotion are bounded by a
+/// second plane. Rays do without.
 inline constexpr int kManyChildren = 4;
 
 /// Metres. The box around a longer motion is too wide to tell much of what the motion meets.

@@ -26,8 +26,7 @@ HWY_INLINE std::uint32_t nearest_of(const Children& children) {
 }
 
 /// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink. For a
-/// gap
-/// (`Bounds` is Slack, else Tight) that may be told less closely, and is for less.
+/// gap (`Bounds` is Slack, else Tight) that may be told less closely, and is for less.
 template <class Bounds>
 class NearTraversal {
  public:

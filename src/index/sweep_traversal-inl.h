@@ -93,38 +93,39 @@ class SweepTraversal {
   HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
                              float grown) {
     Descent out;
+    out.single = false;
+    out.node = &nodes[number].node;
+    if (!Line::kIs && !short_) {
+      sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
+      return out;
+    }
     for (;;) {
-      const Node& node = nodes[number].node;
-      out.single = false;
-      out.node = &node;
+      const Node& node = *out.node;
       if constexpr (Line::kIs) {
         ray_node(node, frame, motion_, line_, grown, t_max_, out.children);
-      } else if (short_) {
-        out.children.mask = met_children(node, swept);
       } else {
-        sweep_node(node, frame, motion_, grown, t_max_, out.children);
-        return out;
+        out.children.mask = met_children(node, swept);
       }
-      if (out.children.mask == 0) return out;
-      if ((out.children.mask & (out.children.mask - 1)) == 0) {
-        const auto child = static_cast<std::uint32_t>(std::countr_zero(out.children.mask));
-        if (child < node.inner_count) {
-          number = node.first_node + child;
-          continue;
-        }
+      const std::uint32_t met = out.children.mask;
+      if (met == 0) return out;
+      if ((met & (met - 1)) != 0) break;
+      const auto child = static_cast<std::uint32_t>(std::countr_zero(met));
+      if (child >= node.inner_count) {
         out.single = true;
         out.first = node.first_leaf + (child - node.inner_count);
         return out;
       }
-      if constexpr (Line::kIs) return out;
+      out.node = &nodes[node.first_node + child].node;
+    }
+    if constexpr (!Line::kIs) {
       const std::uint32_t met = out.children.mask;
-      sweep_node(node, frame, motion_, grown, t_max_, out.children);
+      sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
       out.children.mask &= met;
       if (std::popcount(out.children.mask) >= kManyChildren) {
-        delay_children(node, frame, motion_, grown, t_max_, out.children);
+        delay_children(*out.node, frame, motion_, grown, t_max_, out.children);
       }
-      return out;
     }
+    return out;
   }
 
   void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
