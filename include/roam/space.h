@@ -130,9 +130,7 @@ class Space {
   /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
   /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
   /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
-  /// Where the axis meets something it says no more than minus the radius; only its sign counts where it is not
-  /// positive.
-  ///
+  /// Of what is not positive only the sign counts: where the axis meets something it may be minus the radius, no depth.
   /// For authors of spaces: Walker makes no sweep along a way of which this is more than 0.05 mm. That the body passes
   /// nothing rests on it then as it does on sweep().
   [[nodiscard]] virtual double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
