@@ -64,7 +64,7 @@ TEST(Hold, TellsOfNothingBelow) {
   Walker walker(world, {}, Mode::walk, {8, 0, -30});
   Hold hold;
   for (int i = 0; i < 30; ++i) hold.take(walker, {}, walker.step({}, 1.0 / 60.0).elapsed);
-  EXPECT_EQ(hold.told().text, "put back: there is nothing below to stand on");
+  EXPECT_EQ(hold.told().text, "held: there is nothing below to stand on");
 }
 
 TEST(Hold, TellsOfAFall) {

@@ -46,6 +46,7 @@ void Hold::take(const Walker& walker, const Vec3& wish, double seconds, bool fai
   now_ += seconds;
   const StepReport& report = walker.report();
   held_ = walker.held();
+  if (!held_) nothing_below_ = false;
   note_unknown(walker, failing);
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
@@ -90,10 +91,8 @@ void Hold::note_events(const Walker& walker) {
       case EventKind::returned:
         tell("returned: no ghost any more, and put to the nearest free place", false);
         break;
-      case EventKind::held:
-        if (!walker.report().put_back) tell("held: the body does not fit here", true);
-        break;
       case EventKind::put_back:
+        nothing_below_ = true;
         tell("put back: there is nothing below to stand on", true);
         break;
       default:
@@ -122,7 +121,8 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
 
 Told Hold::told() const {
   if (waiting_) return {"waiting: " + (reason_.empty() ? "loading ahead" : reason_), true};
-  if (held_) return {"held: the body does not fit here", true};
+  if (held_)
+    return {nothing_below_ ? "held: there is nothing below to stand on" : "held: the body does not fit here", true};
   if (!blockage_.empty()) return {"blocked: " + blockage_, true};
   if (now_ - news_at_ <= news_seconds) return news_;
   if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: loading ahead", false};

@@ -30,8 +30,9 @@ class Hold {
   void note_unknown(const Walker& walker, bool failing);
   void look_at_blockage(const Walker& walker, const Vec3& wish, double seconds);
 
-  double now_ = 0.0;   ///< s of all steps
-  bool held_ = false;  ///< it does not fit where it is
+  double now_ = 0.0;            ///< s of all steps
+  bool held_ = false;           ///< it cannot move: see Walker::held
+  bool nothing_below_ = false;  ///< and that is why it is held
   bool waiting_ = false;
   std::string reason_;         ///< why what is waited for does not come; empty: it will
   double slowed_at_ = -1e9;    ///< when last
