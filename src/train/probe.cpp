@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "roam/standing.h"
 #include "train/on_way.h"
 #include "train/open_space.h"
 #include "train/probe_search.h"
@@ -230,13 +231,10 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
 }
 
 std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
-  std::vector<Vec3> path = answer.passage.way;
-  if (question.mode == Mode::fly) {
-    const Box box = survey.world().bounds();
-    return box.empty() ? path : taken_to(box.grown(beside_scene * answer.size.radius), path);
-  }
-  for (Vec3& place : path) place.z += 0.5 * answer.size.height;
-  return path;
+  const std::vector<Vec3>& way = answer.passage.way;
+  if (question.mode != Mode::fly) return standing(way, probed_body(question, answer.size, survey.slope_degrees()));
+  const Box box = survey.world().bounds();
+  return box.empty() ? way : taken_to(box.grown(beside_scene * answer.size.radius), way);
 }
 
 ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const ProbedSize& size) {
