@@ -8,7 +8,7 @@
 
 #include "roam/generate.h"
 #include "roam/profile.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 #include "train_scenes.h"
 
 namespace {

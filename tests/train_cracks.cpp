@@ -12,7 +12,7 @@
 
 #include "floor_cases.h"
 #include "seeded_gallery.h"
-#include "train/cracks.h"
+#include "train/cracks/cracks.h"
 
 namespace {
 

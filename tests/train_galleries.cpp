@@ -6,7 +6,7 @@
 #include "roam/passage.h"
 #include "roam/train.h"
 #include "seeded_gallery.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "train/on_way.h"
+#include "train/trials/on_way.h"
 
 namespace {
 

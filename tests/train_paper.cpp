@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "train/paper.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 #include "train_scenes.h"
 
 namespace {

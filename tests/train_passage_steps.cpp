@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "roam/passage.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 #include "walker_scenes.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "train/inside.h"
-#include "train/places.h"
+#include "train/places/inside.h"
+#include "train/places/places.h"
 #include "train_shells.h"
 
 namespace roam::training {

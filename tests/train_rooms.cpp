@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "train/places.h"
-#include "train/regions.h"
+#include "train/places/places.h"
+#include "train/places/regions.h"
 #include "train_shells.h"
 
 namespace roam::training {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seeded_gallery.h"
-#include "train/lattice.h"
+#include "train/lattice/lattice.h"
 
 namespace {
 

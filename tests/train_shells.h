@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "train/places.h"
+#include "train/places/places.h"
 #include "walker_scenes.h"
 
 namespace shells {

@@ -12,7 +12,7 @@
 #include "interrupt.h"
 #include "picture/opening.h"
 #include "probe_text.h"
-#include "train/probe_words.h"
+#include "train/probe/words.h"
 
 namespace roam::app {
 namespace {

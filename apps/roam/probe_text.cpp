@@ -9,8 +9,8 @@
 
 #include "exit_status.h"
 #include "train/answer.h"
-#include "train/probe_search.h"
-#include "train/probe_words.h"
+#include "train/probe/search.h"
+#include "train/probe/words.h"
 
 namespace roam::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "roam/train.h"
-#include "train/cracks.h"
+#include "train/cracks/cracks.h"
 #include "train/layout.h"
 #include "train/paper.h"
 

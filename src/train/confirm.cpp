@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "train/crossings.h"
-#include "train/on_way.h"
+#include "train/trials/on_way.h"
 
 namespace roam::training {
 namespace {

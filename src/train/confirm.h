@@ -5,7 +5,7 @@
 #include "train/interval.h"
 #include "train/layout.h"
 #include "train/stages.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 
 namespace roam::training {
 

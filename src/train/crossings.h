@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "roam/survey.h"
-#include "train/cracks.h"
+#include "train/cracks/cracks.h"
 
 namespace roam::training {
 

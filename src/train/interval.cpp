@@ -9,8 +9,8 @@
 
 #include "train/detour.h"
 #include "train/neck_ways.h"
-#include "train/refine.h"
-#include "train/regions.h"
+#include "train/passage/refine.h"
+#include "train/places/regions.h"
 
 namespace roam::training {
 

@@ -9,9 +9,9 @@
 #include <limits>
 #include <tuple>
 
-#include "train/fly_way.h"
-#include "train/inside.h"
-#include "train/refine.h"
+#include "train/flight/way.h"
+#include "train/passage/refine.h"
+#include "train/places/inside.h"
 
 namespace roam::training {
 

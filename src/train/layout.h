@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "roam/train.h"
-#include "train/lattice.h"
-#include "train/places.h"
+#include "train/lattice/lattice.h"
+#include "train/places/places.h"
 #include "train/stages.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 
 namespace roam::training {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "train/lattice.h"
-#include "train/places.h"
+#include "train/lattice/lattice.h"
+#include "train/places/places.h"
 
 namespace roam::training {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "train/trials.h"
+#include "train/trials/trials.h"
 
 namespace roam::training {
 

@@ -10,7 +10,7 @@
 
 #include "train/answer.h"
 #include "train/interval.h"
-#include "train/on_way.h"
+#include "train/trials/on_way.h"
 
 namespace roam::training {
 

@@ -10,12 +10,12 @@
 
 #include "train/answer.h"
 #include "train/confirm.h"
-#include "train/inside.h"
 #include "train/interval.h"
 #include "train/layout.h"
 #include "train/paper.h"
+#include "train/places/inside.h"
 #include "train/stages.h"
-#include "train/trials.h"
+#include "train/trials/trials.h"
 
 namespace roam {
 

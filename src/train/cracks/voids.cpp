@@ -1,0 +1,140 @@
+#include "train/cracks/voids.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "train/cracks/shared_edges.h"
+
+namespace roam::training {
+
+namespace {
+
+/// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
+constexpr double kStepSlack = 0.003;
+/// Of the probe: the sphere that looks about at knee height.
+constexpr double kSightShare = 0.2;
+/// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
+constexpr double kClimbPrecision = 0.004;
+/// Two corners of an edge nearer than this in the plan have no side.
+constexpr double kShortest = 1e-9;
+
+}  // namespace
+
+VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
+    : survey_(survey),
+      options_(options),
+      step_(options.step + kStepSlack),
+      radius_(0.9 * options.smallest),
+      outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
+      floor_(survey, step_),
+      body_(survey, floor_, options.knee) {}
+
+bool VoidProbe::has_floor(const Vec3& place) const {
+  return survey_.floor().ray(place + Vec3(0.0, 0.0, step_), Vec3(0.0, 0.0, -2.0 * step_)).hit;
+}
+
+bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
+  const double sphere = kSightShare * radius_;
+  const Vec3 knee = from + Vec3(0.0, 0.0, options_.knee);
+  Impact met = survey_.world().sweep({sphere, 0.0}, knee, to - from);
+  // A sphere that came to touch a wall may not be let go again: a smaller one is.
+  if (met.hit && met.time == 0.0) met = survey_.world().sweep({0.7 * sphere, 0.0}, knee, to - from);
+  return !met.hit;
+}
+
+bool VoidProbe::lets_pass(const Vec3& from, const Vec3& to, double body) const {
+  if (body <= 0.0) return true;
+  return !survey_.world().sweep({body, 0.0}, from + Vec3(0.0, 0.0, options_.knee + body), to - from).hit;
+}
+
+bool VoidProbe::sinks(const Vec3& place, double radius) const {
+  const Vec3 knee = place + Vec3(0.0, 0.0, options_.knee);
+  return !survey_.world().sweep({radius, 0.0}, knee, {0.0, 0.0, radius - step_ - options_.knee}).hit;
+}
+
+std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
+  const double depth = place.z - survey_.world().bounds().lower.z + 1.0;
+  const Impact down = survey_.world().ray(place, {0.0, 0.0, -depth});
+  if (!down.hit) return std::nullopt;
+  return place - Vec3(0.0, 0.0, down.time * depth);
+}
+
+namespace {
+
+/// The rims of one floor triangle.
+class Rims {
+ public:
+  Rims(const VoidProbe& probe, double spacing, const std::function<bool(const Vec3&)>& is_reached)
+      : probe_(probe), spacing_(spacing), is_reached_(is_reached) {}
+
+  void of(const Triangle& t, std::uint8_t shared, std::vector<RimPlace>& found) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((shared >> k & 1u) == 0) of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], found);
+    }
+  }
+
+ private:
+  void of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, std::vector<RimPlace>& found) const {
+    const Vec3 along = b - a;
+    const double level = std::hypot(along.x, along.y);
+    if (level < kShortest) return;
+    Vec3 out(along.y / level, -along.x / level, 0.0);
+    if (out.x * (inner.x - a.x) + out.y * (inner.y - a.y) > 0.0) out = -out;
+    const double length = std::hypot(level, along.z);
+    const double parts = std::max(std::ceil(length / spacing_), 1.0);
+    for (double i = 0.5; i < parts; i += 1.0) {
+      const Vec3 rim = a + (i / parts) * along;
+      const Vec3 outside = rim + probe_.outside() * out;
+      if (is_void(rim, out, outside)) found.push_back({rim, outside, climb(outside)});
+    }
+  }
+
+  /// The cheap questions first: most edges have floor on both sides, and most others have a wall.
+  bool is_void(const Vec3& rim, const Vec3& out, const Vec3& outside) const {
+    // Seen from a little inside, or a wall on the rim itself would be touched from its far side as well.
+    return !probe_.has_floor(outside) && probe_.sees(rim - probe_.outside() * out, outside) &&
+           probe_.sinks(outside, probe_.radius()) && is_reached_(rim);
+  }
+
+  Disc climb(const Vec3& outside) const {
+    return grow(probe_.floor(), outside, probe_.open(), kClimbPrecision,
+                [&](const Vec3& from, const Vec3& to) { return probe_.sees(from, to); });
+  }
+
+  const VoidProbe& probe_;
+  double spacing_;
+  const std::function<bool(const Vec3&)>& is_reached_;
+};
+
+}  // namespace
+
+std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,
+                                 const std::function<bool(const Vec3& foot)>& is_reached,
+                                 const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
+  constexpr std::size_t block = 2048;  // triangles: some milliseconds of work
+  const auto floors = survey.floor_triangles();
+  const std::size_t blocks = (floors.size() + block - 1) / block;
+  std::vector<std::vector<RimPlace>> found(blocks);
+  const std::vector<std::uint8_t> shared = shared_edges(survey);
+  const Rims rims(probe, 2.0 * options.smallest, is_reached);
+  std::mutex mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t i) {
+    if (ended) return;
+    const std::size_t end = std::min((i + 1) * block, floors.size());
+    for (std::size_t f = i * block; f < end; ++f) rims.of(survey.triangle(floors[f]), shared[f], found[i]);
+    if (!goes_on) return;
+    const std::lock_guard lock(mutex);
+    if (!ended && !goes_on(double(++done) / double(blocks))) ended = true;
+  });
+  std::vector<RimPlace> all;
+  for (const std::vector<RimPlace>& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end(), lies_before);
+  return all;
+}
+
+}  // namespace roam::training
