@@ -155,6 +155,47 @@ TEST(LeafFilter, BoundsEveryTriangleOfAGap) {
   bound_every_triangle<lanes::Slack>(true);
 }
 
+/// Long narrow triangles, not yet so narrow that their edges stand for them, and places beside and above them.
+TEST(LeafFilter, KnowsHowNearASliverIs) {
+  clutter::Random random(54);
+  int tested = 0;
+  for (int q = 0; q < 50000; ++q) {
+    Leaf leaf{};
+    leaf.triangle_count = 1;
+    const Vec3 first = random.in_box(31.0), second = random.in_box(31.0), apart = second - first;
+    const Vec3 third = first + random.unit() * apart + std::pow(10.0, random.between(-2.7, -0.5)) * random.direction();
+    const Vec3 corners[3] = {first, second, third};
+    Triangle t;
+    for (int c = 0; c < 3; ++c) {
+      for (int k = 0; k < 3; ++k) {
+        const double steps = (corners[(c + q) % 3][k] + 32.0) / kStep;
+        leaf.vertex[k][c] = static_cast<std::uint16_t>(steps);
+        t[c][k] = kStep * leaf.vertex[k][c];
+      }
+      for (int i = 0; i < kWidth; ++i) leaf.corner[c][i / 8] |= static_cast<std::uint32_t>(c) << (4 * (i % 8));
+    }
+    const Vec3 normal = clutter::cross(t[1] - t[0], t[2] - t[0]);
+    const double area = clutter::length(normal);
+    if (!(area > 1e-6)) continue;
+    ++tested;
+    const Vec3 side = clutter::cross(normal, apart) / (area * clutter::length(apart));
+    const double beside = std::pow(10.0, random.between(-3.0, 0.5)), above = std::pow(10.0, random.between(-4.0, 1.0));
+    const Vec3 place = t[0] + random.unit() * (t[1] - t[0]) + (q % 2 == 0 ? beside : -beside) * side +
+                       (q % 4 < 2 ? above : -above) * (normal / area);
+    const lanes::Frame frame(Vec3(0.0), kStep, place);
+    lanes::VF left = lanes::set(0.0F);
+    lanes::Children triangles;
+    alignas(64) float most[kWidth];
+    lanes::near_leaf(leaf, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left, triangles,
+                     most);
+    ASSERT_EQ(triangles.mask & 1U, 1U) << q;
+    const long double least = oracle::distance(Body{0.0, 0.0}, place, t);
+    ASSERT_GE(least, (long double)(triangles.key[0])) << q;
+    ASSERT_LE(least, (long double)(most[0]) + 2e-5L) << q;
+  }
+  EXPECT_GT(tested, 40000);
+}
+
 /// What a ray leaves out rests on it: the vectors across are rounded, and so not quite across the way.
 TEST(LeafFilter, KnowsHowFarARayLeadsAlongTheVectorsAcrossIt) {
   clutter::Random random(53);

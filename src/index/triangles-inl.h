@@ -19,7 +19,7 @@ struct Triangles {
   VF farthest;  ///< largest absolute coordinate
   // Set by prepare(): what the closest point needs, whatever the body's place.
   V3 bc;
-  VF ab2, ac2, abac;
+  V3 within_ab, within_ac, within_bc;  ///< across each edge in the plane of the triangle, inwards
   VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
   MF narrow;  ///< the normal is noise: the edges stand for the face
 
@@ -31,20 +31,17 @@ struct Triangles {
 HWY_INLINE V3 Triangles::away(const V3& p) const {
   const VF zero = hn::Zero(kF), one = set(1.0F);
   const V3 pa = p - a, pb = p - b;
-  const VF d1 = dot(ab, pa), d2 = dot(ac, pa);
-  const VF d3 = hn::Sub(d1, ab2), d4 = hn::Sub(d2, abac), d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, ac2);
-  const V3 wab = pa - scale(ab, clamp(hn::Mul(d1, inv_ab2), zero, one));
-  const V3 wac = pa - scale(ac, clamp(hn::Mul(d2, inv_ac2), zero, one));
+  const V3 wab = pa - scale(ab, clamp(hn::Mul(dot(ab, pa), inv_ab2), zero, one));
+  const V3 wac = pa - scale(ac, clamp(hn::Mul(dot(ac, pa), inv_ac2), zero, one));
   const V3 wbc = pb - scale(bc, clamp(hn::Mul(dot(bc, pb), inv_bc2), zero, one));
   const VF lab = dot(wab, wab), lac = dot(wac, wac), lbc = dot(wbc, wbc);
   const MF second = hn::Lt(lac, lab);
   V3 w = select(second, wac, wab);
   w = select(hn::Lt(lbc, hn::Min(lab, lac)), wbc, w);
-  // Inside all three edges (Ericson, "Real-Time Collision Detection", 5.1.5): the foot on the face.
-  const VF va = hn::Sub(hn::Mul(d3, d6), hn::Mul(d5, d4));
-  const VF vb = hn::Sub(hn::Mul(d5, d2), hn::Mul(d1, d6));
-  const VF vc = hn::Sub(hn::Mul(d1, d4), hn::Mul(d3, d2));
-  const MF inside = hn::AndNot(narrow, hn::Gt(hn::Min(hn::Min(va, vb), vc), zero));
+  // Inside all three edges: the foot on the face. Each is asked for itself, straight across it: products of lengths
+  // along the edges would say so of places that are far off a sliver.
+  const VF within = hn::Min(hn::Min(dot(within_ab, pa), dot(within_ac, pa)), dot(within_bc, pb));
+  const MF inside = hn::AndNot(narrow, hn::Gt(within, zero));
   return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
 }
 
@@ -105,14 +102,18 @@ HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int fi
 
 HWY_INLINE void Triangles::prepare() {
   bc = c - b;
-  ab2 = dot(ab, ab);
-  ac2 = dot(ac, ac);
-  abac = dot(ab, ac);
+  const VF ab2 = dot(ab, ab), ac2 = dot(ac, ac);
   const VF floor = set(kShortest * kShortest), face_floor = set(kSmallestFace), one = set(1.0F);
+  const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor), long_bc = hn::Max(dot(bc, bc), floor);
+  // The roundings of a sliver's normal would tilt its face along it: straight across the longer of two edges it is not.
+  const V3 edge = select(hn::Gt(ac2, ab2), ac, ab);
+  normal = normal - scale(edge, hn::Div(dot(normal, edge), hn::Max(long_ab, long_ac)));
+  within_ab = cross(normal, ab);
+  within_ac = cross(ac, normal);
+  within_bc = cross(normal, bc);
   // Two reciprocals from one division. Where a product overflows, the closest point is not a number, which leaves the
   // triangle to double precision.
-  const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor);
-  const VF long_bc = hn::Max(dot(bc, bc), floor), long_normal = hn::Max(dot(normal, normal), face_floor);
+  const VF long_normal = hn::Max(dot(normal, normal), face_floor);
   const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
   inv_ab2 = hn::Mul(long_ac, edges);
   inv_ac2 = hn::Mul(long_ab, edges);

@@ -16,7 +16,7 @@ namespace {
 
 /// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
 /// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
-constexpr float kTight = 3e-4F;
+constexpr float kTight = 2.5e-4F;
 
 /// Metres. The longest motion of one query.
 constexpr double kMotionLimit = 1e6;
