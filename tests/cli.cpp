@@ -15,7 +15,7 @@ ProgramResult roam(const std::vector<std::string>& arguments) { return run_progr
 TEST(CommandLine, TellsItsVersion) {
   const ProgramResult result = roam({"--version"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out, "roam " ROAM_VERSION "\n");
+  EXPECT_EQ(result.out, "roam " ROAM_PACKAGE_VERSION "\n");
 }
 
 TEST(CommandLine, ExplainsEveryVerbWithExamples) {

@@ -6,6 +6,7 @@
 #   install.sh train   SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
+#   install.sh package SOURCE PREFIX WORK CXX   asks find_package for versions and components that are there and that are not
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
 #   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
@@ -85,6 +86,37 @@ case $what in
   osg_intersector)
     build osg_intersector
     expect 'door open 60 degrees: stops at y = 0.639 m, before the face of "leaf"' "$work/build/osg_intersector"
+    ;;
+  package)
+    # configure REQUEST [LINES]: a project that asks for nothing else.
+    configure() {
+      printf 'cmake_minimum_required(VERSION 3.22)\nproject(asks LANGUAGES CXX)\nfind_package(roam %s)\n%s\n' "$1" \
+        "${2:-}" > "$work/CMakeLists.txt"
+      rm -rf "$work/build"
+      cmake -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" 2>&1
+    }
+    # refused TEXT REQUEST: configuring fails and says TEXT, however its lines are broken.
+    refused() {
+      local said
+      if said=$(configure "$2"); then echo "was found: $2"; exit 1; fi
+      said=$(tr -s ' \n' ' ' <<< "$said")
+      [[ $said == *"$1"* ]] || { echo "$said"; echo "expected: $1"; exit 1; }
+    }
+    for component in roam path import generate store train osg; do
+      request=REQUIRED
+      [[ $component == roam ]] || request="REQUIRED COMPONENTS $component"
+      expect "Generating done" configure "$request" "get_target_property(kind roam::$component TYPE)
+        get_target_property(kind roam::roam TYPE)"
+    done
+    version=$(sed -n 's/^#define ROAM_VERSION_STRING "\(.*\)"$/\1/p' "$prefix/include/roam/version.h")
+    numbers=$(sed -n 's/^#define ROAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \(.*\)$/\2/p' "$prefix/include/roam/version.h")
+    [[ $version == "$(paste -sd. <<< "$numbers")" ]] || { echo "version.h tells two versions"; exit 1; }
+    expect "is $version." configure "$version REQUIRED" 'message(STATUS "it is ${roam_VERSION}.")'
+    refused 'roam has no component "wings" here; it has: ' 'REQUIRED COMPONENTS path wings'
+    refused 'compatible with requested version "99"' '99 REQUIRED'
+    expect 'goes without wings' configure 'REQUIRED OPTIONAL_COMPONENTS wings' 'if(NOT roam_wings_FOUND)
+      message(STATUS "goes without wings")
+    endif()'
     ;;
   readme)
     sed -n '/^```cpp$/,/^```$/p' "$source/README.md" | sed '/^```/d' > "$work/readme.cpp"

@@ -20,7 +20,7 @@ constexpr const char* help =
 int main(int argc, char** argv) {
   CLI::App program{description, "roam"};
   program.footer(help);
-  program.set_version_flag("--version", "roam " ROAM_VERSION);
+  program.set_version_flag("--version", "roam " ROAM_VERSION_STRING);
   program.require_subcommand(1);
   roam::app::Run chosen;
   roam::app::add_view(program, chosen);
