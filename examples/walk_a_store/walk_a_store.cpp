@@ -22,18 +22,13 @@ int main(int argc, char** argv) {
     roam::Pager pager(roam::Store::open(argv[2]), {.memory = 16ull << 20});
     const auto waypoints = roam::positions(roam::load_path(argv[3]));
     roam::WalkerSettings person;
-    pager.wait(person.body(), waypoints.front(), roam::Vec3(0.0), 10.0);
     roam::Walker walker(pager, person, roam::Mode::walk, waypoints.front());
-    roam::Route route(walker, waypoints, {});
-    while (!route.done()) {
-      route.advance();
-      // Between two steps what has come is taken into use. A viewer calls update(), which never waits.
-      pager.wait(walker.body(), walker.position(), walker.velocity(), 1.0 / 60.0);
-    }
+    // Takes what has come into use between two steps, and waits where the body needs what has not.
+    const roam::RouteResult walked = roam::follow(walker, pager, waypoints);
     const roam::PagerStats stats = pager.stats();
-    std::printf("%s after %.1f m, %.0f MB of memory\n", roam::name(route.result().outcome), route.result().length,
+    std::printf("%s after %.1f m, %.0f MB of memory\n", roam::name(walked.outcome), walked.length,
                 static_cast<double>(stats.memory) / (1 << 20));
-    return route.result().outcome == roam::Outcome::reached ? 0 : 3;
+    return walked.outcome == roam::Outcome::reached ? 0 : 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "walk_a_store: %s\n", error.what());
     return 1;
