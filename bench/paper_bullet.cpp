@@ -1,5 +1,6 @@
-// OSG + Bullet: the sweep of a sphere in a btCollisionWorld, whose static objects are the tiles; the slide is ours. A
-// mesh a tile, as OpenSceneGraph has it, keeps Bullet's 16 bits for the places of nodes fine in scenes of any size.
+// OSG + Bullet, OGRE + Bullet: the sweep of a sphere in a btCollisionWorld, whose static objects are the tiles; the
+// slide is ours. A mesh a tile, as who draws has it, keeps Bullet's 16 bits for the places of nodes fine in scenes of
+// any size.
 
 #include <memory>
 #include <utility>
@@ -45,9 +46,9 @@ struct Ahead : btCollisionWorld::ClosestConvexResultCallback {
 
 }  // namespace
 
-Mover osg_bullet(const PaperScene& scene) {
+Mover bullet_sweep(const PaperScene& scene, const TileReader& read) {
   const auto tiles = std::make_shared<Tiles>();
-  read_tiles(scene, [&](FloatMesh tile) {
+  read(scene, [&](FloatMesh tile) {
     tiles->meshes.push_back(std::make_unique<BulletMesh>(std::move(tile)));
     tiles->world.addCollisionObject(&tiles->meshes.back()->object);
   });

@@ -191,16 +191,24 @@ std::vector<PaperRow> paper_rows(const std::string& wasm) {
        "OSG + Bullet",
        "read by OpenSceneGraph; sweep of a sphere in Bullet, slide; all in memory",
        {},
-       osg_bullet},
+       [](const PaperScene& scene) { return bullet_sweep(scene, read_tiles); }},
 #else
       {"osg-bullet", "OSG + Bullet", {}, "install libbullet-dev and build again", {}},
+#endif
+#ifdef ROAM_BENCH_OGRE
+      {"ogre-bullet",
+       "OGRE + Bullet",
+       "the same, but loaded by OGRE, from its own files",
+       {},
+       [](const PaperScene& scene) { return bullet_sweep(scene, read_ogre_tiles); }},
+#else
+      {"ogre-bullet", "OGRE + Bullet", {}, "install libogre-1.12-dev and libbullet-dev and build again", {}},
 #endif
       {"physx",
        "PhysX controller (WASM)",
        "npm physx-js-webidl under node: PxCapsuleController of a height of 2 mm, timed around its move()",
        wasm_package_missing("physx-js-webidl", wasm),
        {}},
-      {"ogre-bullet", "OGRE + Bullet", {}, "OGRE has no collision: Bullet's steps are the row above", {}},
       {"unity", "Unity3D", {}, "it cannot be run without its maker's leave", {}},
   };
   for (PaperRow& row : rows) {

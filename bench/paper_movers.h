@@ -21,8 +21,8 @@ inline const Vec3 paper_shift{13121.5, -909.5, -182.0};
 struct PaperScene {
   std::string scene;           ///< what roam reads: a file
   std::string store;           ///< the same as a store
-  std::string tiles;           ///< a folder of osgb files, shifted: one a mesh, and paged.osgb, which pages them
-  std::size_t tile_count = 0;  ///< 0.osgb, 1.osgb, ...
+  std::string tiles;           ///< a folder of files, shifted: osgb and OGRE's, one a mesh, and paged.osgb of them all
+  std::size_t tile_count = 0;  ///< 0.osgb, 0.mesh, 1.osgb, ...
   std::uint64_t memory = 0;    ///< bytes that pagers may take
 };
 
@@ -45,13 +45,16 @@ struct PaperRow {
 enum class Graph { loaded, with_kd_trees, paged };
 [[nodiscard]] Mover paper_method(const PaperScene& scene, Graph graph);
 [[nodiscard]] Mover polytope_method(const PaperScene& scene, Graph graph);
-/// Triangles from an OpenSceneGraph scene in Bullet's btBvhTriangleMeshShape.
-[[nodiscard]] Mover osg_bullet(const PaperScene& scene);
+/// The triangles of the tiles, as floats, one after another: for an engine beside the one that reads them.
+using TileReader = std::function<void(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take)>;
+/// Tiles in Bullet's btBvhTriangleMeshShape.
+[[nodiscard]] Mover bullet_sweep(const PaperScene& scene, const TileReader& read);
 /// PhysX's capsule controller, nearly a sphere, in a node process; `wasm` as above. Throws roam::Error when it ends.
 [[nodiscard]] Mover physx_controller(const PaperScene& scene, const std::string& wasm);
 
-/// The triangles of the tiles, as floats, for an engine that OpenSceneGraph only reads for.
+/// TileReaders: OpenSceneGraph, from osgb, and OGRE, from its .mesh files; neither keeps what it has read.
 void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
+void read_ogre_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 
 /// Writes the folder of PaperScene::tiles mesh by mesh; returns how many there are.
 class TileWriter {
@@ -66,6 +69,9 @@ class TileWriter {
   struct State;
   State* state_;
 };
+
+/// What writes OGRE's files into that folder, one a mesh that it is given. One at a time in a program.
+[[nodiscard]] std::function<void(const Mesh& mesh)> ogre_tile_writer(const std::string& folder);
 
 /// First touch of a sphere, and the way out.
 struct Touch {

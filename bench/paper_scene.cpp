@@ -65,6 +65,10 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
   laid.scene.store = folder + "/scene.roam";
   fs::create_directory(laid.scene.tiles);
   TileWriter tiles(laid.scene.tiles);
+  std::function<void(const Mesh&)> write_for_ogre = [](const Mesh&) {};
+#ifdef ROAM_BENCH_OGRE
+  write_for_ogre = ogre_tile_writer(laid.scene.tiles);
+#endif
   const std::vector<Way> ways = paper_ways(options.radius, options.split_radius);
   bool anything_near = false;
   const auto take = [&](const Mesh& mesh) {
@@ -72,6 +76,7 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
     laid.triangles += mesh.triangles.size();
     anything_near = anything_near || near(ways, mesh);
     tiles.add(mesh);
+    write_for_ogre(mesh);
   };
   const auto goes_on = [](const auto&) { return !app::interrupted(); };
   fmt::print(stderr, "laying out the scene in {}\n", folder);

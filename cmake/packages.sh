@@ -7,7 +7,7 @@ program_packages="g++ cmake ninja-build ccache pkg-config
   libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev
   libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
 test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg"
-bench_packages="libbullet-dev libembree-dev libfcl-dev"
+bench_packages="libbullet-dev libembree-dev libfcl-dev libogre-1.12-dev"
 
 # install_missing PACKAGE...: asks apt only for packages that are not there, and is silent when all of them are.
 install_missing() {

@@ -123,12 +123,14 @@ nlohmann::json row_of(const nlohmann::json& rows, const std::string& name) {
 
 TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
   const ProgramResult result =
-      bench({"paper", "--triangles", "50k", "--rows", "roam,osg-bullet,polytope-kdtree,ogre-bullet", "--json"});
+      bench({"paper", "--triangles", "50k", "--rows", "roam,osg-bullet,polytope-kdtree,ogre-bullet,unity", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   const nlohmann::json report = json(result);
   const bool with_bullet = row_of(report["absent"], "osg-bullet").is_null();
-  ASSERT_EQ(report["table_1"].size(), with_bullet ? 18U : 12U) << "two rows or three, six ways";
+  const bool with_ogre = row_of(report["absent"], "ogre-bullet").is_null();
+  ASSERT_EQ(report["table_1"].size(), 6U * (2U + (with_bullet ? 1U : 0U) + (with_ogre ? 1U : 0U))) << "six ways a row";
   std::map<std::string, std::map<std::string, std::string>> outcomes;
+  std::map<std::string, std::map<std::string, int>> steps;
   for (const auto& cell : report["table_1"]) {
     EXPECT_GT(cell["steps"], 0);
     EXPECT_GE(cell["time_s"].get<double>(), cell["steps"].get<double>() / 60.0);
@@ -136,10 +138,16 @@ TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
       EXPECT_EQ(cell["steps_in_walls"], 0) << cell;
     }
     outcomes[cell["row"]][cell["way"]] = cell["outcome"];
+    steps[cell["row"]][cell["way"]] = cell["steps"];
   }
   auto &roam = outcomes["roam"], &polytope = outcomes["polytope-kdtree"], &bullet = outcomes["osg-bullet"];
   if (with_bullet) {
     EXPECT_EQ(bullet["3 split"], "completed") << "held by the tolerance of its sweep";
+  }
+  if (with_ogre) {
+    EXPECT_EQ(outcomes["ogre-bullet"], bullet) << "the same triangles, read by another";
+    EXPECT_EQ(steps["ogre-bullet"], steps["osg-bullet"]);
+    EXPECT_GT(row_of(report["table_2"], "ogre-bullet")["load_s"], 0.0);
   }
   for (const char* way : {"1 straight", "2 corner", "3 split", "grotto", "grotto, adapted"}) {
     EXPECT_EQ(roam[way], "completed") << way;
@@ -154,7 +162,7 @@ TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
   EXPECT_TRUE(two["small_room"]);
   EXPECT_TRUE(two["radius_adapts"]);
   EXPECT_FALSE(row_of(report["table_2"], "polytope-kdtree")["radius_adapts"]);
-  EXPECT_FALSE(row_of(report["absent"], "ogre-bullet")["why"].get<std::string>().empty());
+  EXPECT_FALSE(row_of(report["absent"], "unity")["why"].get<std::string>().empty());
   EXPECT_TRUE(report["failed"].empty()) << report["failed"];
 }
 
