@@ -18,16 +18,16 @@
 #include <vector>
 
 #include "osgRoam/BoxIntersector.h"
+#include "osg_scene.h"
 #include "roam/generate.h"
 
 namespace {
 
 using roam::Vec3;
+using roam::bench::to_osg;
 
 constexpr double radius = 0.5;         ///< metres
 constexpr double step_length = 0.833;  ///< metres: 50 m/s at 60 Hz
-
-osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// The triangles in so many geodes of about the same size, in the order in which the gallery is made.
 osg::ref_ptr<osg::Group> graph_of(const std::vector<roam::Mesh>& meshes, std::size_t geodes, bool kd_tree) {
@@ -74,15 +74,8 @@ bool ask_box(osg::Node& scene, const Vec3& from, const Vec3& to) {
 }
 
 bool ask_polytope(osg::Node& scene, const Vec3& from, const Vec3& to) {
-  osg::Polytope polytope;
-  for (int k = 0; k < 3; ++k) {
-    osg::Vec3d axis;
-    axis[k] = 1.0;
-    polytope.add(osg::Plane(axis, radius - std::min(from[k], to[k])));
-    polytope.add(osg::Plane(-axis, radius + std::max(from[k], to[k])));
-  }
   osg::ref_ptr<osgUtil::PolytopeIntersector> intersector =
-      new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, polytope);
+      new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, roam::bench::box_of_sweep(Vec3(radius), from, to));
   intersector->setPrimitiveMask(osgUtil::PolytopeIntersector::TRIANGLE_PRIMITIVES);
   osgUtil::IntersectionVisitor visitor(intersector);
   scene.accept(visitor);

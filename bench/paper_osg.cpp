@@ -1,6 +1,5 @@
 // The paper's method and the polytope in OpenSceneGraph, and the files that its rows read.
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
@@ -15,14 +14,13 @@
 #include <osgUtil/PolytopeIntersector>
 
 #include "osgRoam/BoxIntersector.h"
+#include "osg_scene.h"
 #include "paper_equations.h"
 #include "paper_movers.h"
 #include "roam/error.h"
 
 namespace roam::bench {
 namespace {
-
-osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 std::string tile_name(std::size_t i) { return std::to_string(i) + ".osgb"; }
 
@@ -89,15 +87,7 @@ TileWriter::TileWriter(std::string folder) : state_(new State{std::move(folder),
 TileWriter::~TileWriter() { delete state_; }
 
 void TileWriter::add(const Mesh& mesh) {
-  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-  for (const Vec3& v : mesh.vertices) vertices->push_back(osg::Vec3(to_osg(v + paper_shift)));
-  osg::ref_ptr<osg::DrawElementsUInt> indices = new osg::DrawElementsUInt(GL_TRIANGLES);
-  for (const auto& triangle : mesh.triangles) indices->insert(indices->end(), triangle.begin(), triangle.end());
-  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-  geometry->setVertexArray(vertices);
-  geometry->addPrimitiveSet(indices);
-  osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-  geode->addDrawable(geometry);
+  const osg::ref_ptr<osg::Geode> geode = to_geode(mesh, paper_shift);
   const std::string name = tile_name(state_->count++);
   if (!osgDB::writeNodeFile(*geode, state_->folder + "/" + name)) {
     throw Error("cannot write " + state_->folder + "/" + name + "; check the free space");
@@ -142,16 +132,8 @@ Mover polytope_method(const PaperScene& scene, Graph graph) {
   const auto scenery = load(scene, graph);
   return go_or_stay(
       [scenery](double radius, const Vec3& from, const Vec3& motion) {
-        osg::Polytope polytope;
-        for (int k = 0; k < 3; ++k) {
-          const double a = from[k], b = from[k] + motion[k];
-          osg::Vec3d axis;
-          axis[k] = 1.0;
-          polytope.add(osg::Plane(axis, radius - std::min(a, b)));
-          polytope.add(osg::Plane(-axis, radius + std::max(a, b)));
-        }
-        osg::ref_ptr<osgUtil::PolytopeIntersector> intersector =
-            new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, polytope);
+        osg::ref_ptr<osgUtil::PolytopeIntersector> intersector = new osgUtil::PolytopeIntersector(
+            osgUtil::Intersector::MODEL, box_of_sweep(Vec3(radius), from, from + motion));
         intersector->setPrimitiveMask(osgUtil::PolytopeIntersector::TRIANGLE_PRIMITIVES);
         intersector->setIntersectionLimit(osgUtil::Intersector::LIMIT_ONE);
         scenery->visit(*intersector);
