@@ -198,7 +198,7 @@ std::vector<PaperRow> paper_rows(const std::string& wasm) {
 #ifdef ROAM_BENCH_OGRE
       {"ogre-bullet",
        "OGRE + Bullet",
-       "the same, but loaded by OGRE, from its own files",
+       "loaded by OGRE from its own files; sweep of a sphere in Bullet, slide; all in memory",
        {},
        [](const PaperScene& scene) { return bullet_sweep(scene, read_ogre_tiles); }},
 #else
