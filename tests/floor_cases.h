@@ -344,7 +344,7 @@ inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
                    .mesh = gap_to_drop(4.0, 0.0),
                    .cracks = {0.445},
                    .has_drop = true,
-                   .tolerance = 0.02});
+                   .tolerance = 0.006});
   // Measured up to where an open disc that touches both corners of the mouth takes over, 1 - sqrt(1 - w^2 / 4) inside.
   const auto widest = [](double from, double to) {
     const double slant = 0.5 * (to - from) / 12.0, cosine = 1.0 / std::hypot(1.0, slant);

@@ -18,11 +18,12 @@ namespace roam::training {
 
 namespace {
 
-constexpr double kWindow = 4.0;         ///< m around a rim's disc that one flood fills
-constexpr double kSpacingShare = 0.7;   ///< of the probe's radius: each place of a ridge has a cell within half of it
-constexpr double kSinkMargin = 0.003;   ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
-constexpr std::size_t kMostDiscs = 32;  ///< of one flood that are grown
-constexpr std::size_t kMostBeside = 3;  ///< likewise, up to where an open drop begins, which takes long
+constexpr double kWindow = 4.0;        ///< m around a rim's disc that one flood fills
+constexpr double kSpacingShare = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
+constexpr double kSinkMargin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
+constexpr double kFinest = 0.1 * VoidProbe::precision;  ///< m
+constexpr std::size_t kMostDiscs = 32;                  ///< of one flood that are grown
+constexpr std::size_t kMostBeside = 3;                  ///< likewise, up to where an open drop begins, which takes long
 
 /// A place of the lattice at the level of one void.
 struct Cell {
@@ -286,8 +287,10 @@ class Floods {
     const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
     const Disc near = grow(probe_.body(), start, probe_.open(), about,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
-    return grown(near.centre,
-                 [&](const Vec3& to) { return level_distance(to, near.centre) <= about && !is_open(to, own_drops); });
+    // Of the body alone: so near to where it must stop it is not on the ridge, and floor would lead on past it.
+    return grow(probe_.body(), near.centre, probe_.open(), kFinest, [&](const Vec3& from, const Vec3& to) {
+      return stays(from, to) && level_distance(to, near.centre) <= about && !is_open(to, own_drops);
+    });
   }
 
   /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
@@ -311,13 +314,12 @@ class Floods {
   /// The largest body that goes in near `start` and where it may, and a foot that carries it there. Where walls leave
   /// no room for a body as wide as the gap, it takes the foot that carries the widest bodies that they let in.
   Disc grown(const Vec3& start, const std::function<bool(const Vec3& to)>& may_be) const {
-    constexpr double finest = 0.1 * VoidProbe::precision;
     constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
     constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
     const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
-    const Disc body = grow(probe_.body(), start, probe_.open(), finest, may_move);
+    const Disc body = grow(probe_.body(), start, probe_.open(), kFinest, may_move);
     if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
-    return grow(probe_.floor(), body.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+    return grow(probe_.floor(), body.centre, probe_.open(), kFinest, [&](const Vec3& from, const Vec3& to) {
       const double room = widest_share * body.radius;
       return may_move(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
     });
