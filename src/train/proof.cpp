@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "train/answer.h"
+#include "train/cracks/floor_plan.h"
 #include "train/interval.h"
 #include "train/trials/on_way.h"
 
@@ -29,8 +30,10 @@ constexpr double edge = 0.1;
 /// m/s. Who is to fall goes slowly: at a walking pace a body hops across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
-/// A way that comes to the middle of a crack only to this part of its radius grazes it.
-constexpr double grazing = 0.3;
+/// m along a way between two looks whether there is floor near a foot.
+constexpr double look_every = 0.0025;
+/// m: who is to fall finds none so far at least. Straight over a gap it is 2 foot_margin.
+constexpr double long_enough = 1.7 * foot_margin;
 
 /// A trial that is to be made, and what it must come to.
 struct Attempt {
@@ -79,9 +82,13 @@ const char* what_it_did(Outcome outcome) {
 class Proof {
  public:
   Proof(const Survey& survey, const BodyKind& kind, const Layout& layout, const Evidence& evidence, Training& training)
-      : survey_(survey), kind_(kind), layout_(layout), evidence_(evidence), training_(training) {
-    foot_ = evidence.least_foot;
-  }
+      : survey_(survey),
+        kind_(kind),
+        layout_(layout),
+        evidence_(evidence),
+        training_(training),
+        floor_(survey, layout.measure.step),
+        foot_(evidence.least_foot) {}
 
   /// The chosen body on every path, then the sizes beside the ends.
   std::vector<Attempt> attempts() {
@@ -148,10 +155,10 @@ class Proof {
     const double small = crack.radius - foot_margin, body = std::min(passes, small);
     if (!(body > 0.0)) return;
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
-    const double beside = distance_in_plan(way, crack.point);
     if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) ||
-        (beside > grazing * crack.radius && beside < crack.radius)) {
-      // The path begins or ends over the crack, or grazes it: who does that need not fall.
+        !leads_over_gap(way, small)) {
+      // The path begins or ends over the crack, or crosses it near its rim or where it is narrower: who does that need
+      // not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body)) return;
     }
@@ -160,19 +167,19 @@ class Proof {
                    "a foot just too small"});
   }
 
-  [[nodiscard]] static double distance_in_plan(const std::vector<Vec3>& way, const Vec3& point) {
-    const auto flat = [](Vec3 p) {
-      p.z = 0.0;
-      return p;
-    };
-    double least = std::numeric_limits<double>::infinity();
+  /// Whether a way comes to where a foot as large is free of floor, and stays there until it falls.
+  [[nodiscard]] bool leads_over_gap(const std::vector<Vec3>& way, double foot) const {
+    double over = 0.0;
     for (std::size_t i = 1; i < way.size(); ++i) {
-      const Vec3 from = flat(way[i - 1]), along = flat(way[i]) - from;
-      const double square = glm::dot(along, along);
-      const double part = square > 0.0 ? std::clamp(glm::dot(flat(point) - from, along) / square, 0.0, 1.0) : 0.0;
-      least = std::min(least, glm::distance(flat(point), from + part * along));
+      const Vec3 along = way[i] - way[i - 1];
+      const double length = std::hypot(along.x, along.y), looks = std::max(1.0, std::ceil(length / look_every));
+      for (double k = 0.0; k < looks; k += 1.0) {
+        const bool is_over = floor_.nearest(way[i - 1] + (k / looks) * along, foot).distance >= foot;
+        over = is_over ? over + length / looks : 0.0;
+        if (over >= long_enough) return true;
+      }
     }
-    return least;
+    return false;
   }
 
   [[nodiscard]] bool fits(const Vec3& place, double radius) const {
@@ -184,6 +191,7 @@ class Proof {
   const Layout& layout_;
   const Evidence& evidence_;
   Training& training_;
+  FloorPlan floor_;
   double foot_ = 0.0;
 };
 

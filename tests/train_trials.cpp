@@ -1,0 +1,68 @@
+// The trials that prove the lower end: who is to fall is sent to where nothing carries him.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "roam/train.h"
+#include "train_scenes.h"
+
+namespace {
+
+using namespace scenes;
+using roam::Mesh;
+using roam::Training;
+
+constexpr double length = 11.0, width = 2.0, deep = -2.0, high = 3.0;
+
+/// Two ends of a corridor, from x = 0 to 5 and from 5 + `hole` on, with walls around.
+Mesh two_ends(double hole) {
+  Mesh mesh;
+  add_floor(mesh, 0, 0, 5, width, 0);
+  add_floor(mesh, 5 + hole, 0, length, width, 0);
+  add_floor(mesh, 5, 0, 5 + hole, width, deep);
+  add_floor(mesh, 0, 0, length, width, high);
+  for (const double y : {0.0, width}) add_wall(mesh, 0, y, length, y, deep, high);
+  for (const double x : {0.0, length}) add_wall(mesh, x, 0, x, width, deep, high);
+  return mesh;
+}
+
+/// Who fell of those that were sent over the crack.
+std::ptrdiff_t fallen(const Training& t) {
+  std::ptrdiff_t count = 0;
+  for (const roam::TrainedPath& path : t.paths) {
+    count += std::count_if(path.trials.begin(), path.trials.end(),
+                           [](const roam::Trial& trial) { return trial.outcome == roam::Outcome::fell; });
+  }
+  return count;
+}
+
+TEST(TrialsOverACrack, GoOverItsMiddleWhereThePathPassesNearItsRim) {
+  // A sump at one wall: the middle of the corridor is over it, but so near its rim that this carries who goes there.
+  for (const auto& [hole, rim] : {std::pair{0.5, 0.89}, {0.4, 0.91}, {0.4, 0.92}, {1.0, 0.91}}) {
+    SCOPED_TRACE(testing::Message() << hole << " " << rim);
+    Mesh mesh = two_ends(hole);
+    add_floor(mesh, 5, 0, 5 + hole, rim, 0);
+    const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+    EXPECT_NEAR(t.smallest, 0.5 * hole, 1e-3);
+    EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+    EXPECT_GE(fallen(t), 1);
+  }
+}
+
+TEST(TrialsOverACrack, GoWhereItIsWidestWhereThePathCrossesItElsewhere) {
+  // A split of 0.4 m along one wall, of 0.8 m elsewhere, and beyond it a door where it is narrow.
+  Mesh mesh = two_ends(1.0);
+  add_floor(mesh, 5.4, 0, 6, 0.7, 0);
+  add_floor(mesh, 5.8, 0.7, 6, 1.0, 0);
+  add_floor(mesh, 5.85, 1.0, 6, 1.6, 0);
+  add_floor(mesh, 5.8, 1.6, 6, width, 0);
+  add_wall(mesh, 8, 0.9, 8, width, 0, high);
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  EXPECT_GT(t.smallest, 0.4);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  EXPECT_GE(fallen(t), 1);
+}
+
+}  // namespace
