@@ -183,4 +183,24 @@ TEST(TrainedParts, InAPocketOfARoomNoPathEndsThatDecides) {
   }
 }
 
+TEST(TrainedParts, HaveNoCracksBehindAThinWall) {
+  // Along the wall of a room, aslant to the lattice, runs a ledge of 8 cm on its far side, and beside it a gap of 0.6 m
+  // under a ceiling that is too low for anybody.
+  using namespace scenes;
+  constexpr double length = 6.0, near = 3.0, far = 4.02, ledge = 0.08, gap = 0.6;
+  for (const bool has_wall : {true, false}) {
+    SCOPED_TRACE(has_wall);
+    Mesh mesh;
+    add_quad(mesh, {0, 0, 0}, {length, 0, 0}, {length, far + ledge, 0}, {0, near + ledge, 0});
+    add_quad(mesh, {0, 0, 3}, {length, 0, 3}, {length, far, 3}, {0, near, 3});
+    add_quad(mesh, {0, near, 1.2}, {length, far, 1.2}, {length, far + 1, 1.2}, {0, near + 1, 1.2});
+    add_wall(mesh, 0, near, length, far, has_wall ? 0.0 : 1.2, 3.0);
+    add_wall(mesh, 0, near + ledge + gap, length, far + ledge + gap, -2.0, 3.0);
+    add_wall(mesh, 0, 0, length, 0, 0.0, 3.0);
+    for (const double x : {0.0, length}) add_wall(mesh, x, 0, x, far + 1, -2.0, 3.0);
+    const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+    EXPECT_EQ(t.cracks.empty(), has_wall) << t.answer;
+  }
+}
+
 }  // namespace

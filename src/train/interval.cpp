@@ -50,7 +50,7 @@ std::optional<double> least_from(double useful, const Training& training) {
 CrackOptions crack_options(const TrainOptions& options, const Measure& measure) {
   CrackOptions how;
   how.step = options.step;
-  how.knee = std::max(how.knee, options.step);
+  how.knee = knee_height(options.step);
   how.smallest = std::min(measure.narrowest, 0.5 * options.support_max);
   how.support_max = options.support_max;
   how.threads = options.threads;
@@ -64,7 +64,7 @@ std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& opti
   for (std::size_t i = 0; i < layout.components.size() && i < most_searched && !stages.ended(); ++i) {
     const Component& component = layout.components[i];
     if (static_cast<double>(component.nodes.size()) < least_searched * layout.components[0].nodes.size()) break;
-    const Reached reached(layout, options.spacing, {&component, 1});
+    const Reached reached(survey, layout, options.spacing, {&component, 1});
     std::vector<FoundCrack> found = find_cracks(
         survey, crack_options(options, layout.measure), [&](const Vec3& foot) { return reached(foot); },
         [&](double done) { return stages.at(done); });
@@ -130,7 +130,7 @@ class Paths {
 
   /// Cracks are in the order of their width: the first that must be crossed decides.
   void add_crossings(const Crossings& crossings) {
-    const Reached reached(layout_, options_.spacing, layout_.components);
+    const Reached reached(survey_, layout_, options_.spacing, layout_.components);
     for (const FoundCrack& crack : evidence_.cracks) {
       if (crack.kind != Crack::Kind::crack || crack.on_a_path) continue;
       if (crack.radius <= training_.smallest) return;

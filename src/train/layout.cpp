@@ -9,6 +9,7 @@
 #include <limits>
 #include <tuple>
 
+#include "train/cracks/cracks.h"
 #include "train/flight/way.h"
 #include "train/passage/refine.h"
 #include "train/places/inside.h"
@@ -205,11 +206,13 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
   return layout;
 }
 
-Reached::Reached(const Layout& layout, double spacing, std::span<const Component> components)
-    : tree_(&layout.tree),
+Reached::Reached(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components)
+    : survey_(&survey),
+      tree_(&layout.tree),
       side_(std::max(2.0 * spacing, 0.5 * layout.measure.widest)),
       beside_(1.1 * spacing),
-      level_(layout.measure.step) {
+      level_(layout.measure.step),
+      knee_(knee_height(layout.measure.step)) {
   for (const Component& component : components) {
     for (const NodeId id : component.nodes) {
       const Node& node = tree_->node(id);
@@ -221,6 +224,10 @@ Reached::Reached(const Layout& layout, double spacing, std::span<const Component
 }
 
 std::int64_t Reached::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
+
+bool Reached::sees(const Vec3& place, const Vec3& foot) const {
+  return !survey_->world().ray(place + Vec3(0.0, 0.0, knee_), foot - place).hit;
+}
 
 NodeId Reached::near(const Vec3& foot) const {
   // No node farther than half of `widest` need be asked: there are others nearer by, unless the way there is closed.
@@ -234,9 +241,10 @@ NodeId Reached::near(const Vec3& foot) const {
     for (; at != cells_.end() && at->x == x + dx && at->y <= y + 1; ++at) {
       const Node& node = tree_->node(at->node);
       const double apart = std::hypot(foot.x - node.place.x, foot.y - node.place.y);
-      const bool reaches =
-          apart <= std::max(beside_, static_cast<double>(node.clearance)) && std::abs(foot.z - node.place.z) <= level_;
-      if (reaches && apart < least) {
+      // Where a body has room there is no wall.
+      const bool has_room = apart <= static_cast<double>(node.clearance);
+      if (!(has_room || apart <= beside_) || std::abs(foot.z - node.place.z) > level_) continue;
+      if (apart < least && (has_room || sees(node.place, foot))) {
         least = apart;
         nearest = at->node;
       }

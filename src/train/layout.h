@@ -60,10 +60,11 @@ struct Layout {
 [[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);
 
 /// Whether a place of the floor is one that bodies come to: it lies within the clearance of a place of `components`,
-/// or hardly more than a spacing beside one, at its level.
+/// or hardly more than a spacing beside one and in sight of it at knee height, at its level.
 class Reached {
  public:
-  Reached(const Layout& layout, double spacing, std::span<const Component> components);
+  /// `survey` and `layout` must outlive it.
+  Reached(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components);
   [[nodiscard]] bool operator()(const Vec3& foot) const { return near(foot) != no_node; }
   /// The nearest of the places that reach it; no_node where it is not reached.
   [[nodiscard]] NodeId near(const Vec3& foot) const;
@@ -74,9 +75,12 @@ class Reached {
     NodeId node;
   };
   [[nodiscard]] std::int64_t cell(double at) const;
+  /// No wall between a place of the lattice and a place of the floor.
+  [[nodiscard]] bool sees(const Vec3& place, const Vec3& foot) const;
 
+  const Survey* survey_;
   const WidestTree* tree_;
-  double side_, beside_, level_;
+  double side_, beside_, level_, knee_;
   std::vector<Cell> cells_;  ///< sorted by x, y, node
 };
 

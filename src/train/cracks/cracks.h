@@ -4,6 +4,7 @@
 ///
 /// docs/training.md, "Cracks", has the definitions, the method and what was measured.
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct CrackOptions {
   double support_max = 1.0;  ///< R_max, m, > smallest: a free disc as large is an open drop
   int threads = 0;           ///< 0: one per core
 };
+
+/// Above the floor (m), of who steps so high: what is lower is no wall.
+[[nodiscard]] inline double knee_height(double step) { return std::max(CrackOptions{}.knee, step); }
 
 /// A gap, and where one comes to it.
 struct FoundCrack : Crack {
