@@ -40,9 +40,8 @@ constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
 /// Of the floors, to know where a scene is detailed.
 constexpr std::size_t triangles_asked = 10'000;
-/// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
-/// many.
-constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
+/// Each time that one is asked whether to go on there are to be so many new ones: usual are four times as many.
+constexpr std::uint64_t places_a_turn = 64;
 
 /// What a sample sees, in the order in which components are grown. What is closed comes first: it is soon grown whole,
 /// while what is open to the sky may go on for kilometres. What sees backs comes last, and often need not be grown.
@@ -77,11 +76,11 @@ class Search {
     }
     // What is large is grown on, in the order in which it was met: where the scene is detailed comes first. Then what
     // came out into the open. They take over all other trees that they meet; components() joins what they leave.
-    const std::size_t roots = large_.size() + came_out_.size();
     std::size_t grown = 0;
     const auto one_more = [&] {
-      share_done_ = std::min(1.0, samples_share + (1.0 - samples_share) * static_cast<double>(++grown) /
-                                                      static_cast<double>(std::max<std::size_t>(roots, 1)));
+      const std::size_t all = large_.size() + came_out_.size() + open_.size() + backs_.size();
+      const double share = static_cast<double>(++grown) / static_cast<double>(all);
+      share_done_ = std::max(share_done_, samples_share + (1.0 - samples_share) * share);
     };
     for (const NodeId root : large_) {
       if (!ended_ && tree_.root(root) == root) grow(root, Sight::closed, most_places_);
@@ -91,11 +90,14 @@ class Search {
       if (!ended_ && !open_was_cut_ && tree_.root(root) == root) grow(root, Sight::open, most_open());
       one_more();
     }
-    for (const Start& start : open_)
-      if (!ended_) grow_from(start);
-    if (backs_may_be_the_scene())
-      for (const Start& start : backs_)
+    const auto grow_all_from = [&](const std::vector<Start>& waiting) {
+      for (const Start& start : waiting) {
         if (!ended_) grow_from(start);
+        one_more();
+      }
+    };
+    grow_all_from(open_);
+    if (backs_may_be_the_scene()) grow_all_from(backs_);
     return components();
   }
 
@@ -166,8 +168,8 @@ class Search {
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
       out = open_running == 2;
-      // It makes no new places where it has met a tree that was looked at before.
-      const bool is_idle = is_look && turns++ > most_turns + (places - before) / places_a_turn;
+      // It makes no new places where it has met a tree that was looked at before, and is grown on after all.
+      const bool is_idle = is_look && turns++ > (places - before) / places_a_turn;
       return !out && !is_idle && places < most && asked_to_go_on();
     });
     if (tree_.size() >= most_of_all) ended_ = true;
