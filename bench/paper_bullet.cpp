@@ -12,6 +12,10 @@
 namespace roam::bench {
 namespace {
 
+// Metres. What is within 1 mm touches at once, says Bullet's sweep: a body that stops no farther off a wall is held by
+// those of its triangles that lean towards it.
+constexpr double skin = 2e-3;
+
 struct Tiles {
   std::vector<std::unique_ptr<BulletMesh>> meshes;  // which the world lets go of, so it ends first
   btDefaultCollisionConfiguration configuration;
@@ -62,7 +66,7 @@ Mover bullet_sweep(const PaperScene& scene, const TileReader& read) {
         const btVector3& n = result.m_hitNormalWorld;
         return Touch{result.m_closestHitFraction, {n.x(), n.y(), n.z()}};
       },
-      paper_shift);
+      paper_shift, skin);
 }
 
 }  // namespace roam::bench

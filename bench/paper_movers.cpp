@@ -16,7 +16,6 @@ namespace roam::bench {
 namespace {
 
 constexpr double dt = 1.0 / paper_rate;
-constexpr double skin = 1e-3;     // m: how far from a wall a sweep stops
 constexpr double gravity = 9.81;  // m/s2
 constexpr int most_slides = 4;
 
@@ -90,7 +89,7 @@ Mover roam_sweep(const PaperScene& scene) {
       Vec3(0.0));
 }
 
-Mover collide_and_slide(Sweep sweep, const Vec3& shift) {
+Mover collide_and_slide(Sweep sweep, const Vec3& shift, double skin) {
   struct State {
     Way way;
     Vec3 place{0.0};
@@ -98,7 +97,7 @@ Mover collide_and_slide(Sweep sweep, const Vec3& shift) {
   };
   const auto state = std::make_shared<State>();
   // As far as the sweep says, less the skin.
-  const auto advance = [sweep = std::move(sweep)](double radius, Vec3& place, const Vec3& motion) {
+  const auto advance = [sweep = std::move(sweep), skin](double radius, Vec3& place, const Vec3& motion) {
     const double length = glm::length(motion);
     std::optional<Touch> touch;
     if (length > 0.0) touch = sweep(radius, place, motion);

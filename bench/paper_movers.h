@@ -79,9 +79,9 @@ struct Touch {
   Vec3 normal{0.0};
 };
 using Sweep = std::function<std::optional<Touch>(double radius, const Vec3& from, const Vec3& motion)>;
-/// What a program does that has a sweep and nothing else: go until `skin` before the touch, slide along its plane, four
-/// times at most; who walks also falls, and stops falling where it touches. `shift` is added to all places.
-[[nodiscard]] Mover collide_and_slide(Sweep sweep, const Vec3& shift);
+/// What a program does that has a sweep and nothing else: go until `skin` metres before the touch, slide along its
+/// plane, four times at most; who walks also falls, and stops falling where it touches. `shift` is added to all places.
+[[nodiscard]] Mover collide_and_slide(Sweep sweep, const Vec3& shift, double skin = 1e-3);
 /// What a program does that is told only whether a place is free: go there, or stay.
 using Blocked = std::function<bool(double radius, const Vec3& from, const Vec3& motion)>;
 [[nodiscard]] Mover go_or_stay(Blocked blocked, const Vec3& shift);

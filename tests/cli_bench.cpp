@@ -166,6 +166,22 @@ TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
   EXPECT_TRUE(report["failed"].empty()) << report["failed"];
 }
 
+// The finer the wall, the more of its triangles touch who is held within Bullet's tolerance of it.
+TEST(BenchPaper, KeepsBulletFarEnoughOffAWallToFallAlongIt) {
+  const ProgramResult result = bench({"paper", "--triangles", "300k", "--rows", "roam-sweep,osg-bullet", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report = json(result);
+  if (!row_of(report["absent"], "osg-bullet").is_null()) GTEST_SKIP() << "no Bullet here";
+  std::map<std::string, int> steps;
+  for (const auto& cell : report["table_1"]) {
+    if (cell["way"] != "3 split, smaller") continue;
+    EXPECT_EQ(cell["outcome"], "fell") << cell;
+    steps[cell["row"]] = cell["steps"];
+  }
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_LE(steps["osg-bullet"], steps["roam-sweep"] + 3) << "both fall freely";
+}
+
 TEST(BenchPaper, EndsARowThatTakesMoreThanItMay) {
   const std::vector<std::string> row{"paper", "--triangles", "50k", "--rows", "polytope-kdtree,physx", "--json"};
   for (const auto& [option, least, why] : {std::array{"--memory", "10MiB", "more than 10 MiB of memory"},
