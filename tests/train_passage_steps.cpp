@@ -45,6 +45,21 @@ Mesh room() {
 }
 constexpr Vec3 one_end{1.0, 0.0, 0.0}, other_end{9.0, 0.0, 0.0};
 
+TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
+  constexpr double foot = 1.0;
+  for (const double gap : {1.994, 2.006}) {
+    SCOPED_TRACE(gap);
+    Mesh m = shaft();
+    add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
+    add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
+    const bool spanned = gap < 2.0 * foot;
+    const Survey survey = survey_of(m);
+    EXPECT_EQ(roam::widest_way(survey, one_end, other_end, {.height = height, .support_max = foot}).found, spanned);
+    EXPECT_EQ(try_way(survey, {.height = height}, person, foot, std::vector{one_end, other_end}).outcome,
+              spanned ? Outcome::reached : Outcome::fell);
+  }
+}
+
 TEST(PassageSteps, KeepToTheFloorBesideAnOpenDrop) {
   // A ledge 1 m wide along one wall, over a floor 4 m below.
   Mesh m = shaft();

@@ -48,15 +48,16 @@ Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
   return survey.floor().floor_clearance({0.0, carrying_band}, axis, reach, floor);
 }
 
-/// Whether the largest foot, as a level disc that touches a place of the floor and lies beyond it as seen from there,
-/// is free of floor, and its middle in sight: what free_disc() finds too, with more work.
+/// Whether the largest foot, as a level disc that lies beyond a place of the floor as seen from there and hardly
+/// farther than it touches it, holds the axis, is free of floor, and has its middle in sight: what free_disc() finds
+/// too, with more work.
 bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, double radius, double knee) {
-  constexpr double sight = 0.01;   // m, radius of what looks for walls
-  constexpr double inside = 0.99;  // or that place itself would be found
+  constexpr double sight = 0.01;  // m, radius of what looks for walls
+  constexpr double apart = 0.01;  // m: the rims of most drops are not quite straight
   const double beside = aside(floor, axis.x, axis.y);
-  if (!(beside > 0.0 && beside < radius)) return false;
-  const Vec3 away = Vec3(axis.x - floor.x, axis.y - floor.y, 0.0) * ((radius - beside) / beside);
-  return !floor_beside(survey, axis + away, inside * radius).found &&
+  if (!(beside > apart && beside < radius)) return false;
+  const Vec3 away = Vec3(axis.x - floor.x, axis.y - floor.y, 0.0) * ((radius + apart - beside) / beside);
+  return !floor_beside(survey, axis + away, radius).found &&
          !survey.world().sweep({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
 }
 
