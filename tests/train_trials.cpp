@@ -65,4 +65,19 @@ TEST(TrialsOverACrack, GoWhereItIsWidestWhereThePathCrossesItElsewhere) {
   EXPECT_GE(fallen(t), 1);
 }
 
+TEST(TrialsOverACrack, AreNotMadeWhereItsWidestPlaceOpensIntoADrop) {
+  // A split of 0.62 m that widens to 0.8 m towards the end of both floors: who stands over its mouth has a drop before
+  // him, in which a foot finds room.
+  constexpr double end = 12.0;
+  Mesh mesh;
+  add_quad(mesh, {0, 0, 0}, {3.69, 0, 0}, {3.6, end, 0}, {0, end, 0});
+  add_quad(mesh, {4.31, 0, 0}, {8, 0, 0}, {8, end, 0}, {4.4, end, 0});
+  add_floor(mesh, 0, 0, 8, end + 3, high);
+  for (const double y : {0.0, end + 3}) add_wall(mesh, 0, y, 8, y, -3, high);
+  for (const double x : {0.0, 8.0}) add_wall(mesh, x, 0, x, end + 3, -3, high);
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  EXPECT_NEAR(t.smallest, 0.4, 2e-3);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+}
+
 }  // namespace

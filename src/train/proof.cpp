@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "motion/free_disc.h"
 #include "train/answer.h"
 #include "train/cracks/floor_plan.h"
 #include "train/interval.h"
@@ -154,15 +155,16 @@ class Proof {
     const double passes = path.largest ? inside_share * *path.largest : training_.radius;
     const double small = crack.radius - foot_margin, body = std::min(passes, small);
     if (!(body > 0.0)) return;
+    const double foot = crack.radius + foot_margin;
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
     if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) ||
-        !leads_over_gap(way, small)) {
+        !leads_over_gap(way, small) || !is_carried(way, foot)) {
       // The path begins or ends over the crack, or crosses it near its rim or where it is narrower: who does that need
       // not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
-      if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body)) return;
+      if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
     }
-    all.push_back({crossing.path, body, crack.radius + foot_margin, way, Judgement::passed, "a foot just wide enough"});
+    all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
   }
@@ -180,6 +182,23 @@ class Proof {
       }
     }
     return false;
+  }
+
+  /// Whether a foot is carried where a way leaves the floor. Beside an open drop it may find room in that.
+  [[nodiscard]] bool is_carried(const std::vector<Vec3>& way, double foot) const {
+    constexpr double apart = 0.05;  // m along the way
+    const walking::Foot disc{foot, survey_.slope_degrees(), knee_height(layout_.measure.step)};
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const Vec3 along = way[i] - way[i - 1];
+      const double looks = std::max(1.0, std::ceil(std::hypot(along.x, along.y) / apart));
+      for (double k = 0.0; k < looks; k += 1.0) {
+        const Vec3 place = way[i - 1] + (k / looks) * along;
+        if (!stands_on_floor(survey_, place) &&
+            walking::free_disc(survey_.world(), {place}, disc, place) != walking::DiscRoom::none)
+          return false;
+      }
+    }
+    return true;
   }
 
   [[nodiscard]] bool fits(const Vec3& place, double radius) const {
