@@ -9,20 +9,10 @@
 #define ROAM_INDEX_LANES_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstddef>
-
-#include "index/block.h"
-#include "index/margin.h"
+#include "index/frame-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 using F = hn::CappedTag<float, kWidth>;
 using I = hn::RebindToSigned<F>;
@@ -53,59 +43,6 @@ HWY_INLINE V3 select(MF m, const V3& a, const V3& b) {
 HWY_INLINE VF set(float x) { return hn::Set(kF, x); }
 HWY_INLINE VF clamp(VF x, VF lo, VF hi) { return hn::Min(hn::Max(x, lo), hi); }
 HWY_INLINE VF largest(const V3& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
-
-/// The start of a query on the grid of a tile or of the top: whole steps and the rest.
-struct Frame {
-  alignas(16) std::int32_t whole[4]{};  // an axis each
-  float rest[3];
-  float step, inverse;  ///< metres, and steps a metre
-
-  HWY_INLINE Frame(const Vec3& origin, double grid_step, const Vec3& start) : step(static_cast<float>(grid_step)) {
-    const double exact = 1.0 / grid_step;  // a power of two
-    inverse = static_cast<float>(exact);
-    for (int k = 0; k < 3; ++k) {
-      // A start too far away for whole steps can not matter: at the limit it is 4095 m away at least, out of any reach.
-      const double at = std::min(std::max((start[k] - origin[k]) * exact, -kFarthestSteps), kFarthestSteps);
-      const double nearest = std::floor(at + 0.5);
-      whole[k] = static_cast<std::int32_t>(nearest);
-      rest[k] = static_cast<float>(at - nearest);
-    }
-  }
-  /// Steps from the start.
-  [[nodiscard]] float steps(std::int32_t coordinate, int k) const {
-    return static_cast<float>(coordinate - whole[k]) - rest[k];
-  }
-};
-
-/// A float that is no less than x, which is not negative.
-HWY_INLINE float round_up(double x) { return static_cast<float>(x) * (1.0F + 4.0F * kUnit); }
-
-/// A piece of motion in single precision.
-struct Motion {
-  float way[3];
-  float longest;      ///< of |way[k]|
-  float half_height;  ///< rounded up
-  // Node tests mirror the axes along which the body moves backwards, so that it enters every box by its lower planes.
-  float mirror[3];                  ///< 1 or -1
-  float forward[3];                 ///< |way[k]|
-  float inverse[3];                 ///< 1 / forward[k], at most kHugeInverse
-  std::uint32_t entry[3], exit[3];  ///< where in a node the planes begin by which axis k is entered and left
-
-  Motion(const Vec3& motion, double h) : longest(0.0F), half_height(round_up(h)) {
-    for (int k = 0; k < 3; ++k) {
-      way[k] = static_cast<float>(motion[k]);
-      const bool back = way[k] < 0.0F;
-      mirror[k] = back ? -1.0F : 1.0F;
-      forward[k] = std::abs(way[k]);
-      inverse[k] = forward[k] > 1.0F / kHugeInverse ? 1.0F / forward[k] : kHugeInverse;
-      longest = std::max(longest, forward[k]);
-      const auto lower = static_cast<std::uint32_t>(offsetof(Node, lower) + kWidth * k);
-      const auto upper = static_cast<std::uint32_t>(offsetof(Node, upper) + kWidth * k);
-      entry[k] = back ? upper : lower;
-      exit[k] = back ? lower : upper;
-    }
-  }
-};
 
 /// The children of a node that cannot be left out, and a lower bound of the time (sweep) or distance (near) of each.
 struct Children {
@@ -228,40 +165,6 @@ HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motio
   out.mask &= met;
 }
 
-/// How far from its start a body reaches on its way, in metres, rounded outwards.
-struct Reach {
-  alignas(16) float lower[4]{}, upper[4]{};
-
-  Reach(const Vec3& motion, double radius, double half_height) {
-    for (int k = 0; k < 3; ++k) {
-      const double around = radius + (k == 2 ? half_height : 0.0);
-      lower[k] = -round_up(around - std::min(motion[k], 0.0));
-      upper[k] = round_up(around + std::max(motion[k], 0.0));
-    }
-  }
-};
-
-/// The box of a reach that is `more` metres wider, in whole steps of a frame, two steps wider than any rounding.
-struct Swept {
-  alignas(16) std::int32_t lower[4], upper[4];
-
-  Swept() = default;
-  HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
-    // Planes lie between 0 and 2^16 steps of a tile, 2^29 + 2^19 of the tree over tiles: of what is farther off only
-    // the side matters. A reach that is cut off still leads from any start, as it is cut off, past all planes of a
-    // tile; in the tree over tiles none is so long. No sum of these and an origin overflows.
-    constexpr std::int32_t farthest = (1 << 30) - (1 << 18), end = 1 << 30;
-    constexpr float longest = 0x1p30F - 0x1p17F;
-    const float steps = frame.inverse * (1.0F + kTimeRoundings * kUnit);
-    for (int k = 0; k < 4; ++k) {
-      const std::int32_t whole = std::min(std::max(frame.whole[k], -farthest), farthest);
-      const float low = (reach.lower[k] - more) * steps, high = (reach.upper[k] + more) * steps;
-      lower[k] = std::max(whole + static_cast<std::int32_t>(std::max(low, -longest)) - 2, -end);
-      upper[k] = std::min(whole + static_cast<std::int32_t>(std::min(high, longest)) + 2, end);
-    }
-  }
-};
-
 /// The children of a node whose boxes meet the swept box, in whole numbers: most visits need to know no more.
 HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 #if HWY_TARGET == HWY_SCALAR
@@ -299,26 +202,6 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
   return (std::uint32_t{bits[0]} | std::uint32_t{bits[1]} << 8) & ((1U << node.child_count) - 1);
 #endif
 }
-
-/// The way of a body of which the nearest approach to something is looked for; zero for one at rest.
-struct Way {
-  float way[3];
-  float longest;  ///< of |way[k]|
-  float half_height;
-  float inverse_square, inverse_flat;  ///< of the length of the way, and of its horizontal part; 0 for none
-  bool moves;
-
-  Way(const Vec3& motion, double h) : longest(0.0F), half_height(round_up(h)) {
-    for (int k = 0; k < 3; ++k) {
-      way[k] = static_cast<float>(motion[k]);
-      longest = std::max(longest, std::abs(way[k]));
-    }
-    const float flat = way[0] * way[0] + way[1] * way[1], whole = flat + way[2] * way[2];
-    inverse_flat = flat > kShortest * kShortest ? 1.0F / flat : 0.0F;
-    inverse_square = whole > kShortest * kShortest ? 1.0F / whole : 0.0F;
-    moves = longest > 0.0F;
-  }
-};
 
 /// Which children may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
 /// least of that of the others, unless it was less. `margin` is grown_radius() of radius 0.
