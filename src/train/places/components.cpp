@@ -40,8 +40,9 @@ constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
 /// Of the floors, to know where a scene is detailed.
 constexpr std::size_t triangles_asked = 10'000;
-/// Each time that one is asked whether to go on there are to be so many new ones: usual are four times as many.
-constexpr std::uint64_t places_a_turn = 64;
+/// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
+/// many. Where something is known to be grown on anyway, what meets it need not go on at all.
+constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
 
 /// What a sample sees, in the order in which components are grown. What is closed comes first: it is soon grown whole,
 /// while what is open to the sky may go on for kilometres. What sees backs comes last, and often need not be grown.
@@ -159,6 +160,7 @@ class Search {
     const std::uint64_t most_of_all = most_places_ * all_factor;
     const std::uint64_t most = std::min(before + std::min(most_new, most_places_), most_of_all);
     const bool is_look = sight == Sight::closed && most_new == first_look;
+    const std::uint64_t idle_turns = look_was_cut_ ? 0 : most_turns;
     std::uint64_t mark = before + first_asked, turns = 0;
     int open_running = 0;
     bool out = false;
@@ -168,14 +170,15 @@ class Search {
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
       out = open_running == 2;
-      // It makes no new places where it has met a tree that was looked at before, and is grown on after all.
-      const bool is_idle = is_look && turns++ > (places - before) / places_a_turn;
+      // It makes no new places where it has met a tree that was looked at before.
+      const bool is_idle = is_look && turns++ > idle_turns + (places - before) / places_a_turn;
       return !out && !is_idle && places < most && asked_to_go_on();
     });
     if (tree_.size() >= most_of_all) ended_ = true;
     if (out) came_out_.push_back(root);
     if (!whole && sight == Sight::open) open_was_cut_ = true;
     if (!whole && !out && is_look && !ended_) large_.push_back(root);
+    if (is_look && tree_.size() >= most) look_was_cut_ = true;
     if (whole) whole_.push_back(root);
     note_reached();
     if (whole && sight == Sight::closed) closed_places_ += places_of(root);
@@ -330,6 +333,7 @@ class Search {
   std::size_t done_ = 0;
   double share_done_ = 0.0;  ///< of all the work
   bool open_was_cut_ = false;
+  bool look_was_cut_ = false;  ///< something closed is larger than what is looked at first
   bool ended_ = false;
 };
 
