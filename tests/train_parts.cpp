@@ -203,4 +203,44 @@ TEST(TrainedParts, HaveNoCracksBehindAThinWall) {
   }
 }
 
+TEST(TrainedRegions, AreNoneWhereADoorLetsTheBodyThrough) {
+  // A door of 0.6 m near a corner, so that the lattice's places before it lie beside its jambs; the other way, under a
+  // lintel, is too low.
+  using namespace scenes;
+  for (const double jamb : {4.0, 3.95, 4.1}) {
+    SCOPED_TRACE(jamb);
+    Mesh mesh;
+    shells::add_room(mesh, {0, 0, 0}, {12, 6, 3});
+    add_box(mesh, {6, 0, 0}, {6.2, 1, 3});
+    add_box(mesh, {6, 1, 1.7}, {6.2, 2.2, 3});
+    add_box(mesh, {6, 2.2, 0}, {6.2, jamb, 3});
+    add_box(mesh, {6, jamb + 0.6, 0}, {6.2, 6, 3});
+    const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+    ASSERT_TRUE(t.largest);
+    EXPECT_NEAR(*t.largest, 0.3, 1e-3);
+    EXPECT_TRUE(t.regions.empty()) << t.regions.front().why << " " << t.regions.front().radius;
+  }
+}
+
+TEST(TrainedFoot, IsSaidToCarryWhereTheLargestJustDoes) {
+  using namespace scenes;
+  constexpr double gap = 1.994;
+  Mesh mesh;
+  shells::add_room(mesh, {0, -2, -4}, {10, 2, 3});
+  add_floor(mesh, 0, -2, 5 - 0.5 * gap, 2, 0);
+  add_floor(mesh, 5 + 0.5 * gap, -2, 10, 2, 0);
+  const Training t = roam::train(survey_of({mesh}), {.support_max = 1.0, .height = 1.8});
+  EXPECT_NEAR(t.smallest, 0.5 * gap, 1e-3) << t.answer;
+  EXPECT_DOUBLE_EQ(t.support_radius, 1.0);
+  EXPECT_FALSE(says(t, "not carried")) << t.answer;
+}
+
+TEST(TrainedFoot, IsSaidToBeForTheCrackOnThePathThatItCarriesOver) {
+  const Training t = roam::train(corridor({.door = 0.9, .split = 0.86}), {.height = 1.8});
+  EXPECT_GT(t.support_radius, t.radius) << t.answer;
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(says(t, "The foot is for that crack")) << t.answer;
+  EXPECT_FALSE(says(t, "beside the paths")) << t.answer;
+}
+
 }  // namespace

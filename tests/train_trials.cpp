@@ -7,6 +7,7 @@
 
 #include "roam/train.h"
 #include "train_scenes.h"
+#include "train_shells.h"
 
 namespace {
 
@@ -61,6 +62,24 @@ TEST(TrialsOverACrack, GoWhereItIsWidestWhereThePathCrossesItElsewhere) {
   add_wall(mesh, 8, 0.9, 8, width, 0, high);
   const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
   EXPECT_GT(t.smallest, 0.4);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  EXPECT_GE(fallen(t), 1);
+}
+
+TEST(TrialsOverACrack, ComeFromItsLowerSide) {
+  // A gap of 0.4 m right behind a door with a sill of 0.28 m: who comes over the sill drops onto the
+  // far rim before he has sunk.
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, deep}, {12, 4, high});
+  add_floor(mesh, 0, 0, 6.2, 4, 0);
+  add_floor(mesh, 6.6, 0, 12, 4, 0);
+  add_box(mesh, {6, 0, 0}, {6.2, 1.65, high});
+  add_box(mesh, {6, 2.35, 0}, {6.2, 4, high});
+  add_box(mesh, {6, 1.65, 0}, {6.2, 2.35, 0.28});
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.35, 1e-3);
+  EXPECT_NEAR(t.smallest, 0.2, 1e-3);
   EXPECT_TRUE(t.contradictions.empty()) << t.answer;
   EXPECT_GE(fallen(t), 1);
 }

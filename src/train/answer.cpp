@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "train/interval.h"
+
 namespace roam::training {
 
 namespace {
@@ -61,8 +63,11 @@ std::string interval_words(const Training& training, bool cracks_known) {
 std::string feasible_words(const Training& training, bool cracks_known) {
   std::string text = fmt::format("A body with {} serves {}. {}", body_words(training.radius, training.support_radius),
                                  all_paths(training), interval_words(training, cracks_known));
-  if (training.support_radius > 0.0 && training.smallest < training.radius)
-    text += " The foot is for cracks beside the paths.";
+  if (training.support_radius > 0.0 && training.smallest < training.radius) {
+    const bool is_carried = training.radius >= carried_share * training.smallest;
+    text += is_carried ? " The foot is for cracks beside the paths."
+                       : " The foot is for that crack: a body so little wider than it sags between its rims.";
+  }
   return text;
 }
 

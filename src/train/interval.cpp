@@ -18,9 +18,6 @@ namespace {
 
 /// m, of a grown person: what a body is where nothing asks for another.
 constexpr double person = 0.3;
-/// A round body is carried by both rims of a crack from 1 / sin(70 degrees) of its half width on (docs/walking.md); and
-/// a little for rims that are not straight.
-constexpr double carried_share = 1.08;
 /// m: FoundCrack::foot is found to this, and for the thinnest body that was asked for.
 constexpr double foot_precision = 0.03;
 /// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
@@ -75,12 +72,14 @@ std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& opti
   return cracks;
 }
 
-void note_width(const FoundCrack& crack, double narrowest, Evidence& evidence) {
+void note_width(const FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
   evidence.widest_anywhere = std::max(evidence.widest_anywhere, crack.radius);
-  // Beside a wall a foot's disc finds room where no body does.
+  // Beside a wall a foot's disc finds room where no body does. Elsewhere the largest foot carries over all that is no
+  // open drop.
   const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
-  const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest : crack.radius;
-  evidence.least_foot = std::max(evidence.least_foot, foot + foot_margin);
+  const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest + foot_margin
+                                     : std::min(crack.radius + foot_margin, options.support_max);
+  evidence.least_foot = std::max(evidence.least_foot, foot);
 }
 
 /// Fills in what is found out path by path.
@@ -175,7 +174,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
     const FoundCrack& crack = evidence.cracks[i];
     if (crack.kind != Crack::Kind::crack) continue;
     if (crack.shallow_depth == 0.0)
-      note_width(crack, layout.measure.narrowest, evidence);
+      note_width(crack, options, layout.measure.narrowest, evidence);
     else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius)
       evidence.shallow = i;
   }

@@ -21,6 +21,10 @@ inline constexpr double outside_share = 1.02;
 /// m. A foot is so much larger than a crack's half width, and a trial's foot that is to fall so much smaller.
 inline constexpr double foot_margin = 0.02;
 
+/// A round body is carried by both rims of a crack from 1 / sin(70 degrees) of its half width on (docs/walking.md); and
+/// a little for rims that are not straight.
+inline constexpr double carried_share = 1.08;
+
 /// A gap on a path.
 struct PathCrossing {
   std::size_t path = 0;

@@ -9,6 +9,9 @@ namespace roam::training {
 
 namespace {
 
+/// Places that a way goes on by into a room at each of its ends, at most.
+constexpr std::size_t most_steps = 10;
+
 /// Best first: the largest least clearance, then the smaller number, so that the order is always the same.
 struct Front {
   float least;
@@ -59,12 +62,27 @@ class NeckWay {
 
   [[nodiscard]] std::vector<Vec3> back_from(NodeId last, NodeId behind) const {
     std::vector<Vec3> way{tree_.node(behind).place};
-    for (NodeId id = last;; id = from_.at(id)) {
-      way.push_back(tree_.node(id).place);
-      if (!is_in_neck(id)) break;
-    }
+    add_widening(behind, way);
+    std::reverse(way.begin(), way.end());
+    NodeId id = last;
+    for (; is_in_neck(id); id = from_.at(id)) way.push_back(tree_.node(id).place);
+    way.push_back(tree_.node(id).place);
+    add_widening(id, way);
     std::reverse(way.begin(), way.end());
     return way;
+  }
+
+  /// On from a place of a room for as long as that widens: a way's ends stay where they are when it is refined, and
+  /// beside a jamb they would be narrower than the door.
+  void add_widening(NodeId id, std::vector<Vec3>& way) const {
+    const auto room = room_of_.find(id);
+    if (room == room_of_.end()) return;
+    for (std::size_t steps = 0; steps < most_steps; ++steps) {
+      const NodeId next = neighbour(id, [&](std::uint32_t other) { return other == room->second; });
+      if (next == no_node || tree_.node(next).clearance <= tree_.node(id).clearance) return;
+      way.push_back(tree_.node(next).place);
+      id = next;
+    }
   }
 
   const WidestTree& tree_;

@@ -10,7 +10,8 @@
 namespace roam::training {
 
 /// For each of rooms.necks, in their order: the places of the widest way through it from the first room that it touches
-/// to another, with the last place before it and the first behind; empty where the lattice has none.
+/// to another, with the last places before it and the first behind, as far as it widens there; empty where the lattice
+/// has none.
 [[nodiscard]] std::vector<std::vector<Vec3>> neck_ways(const WidestTree& tree, const Rooms& rooms);
 
 }  // namespace roam::training

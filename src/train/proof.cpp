@@ -36,6 +36,9 @@ constexpr double look_every = 0.0025;
 /// m: who is to fall finds none so far at least. Straight over a gap it is 2 foot_margin.
 constexpr double long_enough = 1.7 * foot_margin;
 
+/// m: sides of a crack that differ by less are alike.
+constexpr double same_level = 0.02;
+
 /// A trial that is to be made, and what it must come to.
 struct Attempt {
   std::size_t path = 0;
@@ -164,6 +167,8 @@ class Proof {
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
     }
+    // Who comes from the higher side may drop onto the other before it has sunk.
+    if (way.front().z > way.back().z + same_level) std::reverse(way.begin(), way.end());
     all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
