@@ -1,5 +1,6 @@
 // The command line `roam`: its verbs, and what is said of all of them.
 #include "command_line.h"
+#include "roam/version.h"
 
 namespace {
 
