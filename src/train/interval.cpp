@@ -44,27 +44,19 @@ std::optional<double> least_from(double useful, const Training& training) {
   return least;
 }
 
-CrackOptions crack_options(const TrainOptions& options, const Measure& measure) {
-  CrackOptions how;
-  how.step = options.step;
-  how.knee = knee_height(options.step);
-  how.smallest = std::min(measure.narrowest, 0.5 * options.support_max);
-  how.support_max = options.support_max;
-  how.threads = options.threads;
-  return how;
-}
-
 /// Component by component, for the floor at the bottom of a gap is a step down only where one can walk there.
 std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& options, const Layout& layout,
-                                  Stages& stages) {
+                                  RimEdges& ahead, Stages& stages) {
   std::vector<FoundCrack> cracks;
+  const CrackOptions how = crack_options(options, layout.measure);
+  std::optional<RimEdges> others;
+  RimEdges& edges = ahead.options() == how ? ahead : others.emplace(survey, how);
   for (std::size_t i = 0; i < layout.components.size() && i < most_searched && !stages.ended(); ++i) {
     const Component& component = layout.components[i];
     if (static_cast<double>(component.nodes.size()) < least_searched * layout.components[0].nodes.size()) break;
     const Reached reached(survey, layout, options.spacing, {&component, 1});
     std::vector<FoundCrack> found = find_cracks(
-        survey, crack_options(options, layout.measure), [&](const Vec3& foot) { return reached(foot); },
-        [&](double done) { return stages.at(done); });
+        survey, edges, [&](const Vec3& foot) { return reached(foot); }, [&](double done) { return stages.at(done); });
     cracks.insert(cracks.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
   }
   std::stable_sort(cracks.begin(), cracks.end(),
@@ -164,11 +156,22 @@ void describe_decisive(const Layout& layout, const Evidence& evidence, Training&
 
 }  // namespace
 
-Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages) {
+CrackOptions crack_options(const TrainOptions& options, const Measure& measure) {
+  CrackOptions how;
+  how.step = options.step;
+  how.knee = knee_height(options.step);
+  how.smallest = std::min(measure.narrowest, 0.5 * options.support_max);
+  how.support_max = options.support_max;
+  how.threads = options.threads;
+  return how;
+}
+
+Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout, RimEdges& ahead,
+                     Stages& stages) {
   Evidence evidence;
   if (options.mode != Mode::walk || layout.components.empty() || stages.ended()) return evidence;
   stages.begin("looking for cracks");
-  evidence.cracks = cracks_of(survey, options, layout, stages);
+  evidence.cracks = cracks_of(survey, options, layout, ahead, stages);
   evidence.complete = !stages.ended();
   for (std::size_t i = 0; i < evidence.cracks.size(); ++i) {
     const FoundCrack& crack = evidence.cracks[i];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roam/train.h"
+#include "train/cracks/rim_edges.h"
 #include "train/crossings.h"
 #include "train/layout.h"
 #include "train/stages.h"
@@ -43,9 +44,12 @@ struct Evidence {
   bool complete = true;                  ///< false: ended before all cracks were found
 };
 
-/// The cracks of what was reached.
+/// How cracks are looked for.
+[[nodiscard]] CrackOptions crack_options(const TrainOptions& options, const Measure& measure);
+
+/// The cracks of what was reached. `ahead` is what was looked at meanwhile, of any options.
 [[nodiscard]] Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout,
-                                   Stages& stages);
+                                   RimEdges& ahead, Stages& stages);
 
 /// A body and its foot, m.
 struct BodySize {

@@ -77,8 +77,8 @@ void leave_out_parts_without_paths(const Layout& layout, Training& training) {
 }
 
 void find_interval(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Layout& layout,
-                   Stages& stages, Training& training) {
-  Evidence evidence = find_cracks(survey, options, layout, stages);
+                   RimEdges& rims, Stages& stages, Training& training) {
+  Evidence evidence = find_cracks(survey, options, layout, rims, stages);
   if (options.mode == Mode::walk && !stages.ended()) confirm_paths(survey, options, kind, evidence, layout, stages);
   find_ends(survey, options, layout, evidence, training);
   choose_body(kind, options, evidence, training);
@@ -94,15 +94,21 @@ void find_interval(const Survey& survey, const TrainOptions& options, const Body
     training.answer += shallow_words(evidence.cracks[*evidence.shallow]);
 }
 
-/// Laid out for the step of the body that comes of it: a sphere climbs at most its radius. Less climbs less, so this
-/// comes down to it.
+bool rolls(const TrainOptions& options) { return options.mode == Mode::walk && options.height == 0.0; }
+
+/// What is laid out first: a sphere climbs at most its radius.
+TrainOptions first_laid_out(TrainOptions options) {
+  if (options.method == Method::paper && options.paths == 0) options.paths = usual_paths;
+  if (rolls(options)) options.step = std::min(options.step, std::min(usual_radius, options.radius_max));
+  return options;
+}
+
+/// Laid out for the step of the body that comes of it. Less climbs less, so this comes down to it.
 Layout lay_out_for_body(const Survey& survey, TrainOptions options, const BodyKind& kind, Stages& stages) {
   constexpr double same_step = 1e-4;  // m
-  const bool rolls = options.mode == Mode::walk && options.height == 0.0;
-  if (rolls) options.step = std::min(options.step, std::min(usual_radius, options.radius_max));
   for (;;) {
     Layout layout = lay_out(survey, options, stages);
-    if (!rolls || stages.ended() || options.method == Method::paper) return layout;
+    if (!rolls(options) || stages.ended() || options.method == Method::paper) return layout;
     Training first;
     for (const PlannedPath& path : layout.paths) {
       TrainedPath& described = first.paths.emplace_back();
@@ -161,8 +167,9 @@ Training train(const Survey& survey, const TrainOptions& options) {
   training.mode = options.mode;
   training.method = options.method;
   training.slope_degrees = survey.slope_degrees();
-  TrainOptions laid = options;
-  if (options.method == Method::paper && options.paths == 0) laid.paths = usual_paths;
+  const TrainOptions laid = first_laid_out(options);
+  RimEdges rims(survey, crack_options(laid, measure_of(laid)));
+  if (options.mode == Mode::walk && options.method == Method::interval) rims.look_ahead();
   Layout layout = lay_out_for_body(survey, laid, kind_of(survey, options), stages);
   // What follows is of the same step, or it would look for other cracks than the ways lead over.
   TrainOptions settled = options;
@@ -176,7 +183,7 @@ Training train(const Survey& survey, const TrainOptions& options) {
   } else if (options.method == Method::paper) {
     follow_paper(survey, settled, kind, layout, stages, training);
   } else {
-    find_interval(survey, settled, kind, layout, stages, training);
+    find_interval(survey, settled, kind, layout, rims, stages, training);
   }
   training.complete = !stages.ended();
   if (!training.complete) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "motion/free_disc.h"
+#include "train/cracks/rim_edges.h"
 #include "train/cracks/void_measure.h"
 
 namespace roam::training {
@@ -68,9 +69,10 @@ std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<
   return all;
 }
 
-std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
+std::vector<FoundCrack> find(const Survey& survey, RimEdges& edges,
                              const std::function<bool(const Vec3& foot)>& is_reached,
                              const std::function<bool(double)>& goes_on) {
+  const CrackOptions& options = edges.options();
   const VoidProbe probe(survey, options);
   std::atomic<bool> ended{false};
   std::function<bool(double)> finding, measuring;
@@ -78,7 +80,7 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
     finding = [&](double done) { return goes_on(kFindShare * done); };
     measuring = [&](double done) { return goes_on(kFindShare + (1.0 - kFindShare) * done); };
   }
-  const std::vector<RimPlace> voids = find_voids(survey, options, probe, is_reached, finding, ended);
+  const std::vector<RimPlace> voids = find_voids(survey, options, probe, edges, is_reached, finding, ended);
   std::vector<RimPlace> open, rest;
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
   const OpenDrops drops(options, probe, open);
@@ -113,10 +115,17 @@ std::vector<FoundCrack> find(const Survey& survey, const CrackOptions& options,
 std::vector<FoundCrack> find_cracks(const Survey& survey, const CrackOptions& options,
                                     const std::function<bool(const Vec3& foot)>& is_reached,
                                     const std::function<bool(double)>& goes_on) {
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
+  RimEdges edges(survey, options);
+  return find_cracks(survey, edges, is_reached, goes_on);
+}
+
+std::vector<FoundCrack> find_cracks(const Survey& survey, RimEdges& edges,
+                                    const std::function<bool(const Vec3& foot)>& is_reached,
+                                    const std::function<bool(double)>& goes_on) {
+  const int cores = tbb::info::default_concurrency(), threads = edges.options().threads;
+  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
   std::vector<FoundCrack> cracks;
-  arena.execute([&] { cracks = find(survey, options, is_reached, goes_on); });
+  arena.execute([&] { cracks = find(survey, edges, is_reached, goes_on); });
   return cracks;
 }
 

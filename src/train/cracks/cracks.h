@@ -19,6 +19,7 @@ struct CrackOptions {
   double smallest = 0.05;    ///< r_min, m, >= 0.02: gaps that a disc of this radius does not enter are not looked for
   double support_max = 1.0;  ///< R_max, m, > smallest: a free disc as large is an open drop
   int threads = 0;           ///< 0: one per core
+  bool operator==(const CrackOptions&) const = default;
 };
 
 /// Above the floor (m), of who steps so high: what is lower is no wall.
@@ -45,6 +46,12 @@ struct FoundCrack : Crack {
 /// The same bits for any number of threads. Radii are exact to 0.02 mm where the survey is lossless, and change by less
 /// than 0.2 mm where triangles come in another order, split, flipped or doubled.
 [[nodiscard]] std::vector<FoundCrack> find_cracks(const Survey& survey, const CrackOptions& options,
+                                                  const std::function<bool(const Vec3& foot)>& is_reached,
+                                                  const std::function<bool(double)>& goes_on = {});
+
+class RimEdges;
+/// The same of what `edges` knows by now, by its options; it knows more then.
+[[nodiscard]] std::vector<FoundCrack> find_cracks(const Survey& survey, RimEdges& edges,
                                                   const std::function<bool(const Vec3& foot)>& is_reached,
                                                   const std::function<bool(double)>& goes_on = {});
 

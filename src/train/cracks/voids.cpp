@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "train/cracks/shared_edges.h"
+#include "train/cracks/rim_edges.h"
 
 namespace roam::training {
 
@@ -65,68 +65,92 @@ std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
 
 namespace {
 
+/// A place of a rim, the way out of the floor there, and the place just outside.
+struct Rim {
+  Vec3 at{0.0}, out{0.0}, outside{0.0};
+};
+
 /// The rims of one floor triangle.
 class Rims {
  public:
-  Rims(const VoidProbe& probe, double spacing, const std::function<bool(const Vec3&)>& is_reached)
-      : probe_(probe), spacing_(spacing), is_reached_(is_reached) {}
+  Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
 
-  void of(const Triangle& t, std::uint8_t shared, std::vector<RimPlace>& found) const {
+  /// Calls take(rim) with each that has a void outside, whoever comes there, of the edges that `known` does not say
+  /// have none, until it returns false for that edge. Those that have none beside `known`.
+  template <class Take>
+  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Take& take) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      if ((shared >> k & 1u) == 0) of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], found);
+      if ((known >> k & 1u) != 0) continue;
+      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], take)) known = static_cast<std::uint8_t>(known | 1u << k);
     }
+    return known;
   }
 
  private:
-  void of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, std::vector<RimPlace>& found) const {
+  /// Whether there is any.
+  template <class Take>
+  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Take& take) const {
     const Vec3 along = b - a;
     const double level = std::hypot(along.x, along.y);
-    if (level < kShortest) return;
+    if (level < kShortest) return false;
     Vec3 out(along.y / level, -along.x / level, 0.0);
     if (out.x * (inner.x - a.x) + out.y * (inner.y - a.y) > 0.0) out = -out;
     const double length = std::hypot(level, along.z);
     const double parts = std::max(std::ceil(length / spacing_), 1.0);
+    bool any = false;
     for (double i = 0.5; i < parts; i += 1.0) {
-      const Vec3 rim = a + (i / parts) * along;
-      const Vec3 outside = rim + probe_.outside() * out;
-      if (is_void(rim, out, outside)) found.push_back({rim, outside, climb(outside)});
+      const Vec3 at = a + (i / parts) * along;
+      const Rim rim{at, out, at + probe_.outside() * out};
+      if (!is_void(rim)) continue;
+      any = true;
+      if (!take(rim)) break;
     }
+    return any;
   }
 
   /// The cheap questions first: most edges have floor on both sides, and most others have a wall.
-  bool is_void(const Vec3& rim, const Vec3& out, const Vec3& outside) const {
+  bool is_void(const Rim& rim) const {
     // Seen from a little inside, or a wall on the rim itself would be touched from its far side as well.
-    return !probe_.has_floor(outside) && probe_.sees(rim - probe_.outside() * out, outside) &&
-           probe_.sinks(outside, probe_.radius()) && is_reached_(rim);
-  }
-
-  Disc climb(const Vec3& outside) const {
-    return grow(probe_.floor(), outside, probe_.open(), kClimbPrecision,
-                [&](const Vec3& from, const Vec3& to) { return probe_.sees(from, to); });
+    return !probe_.has_floor(rim.outside) && probe_.sees(rim.at - probe_.outside() * rim.out, rim.outside) &&
+           probe_.sinks(rim.outside, probe_.radius());
   }
 
   const VoidProbe& probe_;
   double spacing_;
-  const std::function<bool(const Vec3&)>& is_reached_;
 };
+
+Disc climb(const VoidProbe& probe, const Vec3& outside) {
+  return grow(probe.floor(), outside, probe.open(), kClimbPrecision,
+              [&](const Vec3& from, const Vec3& to) { return probe.sees(from, to); });
+}
 
 }  // namespace
 
+std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options, const Triangle& floor,
+                                std::uint8_t known) {
+  return Rims(probe, options).with_void(floor, known, [](const Rim&) { return false; });
+}
+
 std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,
-                                 const std::function<bool(const Vec3& foot)>& is_reached,
+                                 RimEdges& edges, const std::function<bool(const Vec3& foot)>& is_reached,
                                  const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
   constexpr std::size_t block = 2048;  // triangles: some milliseconds of work
   const auto floors = survey.floor_triangles();
   const std::size_t blocks = (floors.size() + block - 1) / block;
   std::vector<std::vector<RimPlace>> found(blocks);
-  const std::vector<std::uint8_t> shared = shared_edges(survey);
-  const Rims rims(probe, 2.0 * options.smallest, is_reached);
+  std::vector<std::uint8_t>& without = edges.without_void();
+  const Rims rims(probe, options);
   std::mutex mutex;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t i) {
     if (ended) return;
     const std::size_t end = std::min((i + 1) * block, floors.size());
-    for (std::size_t f = i * block; f < end; ++f) rims.of(survey.triangle(floors[f]), shared[f], found[i]);
+    const auto take = [&](const Rim& rim) {
+      if (is_reached(rim.at)) found[i].push_back({rim.at, rim.outside, climb(probe, rim.outside)});
+      return true;
+    };
+    for (std::size_t f = i * block; f < end; ++f)
+      without[f] = rims.with_void(survey.triangle(floors[f]), without[f], take);
     if (!goes_on) return;
     const std::lock_guard lock(mutex);
     if (!ended && !goes_on(double(++done) / double(blocks))) ended = true;

@@ -55,10 +55,18 @@ struct RimPlace {
   Disc disc;          ///< radius at least probe.open(): an open drop
 };
 
+class RimEdges;
+
+/// Of the edges of a floor triangle, bit k that from corner k to the next, those that have no void outside, whoever
+/// comes there: those that are `known` to have none, and what is found out about the others.
+[[nodiscard]] std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options,
+                                              const Triangle& floor, std::uint8_t known);
+
 /// Of all edges of all floors that are reached, every 2 * smallest, the places that have a void outside, by position.
-/// Sets `ended` when `goes_on` says so, and stops early.
+/// `edges`, of the same survey and options, is told what is found out for whoever comes to other floors. Sets `ended`
+/// when `goes_on` says so, and stops early.
 [[nodiscard]] std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options,
-                                               const VoidProbe& probe,
+                                               const VoidProbe& probe, RimEdges& edges,
                                                const std::function<bool(const Vec3& foot)>& is_reached,
                                                const std::function<bool(double)>& goes_on, std::atomic<bool>& ended);
 
