@@ -3,6 +3,7 @@
 /// The places of a lattice and who is whose neighbour, made where they are asked for. WidestTree grows over it.
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "train/lattice/lattice.h"
@@ -19,6 +20,8 @@ class LatticeGraph {
   virtual Neighbours expand(NodeId id) = 0;
   /// A place will be expanded later: other cores may ask by then what expand() needs to know. Changes no answer.
   virtual void look_ahead(NodeId /*id*/) {}
+  /// Of how many places they had answered when they were expanded.
+  [[nodiscard]] virtual std::uint64_t answered_ahead() const { return 0; }
   /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
   /// is to be gone, for on foot walkers are sent over gaps.
   virtual bool goes(NodeId from, NodeId to) = 0;

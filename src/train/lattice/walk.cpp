@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "train/lattice/graph.h"
@@ -10,6 +11,9 @@ namespace roam::training {
 namespace {
 
 constexpr std::uint8_t all_directions = 0xFF;
+/// Places whose steps are asked ahead and that nobody has come to, and points that anybody has asked about: more are
+/// forgotten, some megabytes.
+constexpr std::size_t most_out = 8192, most_asked_about = 1 << 20;
 
 /// Metres. Feet over one point of the lattice that differ by less are the same place: balls that come down beside
 /// different things rest at slightly different heights.
@@ -45,6 +49,7 @@ class WalkLattice final : public LatticeGraph {
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
   void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
+  [[nodiscard]] std::uint64_t answered_ahead() const override { return scouts_.answered(); }
 
  private:
   [[nodiscard]] Standing standing(NodeId id) const {
@@ -63,6 +68,7 @@ class WalkLattice final : public LatticeGraph {
   LatticeTable table_;
   std::vector<Column> columns_;
   LatticeTable asked_about_;  ///< by storey: who has sent scouts there
+  std::size_t asked_points_ = 0;
   Scouts scouts_{steps_, plan_};
 };
 
@@ -133,7 +139,14 @@ void WalkLattice::look_ahead(NodeId id) {
     asked_about_.set(about, id);
     asked |= bit;
   }
-  if (asked != 0) scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked));
+  if (asked == 0) return;
+  asked_points_ += static_cast<std::size_t>(std::popcount(asked));
+  if (scouts_.out() >= most_out || asked_points_ > most_asked_about) {
+    scouts_.forget();
+    asked_about_ = {};
+    asked_points_ = 0;
+  }
+  scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked));
 }
 
 Neighbours WalkLattice::expand(NodeId id) {

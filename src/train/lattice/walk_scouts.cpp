@@ -54,7 +54,17 @@ std::shared_ptr<const ScoutedSteps> Scouts::take(NodeId from) {
   Place& place = out.errand->places[out.number];
   State waiting = State::waiting;
   if (place.state.compare_exchange_strong(waiting, State::taken) || place.state != State::answered) return nullptr;
+  ++answered_;
   return {out.errand, &place.steps};
+}
+
+void Scouts::forget() {
+  for (const auto& [from, out] : out_) {
+    State waiting = State::waiting;
+    out.errand->places[out.number].state.compare_exchange_strong(waiting, State::taken);
+  }
+  out_.clear();
+  next_ = std::make_shared<Errand>();
 }
 
 }  // namespace roam::training

@@ -35,10 +35,16 @@ class Scouts {
 
   /// Whether a place's steps were asked for, and not taken yet.
   [[nodiscard]] bool are_out(NodeId from) const { return out_.contains(from); }
+  /// Of how many places that is so.
+  [[nodiscard]] std::size_t out() const { return out_.size(); }
+  /// Of how many places the answers were known when they were taken.
+  [[nodiscard]] std::uint64_t answered() const { return answered_; }
   /// Asks about the steps of a place in `asked`.
   void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked);
   /// The answers about a place, where they are known by now; they are forgotten here.
   [[nodiscard]] std::shared_ptr<const ScoutedSteps> take(NodeId from);
+  /// Nothing is out any more.
+  void forget();
 
  private:
   static constexpr std::size_t places_together = 8;
@@ -63,6 +69,7 @@ class Scouts {
   const WalkSteps& steps_;
   const LatticePlan& plan_;
   std::unordered_map<NodeId, Out> out_;
+  std::uint64_t answered_ = 0;
   std::shared_ptr<Errand> next_ = std::make_shared<Errand>();
   std::atomic<bool> ended_{false};
   tbb::task_group group_;

@@ -175,6 +175,7 @@ void WidestTree::close(std::span<const NodeId> places) {
 
 double WidestTree::spacing() const { return state_->spacing; }
 std::size_t WidestTree::size() const { return state_->graph->size(); }
+std::uint64_t WidestTree::answered_ahead() const { return state_->graph->answered_ahead(); }
 const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }
 NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }
 NodeId WidestTree::parent(NodeId id) const { return state_->parent[id]; }
