@@ -1,0 +1,99 @@
+// What floors end at is found out whoever comes there: ahead, by parts or again, the cracks are the same bits.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "floor_cases.h"
+#include "train/cracks/rim_edges.h"
+
+namespace {
+
+using namespace std::chrono_literals;
+using floors::floor_cases;
+using floors::FloorCase;
+using roam::Mesh;
+using roam::Survey;
+using roam::Vec3;
+using roam::training::find_cracks;
+using roam::training::FoundCrack;
+using roam::training::RimEdges;
+
+Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
+
+void expect_same(const std::vector<FoundCrack>& a, const std::vector<FoundCrack>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].kind, b[i].kind);
+    EXPECT_EQ(a[i].radius, b[i].radius);
+    EXPECT_EQ(a[i].point, b[i].point);
+    EXPECT_EQ(a[i].rim, b[i].rim);
+  }
+}
+
+std::size_t bits(const std::vector<std::uint8_t>& edges) {
+  std::size_t set = 0;
+  for (const std::uint8_t of_floor : edges) set += static_cast<std::size_t>(std::popcount(of_floor));
+  return set;
+}
+
+/// Far from each other: no edge is shared, and nothing is beside any.
+Mesh lone_floors(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(0.04, 0, 0), Vec3(0, 0.04, 0)})
+      mesh.vertices.push_back(Vec3(i % 100, i / 100, 0) + corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    // A floor just below: nobody sinks.
+    for (const Vec3& corner : {Vec3(-0.2, -0.2, -0.1), Vec3(0.4, -0.2, -0.1), Vec3(-0.2, 0.4, -0.1)})
+      mesh.vertices.push_back(Vec3(i % 100, i / 100, 0) + corner);
+    mesh.triangles.push_back({first + 3, first + 4, first + 5});
+  }
+  return mesh;
+}
+
+TEST(RimEdges, ChangeNoCrack) {
+  for (const FloorCase& c : floor_cases()) {
+    SCOPED_TRACE(c.name);
+    const Survey survey = survey_of(c.mesh);
+    const auto alone = find_cracks(survey, {}, c.is_reached);
+    RimEdges edges(survey, {});
+    edges.look_ahead();
+    // Who comes to nothing leaves what others come to.
+    EXPECT_TRUE(find_cracks(survey, edges, [](const Vec3&) { return false; }).empty());
+    expect_same(find_cracks(survey, edges, c.is_reached), alone);
+    expect_same(find_cracks(survey, edges, c.is_reached), alone);
+  }
+}
+
+TEST(RimEdges, AreLookedAtAheadWhereThereIsAnotherCore) {
+  const Survey survey = survey_of(lone_floors(5'000));
+  const auto known_after = [&](int threads, std::chrono::milliseconds wait) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    RimEdges edges(survey, {});
+    edges.look_ahead();
+    std::this_thread::sleep_for(wait);
+    return bits(edges.without_void());
+  };
+  EXPECT_EQ(known_after(1, 20ms), 0u);
+  std::size_t known = 0;
+  for (auto wait = 20ms; known == 0 && wait < 60s; wait *= 2) known = known_after(4, wait);
+  EXPECT_GE(known, 15'000u / 5);
+}
+
+TEST(RimEdges, AreLeftWhereTheyEndBeforeTheOtherCore) {
+  for (int i = 0; i < 50; ++i) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+    const Survey survey = survey_of(lone_floors(500));
+    RimEdges edges(survey, {});
+    edges.look_ahead();
+  }
+}
+
+}  // namespace
