@@ -48,6 +48,12 @@ HWY_INLINE VF largest(const V3& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Ab
 struct Children {
   alignas(64) float key[kWidth];
   std::uint32_t mask;
+
+  /// Takes those that are in `met`, of none of which more is known than that.
+  HWY_INLINE void take(std::uint32_t met) {
+    mask = met;
+    for (std::uint32_t left = met; left != 0; left &= left - 1) key[std::countr_zero(left)] = 0.0F;
+  }
 };
 
 /// Bounds of kLanes boxes, in steps of their node's grid.

@@ -55,7 +55,7 @@ class NearTraversal {
           }
           Children children;
           const Node& node = look_at(index_.top, e.number, frame, around, margin(kTopSteps, frame), axis_reach(more),
-                                     passed, children);
+                                     kFewTiles, passed, children);
           push_children(node, children, index_.top, nullptr, stack);
           prefetch_tiles(index_, node, children);
         });
@@ -89,9 +89,9 @@ class NearTraversal {
   }
 
   /// Looks at the children of a node or, where it has only one around the way, of that one, and so on; returns whose
-  /// they are.
+  /// they are. How near they come is not asked where `few` or fewer are around it.
   HWY_INLINE const Node& look_at(const Block* nodes, std::uint32_t at, const Frame& frame, const Around& around,
-                                 float grown, float reach, Passed& passed, Children& children) const {
+                                 float grown, float reach, int few, Passed& passed, Children& children) const {
     std::uint32_t met = ~0U;
     const Node* node = &nodes[at].node;
     if (Bounds::kLoose && boxed_) {
@@ -99,14 +99,13 @@ class NearTraversal {
       for (;;) {
         met = met_children(*node, around.box);
         const auto child = static_cast<std::uint32_t>(std::countr_zero(met));
-        const bool choice = (met & (met - 1)) != 0;
-        if (met != 0 && !choice && child < node->inner_count) {
+        const int count = std::popcount(met);
+        if (count == 1 && child < node->inner_count) {
           node = &nodes[node->first_node + child].node;
           continue;
         }
-        if (choice) break;
-        children.mask = met;
-        if (met != 0) children.key[child] = 0.0F;
+        if (count > few) break;
+        children.take(met);
         return *node;
       }
     }
@@ -149,7 +148,7 @@ class NearTraversal {
     const auto beyond = [&](float key) { return passed.over(key, reach); };
     const Around around = around_of(frame, reach);
     const auto look = [&](std::uint32_t at, Children& children) -> const Node& {
-      return look_at(nodes, at, frame, around, grown, reach, passed, children);
+      return look_at(nodes, at, frame, around, grown, reach, 1, passed, children);
     };
     const auto look_at_leaf = [&](std::uint32_t leaf) {
       looked_ = true;

@@ -39,7 +39,7 @@ class SweepTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Descent met = descend(index_.top, e.number, frame, swept, grown);
+          const Descent met = descend(index_.top, e.number, frame, swept, grown, kFewTiles);
           if (met.single) return tile(met.first);
           push_children(*met.node, met.children, index_.top, nullptr, stack);
           prefetch_tiles(index_, *met.node, met.children);
@@ -72,7 +72,7 @@ class SweepTraversal {
         [&](const Stack::Entry& e) {
           std::uint32_t only = e.number;
           if (!e.leaf) {
-            const Descent met = descend(nodes, e.number, frame, swept, grown);
+            const Descent met = descend(nodes, e.number, frame, swept, grown, 1);
             if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
             only = met.first;
           }
@@ -89,9 +89,10 @@ class SweepTraversal {
   };
 
   /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency. Boxes
-  /// in whole numbers settle most visits at a third of the price; times of entry matter only where there is a choice.
+  /// in whole numbers settle most visits at a third of the price; times of entry matter only where there is a choice,
+  /// of more than `few`.
   HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
-                             float grown) {
+                             float grown, int few) {
     Descent out;
     out.single = false;
     out.node = &nodes[number].node;
@@ -119,6 +120,10 @@ class SweepTraversal {
     }
     if constexpr (!Line::kIs) {
       const std::uint32_t met = out.children.mask;
+      if (std::popcount(met) <= few) {
+        out.children.take(met);
+        return out;
+      }
       sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
       out.children.mask &= met;
       if (std::popcount(out.children.mask) >= kManyChildren) {

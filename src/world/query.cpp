@@ -23,11 +23,14 @@ constexpr double kMotionLimit = 1e6;
 
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot answer a query: " + what); }
 
+[[noreturn]] void refuse_length(double value, double limit, const char* name) {
+  refuse(std::string(name) + " is " + std::to_string(value) + " m; it must be between 0 and " +
+         std::to_string(static_cast<long>(limit)) + " m");
+}
+
+/// Small enough to be compiled into its callers.
 void check_length(double value, double limit, const char* name) {
-  if (!(value >= 0.0 && value <= limit)) {
-    refuse(std::string(name) + " is " + std::to_string(value) + " m; it must be between 0 and " +
-           std::to_string(static_cast<long>(limit)) + " m");
-  }
+  if (!(value >= 0.0 && value <= limit)) refuse_length(value, limit, name);
 }
 
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
