@@ -160,33 +160,55 @@ class Proof {
     if (!(body > 0.0)) return;
     const double foot = crack.radius + foot_margin;
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
-    if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) ||
-        !leads_over_gap(way, small) || !is_carried(way, foot)) {
+    if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) || !over_gap(way, small) ||
+        !is_carried(way, foot)) {
       // The path begins or ends over the crack, or crosses it near its rim or where it is narrower: who does that need
       // not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
     }
-    // Who comes from the higher side may drop onto the other before it has sunk.
-    if (way.front().z > way.back().z + same_level) std::reverse(way.begin(), way.end());
+    if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
     all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
   }
 
-  /// Whether a way comes to where a foot as large is free of floor, and stays there until it falls.
-  [[nodiscard]] bool leads_over_gap(const std::vector<Vec3>& way, double foot) const {
-    double over = 0.0;
+  /// m along a way: up to where a foot as large is free of floor, and stays so until it falls.
+  [[nodiscard]] std::optional<double> over_gap(const std::vector<Vec3>& way, double foot) const {
+    double over = 0.0, gone = 0.0;
     for (std::size_t i = 1; i < way.size(); ++i) {
       const Vec3 along = way[i] - way[i - 1];
-      const double length = std::hypot(along.x, along.y), looks = std::max(1.0, std::ceil(length / look_every));
+      const double level = std::hypot(along.x, along.y), looks = std::max(1.0, std::ceil(level / look_every));
       for (double k = 0.0; k < looks; k += 1.0) {
         const bool is_over = floor_.nearest(way[i - 1] + (k / looks) * along, foot).distance >= foot;
-        over = is_over ? over + length / looks : 0.0;
-        if (over >= long_enough) return true;
+        over = is_over ? over + level / looks : 0.0;
+        if (over >= long_enough) return gone + (k / looks) * glm::length(along);
       }
+      gone += glm::length(along);
     }
-    return false;
+    return std::nullopt;
+  }
+
+  /// Whether a way leads down over a gap: who comes so may drop onto its lower side before he has sunk.
+  [[nodiscard]] bool comes_from_above(const std::vector<Vec3>& way, double foot) const {
+    const double at = over_gap(way, foot).value_or(0.0), beside = foot + layout_.measure.step;
+    const auto highest = [&](double middle) {
+      constexpr double apart = 0.02;  // m along the way
+      const double step = layout_.measure.step;
+      double z = -std::numeric_limits<double>::infinity();
+      const std::vector<Vec3> part = stretch(way, middle, beside);
+      for (std::size_t i = 1; i < part.size(); ++i) {
+        const Vec3 along = part[i] - part[i - 1];
+        const double looks = std::max(1.0, std::ceil(glm::length(along) / apart));
+        for (double k = 0.0; k <= looks; k += 1.0) {
+          const Vec3 above = part[i - 1] + (k / looks) * along + Vec3(0.0, 0.0, step);
+          const Impact floor = survey_.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
+          if (floor.hit) z = std::max(z, above.z - 2.0 * step * floor.time);
+        }
+      }
+      return z;
+    };
+    return highest(at - beside) > highest(at + beside) + same_level;
   }
 
   /// Whether a foot is carried where a way leaves the floor. Beside an open drop it may find room in that.
