@@ -60,6 +60,30 @@ TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
   }
 }
 
+TEST(PassageSteps, LeadUpAndDownStairsThatAreSteeperThanTheyAreDeep) {
+  constexpr int risers = 8;
+  for (const auto& [riser, tread] :
+       {std::pair{0.2, 0.15}, {0.17, 0.15}, {0.25, 0.15}, {0.28, 0.18}, {0.3, 0.2}, {0.3, 0.25}}) {
+    SCOPED_TRACE(testing::Message() << riser << " " << tread);
+    Mesh m;
+    constexpr double foot = 4.03;
+    add_floor(m, 0.0, -1.5, foot, 1.5, 0.0);
+    for (int i = 0; i < risers; ++i)
+      add_box(m, {foot + i * tread, -1.5, 0.0}, {foot + (i + 1) * tread, 1.5, riser * (i + 1)});
+    add_box(m, {foot + risers * tread, -1.5, 0.0}, {12.0, 1.5, riser * risers});
+    for (const double y : {-1.5, 1.5}) add_wall(m, 0.0, y, 12.0, y, 0.0, 6.0);
+    for (const double x : {0.0, 12.0}) add_wall(m, x, -1.5, x, 1.5, 0.0, 6.0);
+    const Vec3 below(1.0, 0.0, 0.0), above(11.0, 0.0, riser * risers);
+    const Survey survey = survey_of(m);
+    for (const auto& [from, to] : {std::pair{below, above}, {above, below}}) {
+      SCOPED_TRACE(from.z);
+      const Passage passage = roam::widest_way(survey, from, to, {.height = height});
+      ASSERT_TRUE(passage.found);
+      EXPECT_EQ(try_way(survey, {.height = height}, person, 0.0, passage.way).outcome, Outcome::reached);
+    }
+  }
+}
+
 TEST(PassageSteps, KeepToTheFloorBesideAnOpenDrop) {
   // A ledge 1 m wide along one wall, over a floor 4 m below.
   Mesh m = shaft();

@@ -175,6 +175,12 @@ class Search {
   bool ended_ = false;
 };
 
+Passage reversed(Passage passage) {
+  std::reverse(passage.way.begin(), passage.way.end());
+  if (passage.opening) passage.opening->direction = -passage.opening->direction;
+  return passage;
+}
+
 }  // namespace
 
 Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
@@ -193,6 +199,11 @@ Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const
   if (rolls) measure.step = std::min(options.step, options.widest);
   for (;;) {
     Passage passage = Search(survey, options, measure).run(from, to);
+    // Steep stairs, or a gap below a sill, may be found from one side alone, where the lattice lies badly.
+    if (!passage.found && passage.complete && passage.opening) {
+      Passage back = Search(survey, options, measure).run(to, from);
+      if (back.found) passage = reversed(std::move(back));
+    }
     // A sphere climbs at most its radius: the largest that gets through with the step that is its own. Less climbs
     // less, so this comes down to it.
     constexpr double same_step = 1e-4;
