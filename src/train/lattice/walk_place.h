@@ -3,7 +3,6 @@
 /// How a body stands at a place of the floor, and where the floor is.
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -61,11 +60,7 @@ class KnownGaps {
 
  private:
   struct Hash {
-    std::size_t operator()(const Vec3& v) const {
-      std::uint64_t h = 0;
-      for (int k = 0; k < 3; ++k) h = mixed(h ^ std::bit_cast<std::uint64_t>(v[k]));
-      return static_cast<std::size_t>(h);
-    }
+    std::size_t operator()(const Vec3& v) const { return static_cast<std::size_t>(hashed(v)); }
   };
   struct Part {
     std::mutex mutex;

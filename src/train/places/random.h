@@ -2,7 +2,10 @@
 /// \file
 /// Numbers that are drawn by a seed, the same on every machine; standard distributions are not.
 
+#include <bit>
 #include <cstdint>
+
+#include "roam/math.h"
 
 namespace roam::training {
 
@@ -13,6 +16,12 @@ namespace roam::training {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
   return z ^ (z >> 31);
+}
+
+/// Of a place, to the last bit.
+[[nodiscard]] inline std::uint64_t hashed(const Vec3& p, std::uint64_t seed = 0) {
+  for (int k = 0; k < 3; ++k) seed = mixed(seed ^ std::bit_cast<std::uint64_t>(p[k]));
+  return seed;
 }
 
 /// In [0, 1).

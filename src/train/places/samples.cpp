@@ -33,12 +33,6 @@ constexpr std::uint64_t second_half(std::uint64_t turn) { return turn | (std::ui
 
 double area(const Triangle& t) { return 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
-std::uint64_t hash(const Vec3& p, std::uint64_t seed) {
-  std::uint64_t h = seed;
-  for (int k = 0; k < 3; ++k) h = mixed(h ^ std::bit_cast<std::uint64_t>(p[k]));
-  return h;
-}
-
 bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// The corners in an order that does not depend on the file's.
@@ -85,7 +79,7 @@ std::vector<Sample> sample_floors(const Survey& survey, std::uint64_t seed) {
     const Triangle t = ordered(survey.triangle(id));
     sample_by_area(t, origin, cell, seed, samples);
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    if (const std::uint64_t turn = hash(middle, seed); turn % one_in == 0)
+    if (const std::uint64_t turn = hashed(middle, seed); turn % one_in == 0)
       samples.push_back({first_half(mixed(turn)), middle});
   }
   return samples;
