@@ -18,9 +18,9 @@ class LatticeGraph {
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
   /// All neighbours, which are made and measured if need be.
   virtual Neighbours expand(NodeId id) = 0;
-  /// A place will be expanded later: other cores may ask by then what expand() needs to know. Changes no answer.
+  /// A place will be expanded soon: other cores may ask by then what expand() needs to know. Changes no answer.
   virtual void look_ahead(NodeId /*id*/) {}
-  /// Of how many places they had answered when they were expanded.
+  /// How many steps they had answered when they were gone.
   [[nodiscard]] virtual std::uint64_t answered_ahead() const { return 0; }
   /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
   /// is to be gone, for on foot walkers are sent over gaps.

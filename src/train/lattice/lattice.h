@@ -91,7 +91,7 @@ class WidestTree {
   /// Of its lattice, metres.
   [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
-  /// Of how many places other cores had answered ahead what their growing asks.
+  /// Of how many steps other cores had answered ahead what growing asks.
   [[nodiscard]] std::uint64_t answered_ahead() const;
   [[nodiscard]] const Node& node(NodeId id) const;
   /// The root of the tree that a node hangs in; no_node where it was seen but not reached.

@@ -27,9 +27,10 @@ struct Column {
   NodeId next = no_node;              ///< another place over the same point of the lattice, made earlier
   std::uint8_t settled = 0;           ///< bit set of the directions that were looked at
   std::uint8_t tried = 0;             ///< likewise, that walkers were sent in and got through
+  bool carried = false;               ///< its foot
+  bool is_scouted = false;            ///< scouts were sent, or had nothing to ask
   std::array<NodeId, directions> to;  ///< the neighbour in each direction, or no_node
   double level = 0.0;                 ///< of its foot
-  bool carried = false;               ///< likewise
 };
 
 class WalkLattice final : public LatticeGraph {
@@ -49,7 +50,7 @@ class WalkLattice final : public LatticeGraph {
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
   void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
-  [[nodiscard]] std::uint64_t answered_ahead() const override { return scouts_.answered(); }
+  [[nodiscard]] std::uint64_t answered_ahead() const override { return answered_ahead_; }
 
  private:
   [[nodiscard]] Standing standing(NodeId id) const {
@@ -69,13 +70,15 @@ class WalkLattice final : public LatticeGraph {
   std::vector<Column> columns_;
   LatticeTable asked_about_;  ///< by storey: who has sent scouts there
   std::size_t asked_points_ = 0;
+  std::uint64_t answered_ahead_ = 0;
+  bool looks_ahead_ = false;  ///< there are other cores
   Scouts scouts_{steps_, plan_};
 };
 
 NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot, float clearance) {
   const auto id = static_cast<NodeId>(nodes_.size());
   nodes_.push_back({foot.place, clearance});
-  Column column{.at = at, .next = table_.find(at), .to = {}, .level = foot.level, .carried = foot.carried};
+  Column column{.at = at, .next = table_.find(at), .carried = foot.carried, .to = {}, .level = foot.level};
   column.to.fill(no_node);
   columns_.push_back(column);
   table_.set(at, id);
@@ -103,35 +106,36 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
   const LatticePoint at = beside(columns_[from].at, direction);
   if (!covers(at)) return no_node;
   const Standing here = standing(from);
-  const unsigned bit = 1U << direction;
-  const bool is_asked = ahead != nullptr && (ahead->asked & bit) != 0;
-  bool is_new = false;
+  bool is_new = false, is_answered = false;
   NodeId there = nearest_over(at, here.level, measure_.step);
   if (there == no_node) {
-    const auto foot = is_asked ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
+    is_answered = ahead != nullptr && ahead->is_answered(direction);
+    if (is_answered) ++answered_ahead_;
+    const auto foot = is_answered ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
     if (!foot || foot->place.z < within_.lower.z || foot->place.z > within_.upper.z) return no_node;
     there = nearest_over(at, foot->level, same_height);
     is_new = there == no_node;
-    if (is_new) there = make(at, *foot, is_asked ? ahead->clearance[direction] : steps_.clearance(foot->place));
+    if (is_new) there = make(at, *foot, is_answered ? ahead->clearance[direction] : steps_.clearance(foot->place));
   }
   // Its own way back may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
   if (nodes_[there].clearance == 0.0F) return no_node;
-  const bool is_linked = is_new && is_asked ? (ahead->linked & bit) != 0 : steps_.linked(here, standing(there));
+  const bool is_linked = is_new && is_answered ? ahead->linked[direction] : steps_.linked(here, standing(there));
   return is_linked ? there : no_node;
 }
 
 void WalkLattice::look_ahead(NodeId id) {
+  looks_ahead_ = true;
+  Column& column = columns_[id];
   // Where nothing limits a body, answers are had sooner than they are sent for.
-  if (nodes_[id].clearance >= steps_.unlimited() || columns_[id].settled == all_directions || scouts_.are_out(id))
-    return;
+  if (column.is_scouted || column.settled == all_directions || nodes_[id].clearance >= steps_.unlimited()) return;
+  column.is_scouted = true;
   const Standing here = standing(id);
   unsigned asked = 0;
   for (std::size_t direction = 0; direction < directions; ++direction) {
     const unsigned bit = 1U << direction;
-    const LatticePoint at = beside(columns_[id].at, direction);
-    if ((columns_[id].settled & bit) != 0 || !covers(at) || nearest_over(at, here.level, measure_.step) != no_node)
-      continue;
+    const LatticePoint at = beside(column.at, direction);
+    if ((column.settled & bit) != 0 || !covers(at) || nearest_over(at, here.level, measure_.step) != no_node) continue;
     // Most points are come to from more than one side: who is there first asks.
     const auto storey = std::lround(here.level / std::max(measure_.step, same_height)) % LatticeTable::limit;
     const LatticePoint about{at.x, at.y, static_cast<std::int32_t>(storey)};
@@ -146,11 +150,13 @@ void WalkLattice::look_ahead(NodeId id) {
     asked_about_ = {};
     asked_points_ = 0;
   }
-  scouts_.send(id, here, columns_[id].at, static_cast<std::uint8_t>(asked));
+  scouts_.send(id, here, column.at, static_cast<std::uint8_t>(asked));
 }
 
 Neighbours WalkLattice::expand(NodeId id) {
   if (columns_[id].settled == all_directions) return neighbours(id);
+  // A scout begins at the other end of what is to be asked.
+  if (looks_ahead_) look_ahead(id);
   const auto ahead = scouts_.take(id);
   for (std::size_t direction = 0; direction < directions; ++direction) {
     if (columns_[id].settled & 1U << direction) continue;
@@ -162,6 +168,7 @@ Neighbours WalkLattice::expand(NodeId id) {
     other.settled = static_cast<std::uint8_t>(other.settled | 1U << opposite(direction));
     other.to[opposite(direction)] = id;
   }
+  if (ahead) ahead->done = true;
   return neighbours(id);
 }
 

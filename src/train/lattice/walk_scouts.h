@@ -22,7 +22,13 @@ struct ScoutedSteps {
   std::uint8_t asked = 0;                            ///< bit set
   std::array<std::optional<Foot>, directions> foot;  ///< as WalkSteps::foot_from
   std::array<float, directions> clearance;           ///< there
-  std::uint8_t linked = 0;                           ///< bit set: to who will stand there
+  std::array<bool, directions> linked;               ///< to who will stand there
+  std::atomic<std::uint8_t> answered{0};             ///< bit set, of those that may be read
+  std::atomic<bool> done{false};                     ///< nobody needs the others any more
+
+  [[nodiscard]] bool is_answered(std::size_t direction) const {
+    return (answered.load(std::memory_order_acquire) >> direction & 1U) != 0;
+  }
 };
 
 /// Used by one thread. Nothing is asked where there is but one core for it.
@@ -33,44 +39,21 @@ class Scouts {
   Scouts(const Scouts&) = delete;
   Scouts& operator=(const Scouts&) = delete;
 
-  /// Whether a place's steps were asked for, and not taken yet.
-  [[nodiscard]] bool are_out(NodeId from) const { return out_.contains(from); }
-  /// Of how many places that is so.
-  [[nodiscard]] std::size_t out() const { return out_.size(); }
-  /// Of how many places the answers were known when they were taken.
-  [[nodiscard]] std::uint64_t answered() const { return answered_; }
-  /// Asks about the steps of a place in `asked`.
+  /// Asks about the steps of a place in `asked`, the last direction first: who is there himself begins with the first.
   void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked);
-  /// The answers about a place, where they are known by now; they are forgotten here.
-  [[nodiscard]] std::shared_ptr<const ScoutedSteps> take(NodeId from);
-  /// Nothing is out any more.
+  /// What is asked about a place, and answered by now or later; it is forgotten here. Null: nothing.
+  [[nodiscard]] std::shared_ptr<ScoutedSteps> take(NodeId from);
+  /// Nobody needs what is not answered yet.
   void forget();
+  /// Of how many places something is asked and not taken.
+  [[nodiscard]] std::size_t out() const { return out_.size(); }
 
  private:
-  static constexpr std::size_t places_together = 8;
-  enum class State : std::uint8_t { waiting, taken, answered };
-  struct Place {
-    std::atomic<State> state{State::waiting};
-    ScoutedSteps steps;
-  };
-  /// Some hundred microseconds of work.
-  struct Errand {
-    std::array<Place, places_together> places;
-    std::size_t count = 0;
-  };
-  struct Out {
-    std::shared_ptr<Errand> errand;
-    std::size_t number;
-  };
-
-  void run(Errand& errand) const;
   void answer(ScoutedSteps& steps) const;
 
   const WalkSteps& steps_;
   const LatticePlan& plan_;
-  std::unordered_map<NodeId, Out> out_;
-  std::uint64_t answered_ = 0;
-  std::shared_ptr<Errand> next_ = std::make_shared<Errand>();
+  std::unordered_map<NodeId, std::shared_ptr<ScoutedSteps>> out_;
   std::atomic<bool> ended_{false};
   tbb::task_group group_;
 };

@@ -11,6 +11,8 @@ namespace {
 
 /// How many places are looked past before anybody is asked whether to go on.
 constexpr std::size_t places_between_questions = 256;
+/// How many of the steps that come next are looked at ahead: what waits longer is mostly come to from elsewhere.
+constexpr std::size_t looked_ahead = 6;
 /// A step out of the tree that may be taken.
 struct Edge {
   float width = 0.0F;        ///< the smaller clearance of its two places
@@ -32,7 +34,7 @@ struct WidestTree::State {
   std::vector<NodeId> root, parent;  ///< of each place; no_node
   std::vector<float> offered;        ///< of each place: the widest of `edges` that lead to it; less than 0: none
   std::vector<NodeId> were_offered;  ///< places that may have one
-  std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
+  std::vector<Edge> edges;           ///< a heap, the widest first
   bool looks_ahead = false;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
   std::uint64_t pushed = 0;
@@ -48,12 +50,21 @@ struct WidestTree::State {
     // Of those that lead to one place the widest is taken, and of equals the first: the others would only wait.
     const float width = std::min(graph->node(from).clearance, graph->node(to).clearance);
     if (width <= offered[to]) return;
-    if (offered[to] < 0.0F) {
-      were_offered.push_back(to);
-      if (looks_ahead) graph->look_ahead(to);
-    }
+    if (offered[to] < 0.0F) were_offered.push_back(to);
     offered[to] = width;
-    edges.push({width, pushed++, from, to});
+    edges.push_back({width, pushed++, from, to});
+    std::push_heap(edges.begin(), edges.end(), Narrower{});
+  }
+  Edge pop_widest() {
+    std::pop_heap(edges.begin(), edges.end(), Narrower{});
+    const Edge edge = edges.back();
+    edges.pop_back();
+    return edge;
+  }
+  /// The first of a heap are about those that come next.
+  void look_ahead() {
+    for (std::size_t i = 0; i < std::min(looked_ahead, edges.size()); ++i)
+      if (root[edges[i].to] != growing) graph->look_ahead(edges[i].to);
   }
   /// Where what led to a place does not after all: what else does.
   void offer_again(NodeId to) {
@@ -71,7 +82,7 @@ struct WidestTree::State {
     push(id, graph->expand(id));
   }
   void forget_edges() {
-    edges = {};
+    edges.clear();
     for (const NodeId id : were_offered) offered[id] = -1.0F;
     were_offered.clear();
   }
@@ -113,9 +124,9 @@ bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::u
   for (std::size_t taken = 0; !s.edges.empty(); ++taken) {
     if (until != no_node && s.root[until] == s.growing) return true;
     if (goes_on && taken % places_between_questions == 0 && !goes_on(s.graph->size())) return false;
-    const Edge edge = s.edges.top();
-    s.edges.pop();
+    const Edge edge = s.pop_widest();
     if (s.root[edge.to] == s.growing) continue;
+    if (s.looks_ahead) s.look_ahead();
     if (s.graph->goes(edge.from, edge.to)) {
       s.take(edge.to, edge.from);
     } else {
