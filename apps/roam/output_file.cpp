@@ -10,6 +10,19 @@
 
 namespace roam::app {
 
+std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (fs::is_directory(file, none) || !file.has_filename()) return Obstacle{"that is a folder", "name a file in it"};
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, none))
+    return Obstacle{"there is no folder " + folder.string(), "make it first, or name a file elsewhere"};
+  const bool there = fs::exists(file, none);
+  if (::access(there ? file.c_str() : folder.c_str(), W_OK) == 0) return std::nullopt;
+  return Obstacle{fmt::format("{} cannot be written: {}", there ? "it" : "its folder", std::strerror(errno)),
+                  "name a file elsewhere"};
+}
+
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file) {
   namespace fs = std::filesystem;
@@ -19,17 +32,8 @@ void check_output(std::span<const std::filesystem::path> scenes, const std::stri
     if (fs::equivalent(scene, file, none))
       throw UsageError(fmt::format("{} {} would overwrite the scene", option, file.string()));
   }
-  if (fs::is_directory(file, none) || !file.has_filename())
-    throw UsageError(fmt::format("{} {}: that is a folder; name a file in it", option, file.string()));
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, none))
-    throw UsageError(fmt::format("{} {}: there is no folder {}; make it first, or name a file elsewhere", option,
-                                 file.string(), folder.string()));
-  const bool there = fs::exists(file, none);
-  if (::access(there ? file.c_str() : folder.c_str(), W_OK) != 0) {
-    throw UsageError(fmt::format("{} {}: {} cannot be written: {}; name a file elsewhere", option, file.string(),
-                                 there ? "it" : "its folder", std::strerror(errno)));
-  }
+  if (const std::optional<Obstacle> found = obstacle(file))
+    throw UsageError(fmt::format("{} {}: {}; {}", option, file.string(), found->what, found->advice));
 }
 
 }  // namespace roam::app

@@ -66,11 +66,9 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
     return *o.profile;
   }
   const std::filesystem::path beside = profile_path(o.scene.scenes);
-  try {
-    check_output({}, "the profile", beside);
-  } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{} by -o, or say --no-profile", error.what()));
-  }
+  if (const std::optional<Obstacle> found = obstacle(beside))
+    throw UsageError(fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
+                                 beside.string(), found->what));
   return beside;
 }
 
