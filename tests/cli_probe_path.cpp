@@ -50,6 +50,17 @@ TEST(ProbePath, EndsAboveTheSceneWhereItIsAskedTo) {
   EXPECT_EQ(many.status, 0) << many.out << many.err;
 }
 
+TEST(ProbePath, FromAPlaceToItselfIsOneThatWalkTakes) {
+  const TestFolder folder;
+  const std::string scene = folder.write("yard.obj", yard_obj()), path = folder.file("way.path");
+  const ProgramResult found = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "8,0,1", "--radius",
+                                                         "0.3", "--height", "1.8", "--path", path});
+  EXPECT_EQ(found.status, 0) << found.out << found.err;
+  const ProgramResult walked = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify", "--json"});
+  EXPECT_EQ(walked.status, 0) << walked.out << walked.err;
+  EXPECT_EQ(Json::parse(walked.out, nullptr, false)["outcome"], "reached") << walked.out;
+}
+
 TEST(ProbePath, SaysThatAPathWithoutAWayIsNotWritten) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.5));

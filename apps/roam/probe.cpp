@@ -15,7 +15,7 @@
 #include "probe_picture.h"
 #include "probe_text.h"
 #include "progress.h"
-#include "recorded_body.h"
+#include "roam/path_file.h"
 #include "surveyed.h"
 #include "validators.h"
 #include "verbs.h"
@@ -114,12 +114,10 @@ ProbeQuestion question_of(const ProbeOptions& o) {
 }
 
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
-  std::ofstream out(*o.path);
-  out << "# " << explain(o.question, answer) << "\n";
-  out << body_line(probed_body(o.question, answer.size, o.slope_degrees()), o.question.mode) << "\n";
-  for (const Vec3& p : probed_path(survey, o.question, answer)) out << fmt::format("{} {} {}\n", p.x, p.y, p.z);
-  out.close();
-  if (!out) throw Error(o.path->string() + ": cannot be written; is its folder yours, and the disk not full?");
+  std::vector<Vec3> path = probed_path(survey, o.question, answer);
+  if (path.size() == 1) path.push_back(path.front());  // from a place to itself: a path has a start and a goal
+  const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
+  save_path(*o.path, path, &body, o.question.mode);
 }
 
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
