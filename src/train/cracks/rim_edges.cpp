@@ -32,7 +32,8 @@ struct RimEdges::State {
   std::vector<std::uint8_t> edges;  ///< from the last phase on
   int phase = 0;                    ///< the next piece, last_phase + 1: all is done
   std::size_t piece = 0;
-  std::mutex mutex;  ///< held while a piece is done ahead
+  std::size_t looked_at = 0;  ///< floors
+  std::mutex mutex;           ///< held while a piece is done ahead
   bool ended = false;
 
   [[nodiscard]] std::size_t pieces() const {
@@ -44,6 +45,7 @@ struct RimEdges::State {
     const std::size_t end = std::min(floors.size(), (block + 1) * block_floors);
     for (std::size_t f = block * block_floors; f < end; ++f)
       edges[f] = edges_without_void(probe, options, survey->triangle(floors[f]), edges[f]);
+    looked_at = end;
   }
   void next_phase() {
     piece = 0;
@@ -91,5 +93,8 @@ std::vector<std::uint8_t>& RimEdges::without_void() {
     tbb::parallel_for(s.piece, s.pieces(), [&](std::size_t piece) { s.shared.run(s.phase, piece); });
   return s.edges;
 }
+
+std::size_t RimEdges::looked_at() const { return state_->looked_at; }
+void RimEdges::set_all_looked_at() { state_->looked_at = state_->edges.size(); }
 
 }  // namespace roam::training

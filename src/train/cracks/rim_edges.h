@@ -27,6 +27,9 @@ class RimEdges {
   /// Ends that. Of each of survey.floor_triangles(), bit k: no void lies outside the edge from corner k to the next,
   /// within one floor or beside it. What was not looked at yet is not set: who looks sets it, each floor by one thread.
   [[nodiscard]] std::vector<std::uint8_t>& without_void();
+  /// After that: so many of the floors, from the first one on, have been looked at.
+  [[nodiscard]] std::size_t looked_at() const;
+  void set_all_looked_at();
 
  private:
   struct State;

@@ -75,21 +75,22 @@ class Rims {
  public:
   Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
 
-  /// Calls take(rim) with each that has a void outside, whoever comes there, of the edges that `known` does not say
-  /// have none, until it returns false for that edge. Those that have none beside `known`.
-  template <class Take>
-  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Take& take) const {
+  /// Calls take(rim) with each for which asks(place) and that has a void outside, whoever comes there, of the edges
+  /// that `known` does not say have none, until it returns false for that edge. Those that have none beside `known`.
+  template <class Asks, class Take>
+  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Asks& asks, const Take& take) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if ((known >> k & 1u) != 0) continue;
-      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], take)) known = static_cast<std::uint8_t>(known | 1u << k);
+      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], asks, take))
+        known = static_cast<std::uint8_t>(known | 1u << k);
     }
     return known;
   }
 
  private:
-  /// Whether there is any.
-  template <class Take>
-  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Take& take) const {
+  /// Whether there may be any.
+  template <class Asks, class Take>
+  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Asks& asks, const Take& take) const {
     const Vec3 along = b - a;
     const double level = std::hypot(along.x, along.y);
     if (level < kShortest) return false;
@@ -101,9 +102,10 @@ class Rims {
     for (double i = 0.5; i < parts; i += 1.0) {
       const Vec3 at = a + (i / parts) * along;
       const Rim rim{at, out, at + probe_.outside() * out};
-      if (!is_void(rim)) continue;
+      const bool is_asked = asks(at);
+      if (is_asked && !is_void(rim)) continue;
       any = true;
-      if (!take(rim)) break;
+      if (is_asked && !take(rim)) break;
     }
     return any;
   }
@@ -128,7 +130,9 @@ Disc climb(const VoidProbe& probe, const Vec3& outside) {
 
 std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options, const Triangle& floor,
                                 std::uint8_t known) {
-  return Rims(probe, options).with_void(floor, known, [](const Rim&) { return false; });
+  return Rims(probe, options)
+      .with_void(
+          floor, known, [](const Vec3&) { return true; }, [](const Rim&) { return false; });
 }
 
 std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,
@@ -139,22 +143,28 @@ std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& optio
   const std::size_t blocks = (floors.size() + block - 1) / block;
   std::vector<std::vector<RimPlace>> found(blocks);
   std::vector<std::uint8_t>& without = edges.without_void();
+  const std::size_t looked_at = edges.looked_at();
   const Rims rims(probe, options);
   std::mutex mutex;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t i) {
     if (ended) return;
     const std::size_t end = std::min((i + 1) * block, floors.size());
-    const auto take = [&](const Rim& rim) {
-      if (is_reached(rim.at)) found[i].push_back({rim.at, rim.outside, climb(probe, rim.outside)});
-      return true;
-    };
-    for (std::size_t f = i * block; f < end; ++f)
-      without[f] = rims.with_void(survey.triangle(floors[f]), without[f], take);
+    for (std::size_t f = i * block; f < end; ++f) {
+      // Most of the edges that are left by now have a void somewhere: who comes there is asked first.
+      const bool is_known = f < looked_at;
+      without[f] = rims.with_void(
+          survey.triangle(floors[f]), without[f], [&](const Vec3& at) { return !is_known || is_reached(at); },
+          [&](const Rim& rim) {
+            if (is_known || is_reached(rim.at)) found[i].push_back({rim.at, rim.outside, climb(probe, rim.outside)});
+            return true;
+          });
+    }
     if (!goes_on) return;
     const std::lock_guard lock(mutex);
     if (!ended && !goes_on(double(++done) / double(blocks))) ended = true;
   });
+  if (!ended) edges.set_all_looked_at();
   std::vector<RimPlace> all;
   for (const std::vector<RimPlace>& part : found) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), lies_before);

@@ -1,3 +1,6 @@
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -43,18 +46,31 @@ std::uint64_t hash(const Key& edge) {
   return h;
 }
 
+/// Those of some triangles of a mesh.
+std::vector<Side> sides(const Mesh& mesh, std::size_t begin, std::size_t end, std::uint64_t one_in) {
+  std::vector<Side> all;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Triangle t = mesh.triangle(i);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Side side = side_of(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+      if (hash(side.edge) % one_in == 0) all.push_back(side);
+    }
+  }
+  return all;
+}
+
 std::vector<Side> sides(const Survey& survey) {
+  constexpr std::size_t block = 65'536;  // triangles
   const std::uint64_t one_in = 1 + 3 * survey.triangles() / edges_looked_at;
   std::vector<Side> all;
   for (const Mesh& mesh : survey.meshes()) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const Triangle t = mesh.triangle(i);
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        Side side = side_of(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
-        if (hash(side.edge) % one_in == 0) all.push_back(side);
-      }
-    }
+    const std::size_t triangles = mesh.triangles.size();
+    std::vector<std::vector<Side>> parts((triangles + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      parts[i] = sides(mesh, i * block, std::min(triangles, (i + 1) * block), one_in);
+    });
+    for (const std::vector<Side>& part : parts) all.insert(all.end(), part.begin(), part.end());
   }
   return all;
 }
@@ -63,7 +79,7 @@ std::vector<Side> sides(const Survey& survey) {
 
 double winding_share(const Survey& survey) {
   std::vector<Side> all = sides(survey);
-  std::sort(all.begin(), all.end());
+  tbb::parallel_sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::uint64_t edges = 0, shared = 0, opposite = 0;
   for (std::size_t i = 0; i < all.size();) {
