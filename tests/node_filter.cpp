@@ -57,6 +57,9 @@ struct Scene {
     }
     return std::sqrt(squared);
   }
+  [[nodiscard]] float grown(float radius, const lanes::Motion& motion) const {
+    return lanes::grown_radius(radius, motion.half_height, motion.longest, extent, static_cast<float>(step));
+  }
   /// When the axis is nearest to child box i; the distance is convex in time.
   [[nodiscard]] long double nearest_time(int i, const Vec3& motion, double half_height) const {
     long double a = 0.0L, b = 1.0L;
@@ -72,23 +75,32 @@ struct Scene {
   }
 };
 
+/// The half height of a body and its way, metres.
+struct BodyMove {
+  double half_height;
+  Vec3 way;
+};
+BodyMove any_move(clutter::Random& random, int q) {
+  BodyMove m{q % 2 == 0 ? 0.0 : random.between(0.0, 2.0), Vec3(0.0)};
+  m.way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
+  if (q % 5 == 0) m.way[q % 3] = 0.0;  // along a plane
+  return m;
+}
+
 void touch_every_child(bool top) {
   clutter::Random random(41);
   int tested = 0, left_out = 0;
   for (int q = 0; q < 3000; ++q) {
     const Scene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
-    const double h = q % 2 == 0 ? 0.0 : random.between(0.0, 2.0);
-    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
-    if (q % 5 == 0) way[q % 3] = 0.0;  // along a plane
+    const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
     for (int i = 0; i < kWidth; ++i) {
       const long double t = scene.nearest_time(i, way, h), d = scene.distance(i, way, h, t);
       if (d > 1000.0L) continue;
       ++tested;
       const auto radius = std::nextafter(static_cast<float>(d), 2000.0F);
-      const float grown =
-          lanes::grown_radius(radius, motion.half_height, motion.longest, scene.extent, static_cast<float>(scene.step));
+      const float grown = scene.grown(radius, motion);
       lanes::Children children;
       lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
@@ -161,9 +173,7 @@ void delay_every_child(bool top) {
   for (int q = 0; q < 3000; ++q) {
     const Scene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
-    const double h = q % 2 == 0 ? 0.0 : random.between(0.0, 2.0);
-    Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
-    if (q % 5 == 0) way[q % 3] = 0.0;  // along a plane
+    const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
     for (int i = 0; i < kWidth; ++i) {
       const long double nearest = scene.nearest_time(i, way, h), least = scene.distance(i, way, h, nearest);
@@ -177,8 +187,7 @@ void delay_every_child(bool top) {
         const long double t = 0.5L * (free + met);
         (scene.distance(i, way, h, t) > (long double)(radius) ? free : met) = t;
       }
-      const float grown =
-          lanes::grown_radius(radius, motion.half_height, motion.longest, scene.extent, static_cast<float>(scene.step));
+      const float grown = scene.grown(radius, motion);
       lanes::Children children;
       lanes::sweep_node(scene.node, frame, motion, grown, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
@@ -210,7 +219,7 @@ void pierce_every_child(bool top) {
       }
       const Vec3 way = (point - scene.start) * random.between(1.0, 2.0);
       const lanes::Motion motion(way, 0.0);
-      const float grown = lanes::grown_radius(0.0F, 0.0F, motion.longest, scene.extent, static_cast<float>(scene.step));
+      const float grown = scene.grown(0.0F, motion);
       lanes::Children children;
       lanes::ray_node(scene.node, frame, motion, lanes::Ray(motion), grown, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;

@@ -94,25 +94,35 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
   return std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8;
 }
 
+/// The planes across axis `k` by which the centre of a body enters and leaves kLanes child boxes, which are higher and
+/// lower by its half height.
+struct Slabs {
+  VF lower, upper;
+
+  HWY_INLINE Slabs(const Boxes& boxes, const Node& node, const Motion& motion, int first, int k) {
+    const auto* planes = reinterpret_cast<const std::uint8_t*>(&node) + first;
+    lower = boxes.plane(planes + motion.entry[k], k);
+    upper = boxes.plane(planes + motion.exit[k], k);
+    if (k == 2) {
+      lower = hn::Sub(lower, set(motion.half_height));
+      upper = hn::Add(upper, set(motion.half_height));
+    }
+  }
+};
+
 /// Which children the body may meet before t_max, and when. `grown` is the radius that is kept free, with the margin.
 HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                            Children& out) {
   const Boxes boxes(node, frame, motion.mirror);
-  const VF zero = hn::Zero(kF), h = set(motion.half_height), r = set(grown), end = set(t_max);
+  const VF zero = hn::Zero(kF), r = set(grown), end = set(t_max);
   const VF r2 = hn::Mul(r, r);
   const VF later = set(1.0F + kTimeRoundings * kUnit), earlier = set(1.0F - kTimeRoundings * kUnit);
-  const auto* planes = reinterpret_cast<const std::uint8_t*>(&node);
   out.mask = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
     VF enter = zero, exit = end;
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(planes + motion.entry[k] + first, k);
-      VF upper = boxes.plane(planes + motion.exit[k] + first, k);
-      if (k == 2) {
-        lower = hn::Sub(lower, h);
-        upper = hn::Add(upper, h);
-      }
+      const auto [lower, upper] = Slabs(boxes, node, motion, first, k);
       const VF inverse = set(motion.inverse[k]);
       enter = hn::Max(enter, hn::Mul(hn::Sub(lower, r), inverse));
       exit = hn::Min(exit, hn::Mul(hn::Add(upper, r), inverse));
@@ -139,19 +149,13 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
 HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                                Children& out) {
   const Boxes boxes(node, frame, motion.mirror);
-  const VF zero = hn::Zero(kF), h = set(motion.half_height), r = set(grown);
-  const auto* planes = reinterpret_cast<const std::uint8_t*>(&node);
+  const VF zero = hn::Zero(kF), r = set(grown);
   std::uint32_t met = 0;
   for (int first = 0; first < kWidth; first += kLanes) {
     const VF time = hn::Load(kF, out.key + first);
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
-      VF lower = boxes.plane(planes + motion.entry[k] + first, k);
-      VF upper = boxes.plane(planes + motion.exit[k] + first, k);
-      if (k == 2) {
-        lower = hn::Sub(lower, h);
-        upper = hn::Add(upper, h);
-      }
+      const auto [lower, upper] = Slabs(boxes, node, motion, first, k);
       const VF forward = set(motion.forward[k]), place = hn::Mul(time, forward);
       const VF w = hn::Sub(clamp(place, lower, upper), place);
       squared = hn::Add(squared, hn::Mul(w, w));

@@ -37,24 +37,30 @@ HWY_INLINE void push_children(const Node& node, const Children& children, const 
   }
 }
 
-/// Visits what is on the stack, nearest first, as long as it is not `beyond` what matters.
+/// Visits `e` and then what is on the stack, nearest first, as long as it is not `beyond` what matters.
 template <class Beyond, class VisitEntry>
-HWY_INLINE void go_on(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
-  while (!stack.empty()) {
-    const Stack::Entry e = stack.pop();
+HWY_INLINE void go_on_from(Stack::Entry e, Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
+  for (;; e = stack.pop()) {
     if (!beyond(e.key)) {
       visit(e);
     } else if (stack.ordered()) {
       break;
     }
+    if (stack.empty()) break;
   }
+}
+
+/// The same, of the stack alone.
+template <class Beyond, class VisitEntry>
+HWY_INLINE void go_on(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
+  if (!stack.empty()) go_on_from(stack.pop(), stack, beyond, visit);
 }
 
 /// The same, beginning with a root.
 template <class Beyond, class VisitEntry>
 HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
-  stack.start();
-  go_on(stack, beyond, visit);
+  stack.clear();
+  go_on_from({0.0F, 0, false}, stack, beyond, visit);
 }
 
 /// The widest node of a tile and of the tree over tiles, in steps.
