@@ -57,6 +57,11 @@ std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& opti
     const Reached reached(survey, layout, options.spacing, {&component, 1});
     std::vector<FoundCrack> found = find_cracks(
         survey, edges, [&](const Vec3& foot) { return reached(foot); }, [&](double done) { return stages.at(done); });
+    // Floor behind a thin wall counts, for what is an open drop there is one on this side too; not for a crack.
+    std::erase_if(found, [&](const FoundCrack& crack) {
+      return crack.kind != Crack::Kind::open_drop &&
+             std::none_of(crack.rim.begin(), crack.rim.end(), [&](const Vec3& rim) { return reached.in_sight(rim); });
+    });
     cracks.insert(cracks.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
   }
   std::stable_sort(cracks.begin(), cracks.end(),

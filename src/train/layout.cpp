@@ -229,7 +229,7 @@ bool Reached::sees(const Vec3& place, const Vec3& foot) const {
   return !survey_->world().ray(place + Vec3(0.0, 0.0, knee_), foot - place).hit;
 }
 
-NodeId Reached::near(const Vec3& foot) const {
+NodeId Reached::nearest(const Vec3& foot, bool in_sight) const {
   // No node farther than half of `widest` need be asked: there are others nearer by, unless the way there is closed.
   const std::int64_t x = cell(foot.x), y = cell(foot.y);
   NodeId nearest = no_node;
@@ -244,7 +244,7 @@ NodeId Reached::near(const Vec3& foot) const {
       // Where a body has room there is no wall.
       const bool has_room = apart <= static_cast<double>(node.clearance);
       if (!(has_room || apart <= beside_) || std::abs(foot.z - node.place.z) > level_) continue;
-      if (apart < least && (has_room || sees(node.place, foot))) {
+      if (apart < least && (!in_sight || has_room || sees(node.place, foot))) {
         least = apart;
         nearest = at->node;
       }

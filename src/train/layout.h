@@ -60,14 +60,16 @@ struct Layout {
 [[nodiscard]] Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages);
 
 /// Whether a place of the floor is one that bodies come to: it lies within the clearance of a place of `components`,
-/// or hardly more than a spacing beside one and in sight of it at knee height, at its level.
+/// or hardly more than a spacing beside one, at its level.
 class Reached {
  public:
   /// `survey` and `layout` must outlive it.
   Reached(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components);
   [[nodiscard]] bool operator()(const Vec3& foot) const { return near(foot) != no_node; }
   /// The nearest of the places that reach it; no_node where it is not reached.
-  [[nodiscard]] NodeId near(const Vec3& foot) const;
+  [[nodiscard]] NodeId near(const Vec3& foot) const { return nearest(foot, false); }
+  /// Whether no wall is between such a place and `foot`, at knee height: the floor beside may be behind a thin wall.
+  [[nodiscard]] bool in_sight(const Vec3& foot) const { return nearest(foot, true) != no_node; }
 
  private:
   struct Cell {
@@ -75,6 +77,7 @@ class Reached {
     NodeId node;
   };
   [[nodiscard]] std::int64_t cell(double at) const;
+  [[nodiscard]] NodeId nearest(const Vec3& foot, bool in_sight) const;
   /// No wall between a place of the lattice and a place of the floor.
   [[nodiscard]] bool sees(const Vec3& place, const Vec3& foot) const;
 

@@ -287,10 +287,14 @@ class Floods {
     const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
     const Disc near = grow(probe_.body(), start, probe_.open(), about,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
-    // Of the body alone: so near to where it must stop it is not on the ridge, and floor would lead on past it.
-    return grow(probe_.body(), near.centre, probe_.open(), kFinest, [&](const Vec3& from, const Vec3& to) {
-      return stays(from, to) && level_distance(to, near.centre) <= about && !is_open(to, own_drops);
-    });
+    const auto in_reach = [&](const Vec3& to) {
+      return level_distance(to, near.centre) <= about && !is_open(to, own_drops);
+    };
+    const Disc body = grow(probe_.body(), near.centre, probe_.open(), kFinest,
+                           [&](const Vec3& from, const Vec3& to) { return stays(from, to) && in_reach(to); });
+    // Where it must stop before it is on the ridge it is that much nearer to a wall than to floor, and no wall decides.
+    const double floor = probe_.floor().nearest(body.centre, probe_.open()).distance;
+    return floor <= body.radius + 2.0 * about ? body : grown(near.centre, in_reach);
   }
 
   /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
