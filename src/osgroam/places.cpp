@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "roam/standing.h"
+
 namespace osgRoam {
 namespace {
 
@@ -15,9 +17,6 @@ constexpr double growth = 1.25;
 
 /// Directions that are tried in each shell: evenly spread on a sphere by the golden angle.
 constexpr int directions = 64;
-
-/// Metres that a body must be clear of everything to be put down.
-constexpr double least_gap = 1e-3;
 
 /// Places along each side of the space that are tried for standing.
 constexpr int columns = 15;
@@ -29,10 +28,6 @@ roam::Vec3 direction(int i) {
   const double z = 1.0 - (2.0 * i + 1.0) / directions, level = std::sqrt(1.0 - z * z);
   const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
   return {level * std::cos(turn), level * std::sin(turn), z};
-}
-
-bool fits(const roam::Space& space, const roam::Body& body, const roam::Vec3& centre) {
-  return space.clearance(body, centre, 2.0 * least_gap).distance >= least_gap;
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ void place_safely(roam::Walker& walker, const roam::Vec3& centre) {
   for (double distance = 0.5 * s.height; distance < growth * enough; distance *= growth) {
     for (int i = 0; i < directions; ++i) {
       const roam::Vec3 candidate = centre + distance * direction(i);
-      if (!fits(space, body, candidate)) continue;
+      if (!space.fits(body, candidate)) continue;
       if (!walker.place(candidate).held) return;
     }
   }
@@ -72,14 +67,11 @@ std::optional<roam::Vec3> standing_place(const roam::Space& space, const roam::W
 
   const double down = std::min(bounds.size().z + 2.0, ray_limit);
   const double flat = std::cos(s.slope_degrees * (std::numbers::pi / 180.0));
-  const roam::Body body = roam::Body::capsule(s.radius, s.height);
   for (const roam::Vec3& top : tops) {
     const roam::Impact floor = space.ray(top, {0.0, 0.0, -down});
     if (!floor.hit || floor.unknown || floor.normal.z < flat) continue;
-    // On a slope a round body touches beside its lowest point, and so stands higher.
-    const double lift = s.radius * (1.0 / floor.normal.z - 1.0) + 0.5 * s.height + 2.0 * least_gap;
-    const roam::Vec3 centre = floor.point + roam::Vec3(0.0, 0.0, lift);
-    if (fits(space, body, centre)) return centre;
+    const roam::Vec3 over = floor.point + roam::Vec3(0.0, 0.0, 0.5 * s.height);
+    if (const std::optional<roam::Vec3> centre = roam::place_to_stand(space, s, over, s.radius)) return centre;
   }
   return std::nullopt;
 }
