@@ -23,7 +23,7 @@ struct Grown {
   std::vector<NodeId> parents, neighbours;
   bool operator==(const Grown&) const = default;
 };
-/// And of how many places scouts had answered.
+/// And how many steps scouts had answered.
 struct Scouted {
   Grown grown;
   std::uint64_t answered = 0;
@@ -62,7 +62,7 @@ TEST(Scouts, ChangeNoPlaceOfTheLattice) {
       }
     }
   }
-  // Of some 20,000 places; how many depends on what else the machine does.
+  // How many depends on what else the machine does.
   EXPECT_GT(answered, 0u);
 }
 
