@@ -97,6 +97,30 @@ TEST(Support, FindsAHigherOrLowerFarSide) {
   }
 }
 
+// What is stored moves floors by up to half a millimetre, and tilts the plane that is seen. A far side that is exactly
+// as high or low as carries does, wherever the grid of storing lies.
+TEST(Support, FindsAFarSideAtTheEndOfTheBand) {
+  for (const double rise : {-0.25, 0.25}) {
+    for (const double width : {0.8, 1.25}) {
+      for (int i = 0; i < 20; ++i) {
+        Mesh m = split(width, 4.0, rise);
+        for (Vec3& v : m.vertices) v += Vec3(0.0, 0.0, 0.0137 * i);
+        Walk w(m, person(0.5 * width + 0.02), Mode::walk, {-0.7, 0.1 * i, 0.95 + 0.0137 * i});
+        const Crossing c = cross(w, {1.4, 0.0, 0.0}, frame, width + 1.0);
+        EXPECT_TRUE(c.across && !c.fell) << rise << " " << width << " " << i;
+      }
+    }
+  }
+}
+
+TEST(Support, IsNotCarriedByAFarSideBeyondTheBand) {
+  for (const double rise : {-0.26, 0.26}) {
+    const Mesh m = split(1.25, 50.0, rise);
+    Walk w(m, person(0.645), Mode::walk, {-0.7, 0.1, 0.95});
+    EXPECT_TRUE(cross(w, {1.4, 0.0, 0.0}, frame, 2.5).fell) << rise;
+  }
+}
+
 TEST(Support, GoesOnInThePlaneOfARamp) {
   for (const double degrees : {-20.0, 20.0}) {
     for (const double turned : {0.0, 35.0, 90.0}) {  // down the ramp, obliquely, along its contour

@@ -47,8 +47,8 @@ class Search {
   Search(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis)
       : space_(space), plane_(plane), foot_(foot), axis_(axis) {
     const double rise = std::hypot(plane.normal.x, plane.normal.y) / plane.normal.z;
-    column_ = {0.0, std::min(carrying_band + foot.radius * rise, Space::reach_limit)};
-    floor_ = {foot.slope_degrees, carrying_band, plane.point, plane.normal};
+    column_ = {0.0, std::min(foot.band + foot.radius * rise, Space::reach_limit)};
+    floor_ = {foot.slope_degrees, foot.band, plane.point, plane.normal};
     smallest_ = std::max(least_half, least_half_part * foot.radius);
   }
 

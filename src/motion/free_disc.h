@@ -27,6 +27,8 @@ struct Foot {
   double slope_degrees = 0.0;  ///< what is at most so steep is floor
   /// Metres above the plane: what is as high is a wall, and a gap behind it does not count.
   double knee = 0.0;
+  /// Metres above and below the plane in which there is floor.
+  double band = carrying_band;
 };
 
 /// Whether there is room for a disc.
@@ -36,7 +38,7 @@ enum class DiscRoom : std::uint8_t {
   free,
 };
 
-/// Whether a disc of the foot's radius, seen from above, holds `axis` and is free of floor within carrying_band of the
+/// Whether a disc of the foot's radius, seen from above, holds `axis` and is free of floor within the band about the
 /// plane; its centre must be in sight from the axis at the height of the knee. Where it is not settled, because a disc
 /// fits to within a millimetre or after more work than is sensible, the answer is that it is free.
 [[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis);

@@ -22,9 +22,13 @@ FloorPlane plane_of(const Stance& stance) { return {stance.floor_point, stance.f
 /// and too wide for the other to be carried by its rims.
 double foot_radius(const WalkerSettings& settings) { return std::max(settings.support_radius, settings.radius); }
 
+/// Storing moves the floor that is seen and the floor around, and tilts the plane that goes from one to the other: what
+/// is as high or low as carries is no higher or lower for that.
+double stored_band(double skin) { return carrying_band + 2.0 * skin; }
+
 Foot foot_of(const WalkerSettings& settings, double skin, double height) {
-  const double knee = std::max(settings.step, carrying_band) + 2.0 * skin;
-  return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height)};
+  const double band = stored_band(skin), knee = std::max(settings.step + 2.0 * skin, band);
+  return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height), band};
 }
 
 /// How high the centre is of a body that touches the plane, but for its skin, at a place.
@@ -52,10 +56,10 @@ Beside plane_beside(const Move& m, const Vec3& axis, double lower, double upper)
 }
 
 /// Whether there is floor under the axis after all.
-bool has_floor(const Space& space, double slope_degrees, const FloorPlane& plane, const Vec3& place) {
+bool has_floor(const Space& space, double slope_degrees, double band, const FloorPlane& plane, const Vec3& place) {
   const Vec3 middle(place.x, place.y, plane.level(place));
-  const Floor floor{slope_degrees, carrying_band, plane.point, plane.normal};
-  return space.floor_clearance({0.0, carrying_band}, middle, under_axis, floor).found;
+  const Floor floor{slope_degrees, band, plane.point, plane.normal};
+  return space.floor_clearance({0.0, band}, middle, under_axis, floor).found;
 }
 
 /// The same as carrying(), which is asked where it was not asked just now. The answer stays in the stance.
@@ -85,8 +89,9 @@ void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane, bool is_flo
 
 Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
                   const FloorPlane& plane, const Vec3& place) {
-  if (has_floor(space, settings.slope_degrees, plane, place)) return Carrying::no;
-  switch (free_disc(space, plane, foot_of(settings, skin, height), place)) {
+  const Foot foot = foot_of(settings, skin, height);
+  if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
+  switch (free_disc(space, plane, foot, place)) {
     case DiscRoom::none:
       return Carrying::yes;
     case DiscRoom::unknown:
