@@ -173,6 +173,60 @@ TEST(PassageSteps, OfABodyThatClimbsNothingLeadOverLevelFloor) {
   EXPECT_TRUE(widest(m, one_end, other_end, 0.06).found);
 }
 
+/// Two floors, one higher than a body steps: looked at from both ends.
+Mesh ledge() {
+  Mesh m = shaft();
+  add_floor(m, 0.0, -2.0, 5.0, 2.0, 0.0);
+  add_box(m, {5.0, -2.0, -1.0}, {10.0, 2.0, 0.4});
+  return m;
+}
+constexpr Vec3 on_ledge{9.0, 0.0, 0.4};
+
+TEST(PassageSteps, CountThePlacesOfTheSearchesFromBothEndsTogether) {
+  const Survey survey = survey_of(ledge());
+  std::uint64_t last = 0;
+  bool counts_back = false;
+  roam::PassageOptions options{.height = height};
+  options.progress = [&](std::uint64_t places) {
+    counts_back |= places < last;
+    last = places;
+    return true;
+  };
+  const Passage whole = roam::widest_way(survey, one_end, on_ledge, options);
+  EXPECT_FALSE(whole.found);
+  EXPECT_TRUE(whole.complete);
+  EXPECT_TRUE(whole.opening);
+  EXPECT_FALSE(counts_back);
+  EXPECT_GE(whole.places, last);
+  const double one_search = 10.0 * 4.0 / (0.2 * 0.2);
+  EXPECT_GT(static_cast<double>(whole.places), 1.5 * one_search);
+}
+
+TEST(PassageSteps, EndWhenTheyAreToldToInTheSearchFromTheOtherEndToo) {
+  const Survey survey = survey_of(ledge());
+  const std::uint64_t all = roam::widest_way(survey, one_end, on_ledge, {.height = height}).places;
+  const auto expect_ended = [&](const roam::PassageOptions& options) {
+    const Passage p = roam::widest_way(survey, one_end, on_ledge, options);
+    EXPECT_FALSE(p.found);
+    EXPECT_FALSE(p.complete);
+    EXPECT_LT(p.places, all);
+  };
+  for (const std::uint64_t most : {all / 8, all * 5 / 8}) {
+    SCOPED_TRACE(most);
+    expect_ended({.height = height, .most_places = most});
+    expect_ended({.height = height, .progress = [&](std::uint64_t places) { return places < most; }});
+  }
+}
+
+TEST(PassageSteps, AreNotLookedForFromTheOtherEndThroughAWall) {
+  Mesh m = room();
+  add_box(m, {5.0, -2.0, 0.0}, {5.2, 2.0, 3.0});
+  const Passage p = widest(m, one_end, other_end);
+  EXPECT_FALSE(p.found);
+  ASSERT_TRUE(p.opening);
+  EXPECT_LT(static_cast<double>(p.places), 1.1 * 10.0 * 4.0 / (0.2 * 0.2));
+}
+
 TEST(PassageSteps, KnowSoonThatAnEndIsShutIn) {
   // A closet on a plain of 10,000 m2, of which only as much is looked at as it needs to say where they part.
   Mesh m;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "train/lattice/walk_place.h"
 
@@ -32,6 +34,44 @@ std::optional<Vec3> foot_below(const Survey& survey, const Measure& measure, con
 bool fits(const Survey& survey, const Measure& measure, const Vec3& place) {
   return clearance_at(survey, measure, place) > 0.0;
 }
+
+struct Neighbour {
+  NodeId id = no_node;
+  double apart = std::numeric_limits<double>::infinity();  ///< m
+};
+
+/// The places that hang in one tree, by where they are.
+class Hung {
+ public:
+  Hung(const WidestTree& tree, NodeId one) : tree_(tree) {
+    for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id)
+      if (tree.root(id) == tree.root(one)) cells_[cell_of(tree.node(id).place)].push_back(id);
+  }
+  /// What is farther than one or two metres off is not looked for.
+  [[nodiscard]] Neighbour nearest(const Vec3& place) const {
+    Neighbour best;
+    const auto [x, y, z] = cell_of(place);
+    for (long k = 0; k < 27; ++k) {
+      const auto near = cells_.find(Cell(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
+      if (near == cells_.end()) continue;
+      for (const NodeId candidate : near->second) {
+        const double apart = glm::length(tree_.node(candidate).place - place);
+        if (apart < best.apart) best = {candidate, apart};
+      }
+    }
+    return best;
+  }
+
+ private:
+  using Cell = std::tuple<long, long, long>;
+  static Cell cell_of(const Vec3& p) {
+    constexpr double cell = 1.0;  // m
+    return Cell(std::lround(p.x / cell), std::lround(p.y / cell), std::lround(p.z / cell));
+  }
+
+  const WidestTree& tree_;
+  std::map<Cell, std::vector<NodeId>> cells_;
+};
 
 }  // namespace
 
@@ -60,39 +100,35 @@ std::optional<Vec3> free_end(const Survey& survey, const Measure& measure, const
 }
 
 std::optional<Opening> gap_between(const WidestTree& tree, NodeId one, NodeId other) {
-  constexpr double cell = 1.0;  // m: pairs farther apart than one or two of these are not looked for
-  using Cell = std::tuple<long, long, long>;
-  const auto cell_of = [&](const Vec3& p) {
-    return Cell(std::lround(p.x / cell), std::lround(p.y / cell), std::lround(p.z / cell));
-  };
-  std::map<Cell, std::vector<NodeId>> cells;
-  for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id)
-    if (tree.root(id) == tree.root(other)) cells[cell_of(tree.node(id).place)].push_back(id);
-  double nearest = std::numeric_limits<double>::infinity();
-  NodeId a = no_node, b = no_node;
+  const Hung hung(tree, other);
+  Neighbour nearest;
+  NodeId from = no_node;
   for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
     if (tree.root(id) != tree.root(one)) continue;
-    const Vec3 place = tree.node(id).place;
-    const auto [x, y, z] = cell_of(place);
-    for (long k = 0; k < 27; ++k) {
-      const auto near = cells.find(Cell(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
-      if (near == cells.end()) continue;
-      for (const NodeId candidate : near->second) {
-        const double apart = glm::length(tree.node(candidate).place - place);
-        if (apart < nearest) {
-          nearest = apart;
-          a = id;
-          b = candidate;
-        }
-      }
-    }
+    const Neighbour near = hung.nearest(tree.node(id).place);
+    if (!(near.apart < nearest.apart)) continue;
+    nearest = near;
+    from = id;
   }
-  if (a == no_node || !(nearest > 0.0)) return std::nullopt;
+  if (from == no_node || !(nearest.apart > 0.0)) return std::nullopt;
+  const Vec3 a = tree.node(from).place, b = tree.node(nearest.id).place;
   Opening opening;
-  opening.point = 0.5 * (tree.node(a).place + tree.node(b).place);
-  opening.direction = (tree.node(b).place - tree.node(a).place) / nearest;
+  opening.point = 0.5 * (a + b);
+  opening.direction = (b - a) / nearest.apart;
   opening.width = 0.0;
   return opening;
+}
+
+bool only_floor_parts(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one, NodeId other) {
+  const Hung hung(tree, other);
+  for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
+    if (tree.root(id) != tree.root(one)) continue;
+    const NodeId near = hung.nearest(tree.node(id).place).id;
+    if (near != no_node &&
+        goes_straight(survey, measure, tree.node(id).place, tree.node(near).place, measure.narrowest))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace roam::training

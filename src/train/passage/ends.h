@@ -15,4 +15,9 @@ namespace roam::training {
 /// Where two trees that do not meet come nearest to each other: half way, of no width, across what parts them.
 [[nodiscard]] std::optional<Opening> gap_between(const WidestTree& tree, NodeId one, NodeId other);
 
+/// Whether two such trees come near each other where no wall is between, only a step or a gap of the floor: `narrowest`
+/// goes straight from a place of the one to the nearest of the other.
+[[nodiscard]] bool only_floor_parts(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one,
+                                    NodeId other);
+
 }  // namespace roam::training

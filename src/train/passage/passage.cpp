@@ -61,11 +61,36 @@ Vec3 end_at(const Survey& survey, const Measure& measure, const Vec3& point) {
       measure.narrowest, point.x, point.y, point.z, measure.mode == Mode::walk ? " and floor below" : ""));
 }
 
+/// What all searches for one answer may look at together.
+class Budget {
+ public:
+  explicit Budget(const PassageOptions& options) : options_(options) {}
+
+  /// Whether a search goes on that has looked at so many places.
+  bool goes_on(std::uint64_t places) {
+    places += before_;
+    ended_ = ended_ || places >= options_.most_places || (options_.progress && !options_.progress(places));
+    return !ended_;
+  }
+  [[nodiscard]] bool ended() const { return ended_; }
+  /// A search is over. Returns the places of all by now.
+  std::uint64_t add(std::uint64_t places) { return before_ += places; }
+
+ private:
+  const PassageOptions& options_;
+  std::uint64_t before_ = 0;
+  bool ended_ = false;
+};
+
 /// One search on foot with one step.
 class Search {
  public:
-  Search(const Survey& survey, const PassageOptions& options, const Measure& measure)
-      : survey_(survey), options_(options), measure_(measure), tree_(survey, measure, options.spacing) {}
+  Search(const Survey& survey, const PassageOptions& options, const Measure& measure, Budget& budget)
+      : survey_(survey),
+        options_(options),
+        measure_(measure),
+        budget_(budget),
+        tree_(survey, measure, options.spacing) {}
 
   Passage run(const Vec3& from, const Vec3& to) {
     from_ = end_at(survey_, measure_, from);
@@ -79,15 +104,19 @@ class Search {
       if (!way.empty()) {
         best = refined(way);
         others(*a, *b, way, best);
-      } else if (!ended_) {
+      } else if (!budget_.ended()) {
         best.opening = gap_between(tree_, *a, *b);
+        only_floor_parts_ = best.opening && only_floor_parts(survey_, measure_, tree_, *a, *b);
       }
     }
     best.proven = best.found && best.bound - best.radius <= proof;
-    best.complete = !ended_;
-    best.places = tree_.size();
+    best.complete = !budget_.ended();
+    best.places = budget_.add(tree_.size());
     return best;
   }
+  /// Steep stairs, or a gap below a sill, may be found from one side alone, where the lattice lies badly. Where there
+  /// are walls all along what parts the two ends, neither finds a way.
+  [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_parts_; }
 
  private:
   /// What fits at the ends bounds every way, and so does what the height leaves. Of a sphere that may lift only what
@@ -115,7 +144,7 @@ class Search {
       for (const auto& [root, until] : {std::pair(a, b), std::pair(b, a)}) {
         const bool whole = grows_whole(root, until);
         if (tree_.root(until) == tree_.root(root)) return true;
-        if (ended_) return false;
+        if (budget_.ended()) return false;
         if (!whole) continue;
         // As much of the other side, to say where they come nearest.
         (void)grows_whole(until, root);
@@ -124,10 +153,7 @@ class Search {
     }
   }
   [[nodiscard]] std::function<bool(std::uint64_t)> goes_on() {
-    return [this](std::uint64_t places) {
-      ended_ = ended_ || places >= options_.most_places || (options_.progress && !options_.progress(places));
-      return !ended_;
-    };
+    return [this](std::uint64_t places) { return budget_.goes_on(places); };
   }
   [[nodiscard]] Passage refined(const std::vector<NodeId>& way) const {
     std::vector<Vec3> places{from_};
@@ -145,7 +171,7 @@ class Search {
     std::vector<NodeId> before = first;
     Passage last = best;
     while (last.limited && last.opening && best.limited && best.radius + proof < best.bound &&
-           best.radius + same_width < most && !ended_ && found.size() < most_others) {
+           best.radius + same_width < most && !budget_.ended() && found.size() < most_others) {
       found.push_back(*last.opening);
       const double around = best.radius + options_.spacing;
       // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
@@ -170,9 +196,10 @@ class Search {
   const Survey& survey_;
   const PassageOptions& options_;
   const Measure measure_;
+  Budget& budget_;
   WidestTree tree_;
   Vec3 from_{0.0}, to_{0.0};
-  bool ended_ = false;
+  bool only_floor_parts_ = false;
 };
 
 Passage reversed(Passage passage) {
@@ -197,13 +224,21 @@ Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const
   }
   const bool rolls = options.height == 0.0;
   if (rolls) measure.step = std::min(options.step, options.widest);
+  Budget budget(options);
+  const auto search = [&] {
+    std::optional<Search> there(std::in_place, survey, options, measure, budget);
+    Passage passage = there->run(from, to);
+    const bool again = there->may_be_found_from_other_end();
+    there.reset();  // the places of one search at a time
+    if (!again) return passage;
+    Passage back = Search(survey, options, measure, budget).run(to, from);
+    if (back.found) return reversed(std::move(back));
+    passage.complete = back.complete;
+    passage.places = back.places;
+    return passage;
+  };
   for (;;) {
-    Passage passage = Search(survey, options, measure).run(from, to);
-    // Steep stairs, or a gap below a sill, may be found from one side alone, where the lattice lies badly.
-    if (!passage.found && passage.complete && passage.opening) {
-      Passage back = Search(survey, options, measure).run(to, from);
-      if (back.found) passage = reversed(std::move(back));
-    }
+    Passage passage = search();
     // A sphere climbs at most its radius: the largest that gets through with the step that is its own. Less climbs
     // less, so this comes down to it.
     constexpr double same_step = 1e-4;
