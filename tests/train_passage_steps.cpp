@@ -61,6 +61,21 @@ TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
   }
 }
 
+TEST(PassageSteps, CrossNoGapThatTheLargestFootSpansByAHairsBreadth) {
+  // To be sure of such gaps every walker that is sent over one would look at all of their rims.
+  for (const double foot : {1.0, 0.4}) {
+    for (const double share : {0.997, 0.999, 0.9998}) {
+      SCOPED_TRACE(share);
+      const double gap = share * 2.0 * foot;
+      Mesh m = shaft();
+      add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
+      add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
+      const roam::PassageOptions options{.height = height, .support_max = foot};
+      EXPECT_EQ(roam::widest_way(survey_of(m), one_end, other_end, options).found, share < 0.998);
+    }
+  }
+}
+
 TEST(PassageSteps, LeadUpAndDownStairsThatAreSteeperThanTheyAreDeep) {
   constexpr int risers = 8;
   for (const auto& [riser, tread] :

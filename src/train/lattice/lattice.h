@@ -27,7 +27,8 @@ struct Measure {
   double step = 0.3;
   double widest = 1.0;
   double narrowest = 0.05;
-  double support_max = 1.0;  ///< m: where a disc of this radius fits into a gap of the floor, nobody is carried
+  /// m: where a disc of this radius, or 0.2 % less, fits into a gap of the floor, nobody is carried.
+  double support_max = 1.0;
 };
 
 /// Walking or flying clearance at a place (m), at most measure.widest (or what `height` leaves, see passage.h); 0 where

@@ -21,6 +21,10 @@ constexpr double touch = 1e-3;
 /// as between the bars of a grate, carry everybody.
 constexpr double under_axis = 0.02;
 
+/// Of the largest foot: a gap that so large a disc fits into is taken for one that the foot falls through. Whether it
+/// fits where it hardly does takes a search of all rims around, and every walker that is sent over it asks again.
+constexpr double sure_share = 0.998;
+
 /// The foot touches a floor that is hardly steeper nearly under its axis.
 constexpr double gentle_cosine = 0.9;
 
@@ -64,7 +68,7 @@ bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, d
 /// Whether the gap that an axis is over at the level of a rim is an open drop: no foot is carried there. This is the
 /// walker's own rule for its foot, asked with the largest.
 bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y, KnownGaps* gaps) {
-  const double radius = measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
+  const double radius = sure_share * measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
   const Vec3 axis(x, y, rim.z);
   // The disc beyond the rim is free in most drops. Else beyond what is nearer, a little higher or lower: beside a
   // gallery's wall its gutter is, and the axis is in the rock.
