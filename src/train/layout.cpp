@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "train/cracks/cracks.h"
+#include "train/cracks/voids.h"
 #include "train/flight/way.h"
 #include "train/passage/refine.h"
 #include "train/places/inside.h"
@@ -212,7 +213,8 @@ Reached::Reached(const Survey& survey, const Layout& layout, double spacing, std
       side_(std::max(2.0 * spacing, 0.5 * layout.measure.widest)),
       beside_(1.1 * spacing),
       level_(layout.measure.step),
-      knee_(knee_height(layout.measure.step)) {
+      knee_(knee_height(layout.measure.step)),
+      narrowest_(layout.measure.narrowest) {
   for (const Component& component : components) {
     for (const NodeId id : component.nodes) {
       const Node& node = tree_->node(id);
@@ -226,7 +228,7 @@ Reached::Reached(const Survey& survey, const Layout& layout, double spacing, std
 std::int64_t Reached::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
 
 bool Reached::sees(const Vec3& place, const Vec3& foot) const {
-  return !survey_->world().ray(place + Vec3(0.0, 0.0, knee_), foot - place).hit;
+  return sees_at_knee(survey_->world(), place, foot, knee_, narrowest_);
 }
 
 NodeId Reached::nearest(const Vec3& foot, bool in_sight) const {

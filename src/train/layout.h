@@ -78,12 +78,12 @@ class Reached {
   };
   [[nodiscard]] std::int64_t cell(double at) const;
   [[nodiscard]] NodeId nearest(const Vec3& foot, bool in_sight) const;
-  /// No wall between a place of the lattice and a place of the floor.
+  /// No wall between a place of the lattice and a place of the floor, as voids are seen.
   [[nodiscard]] bool sees(const Vec3& place, const Vec3& foot) const;
 
   const Survey* survey_;
   const WidestTree* tree_;
-  double side_, beside_, level_, knee_;
+  double side_, beside_, level_, knee_, narrowest_;
   std::vector<Cell> cells_;  ///< sorted by x, y, node
 };
 

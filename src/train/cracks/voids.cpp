@@ -15,8 +15,8 @@ namespace {
 
 /// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
 constexpr double kStepSlack = 0.003;
-/// Of the probe: the sphere that looks about at knee height.
-constexpr double kSightShare = 0.2;
+/// Of the smallest gap that is looked for: the sphere that sinks into it, and the one that looks about at knee height.
+constexpr double kProbeShare = 0.9, kSightShare = 0.2 * kProbeShare;
 /// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
 constexpr double kClimbPrecision = 0.004;
 /// Two corners of an edge nearer than this in the plan have no side.
@@ -24,11 +24,20 @@ constexpr double kShortest = 1e-9;
 
 }  // namespace
 
+bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double knee, double smallest) {
+  const double sphere = kSightShare * smallest;
+  const Vec3 eye = from + Vec3(0.0, 0.0, knee);
+  Impact met = world.sweep({sphere, 0.0}, eye, to - from);
+  // A sphere that came to touch a wall may not be let go again: a smaller one is.
+  if (met.hit && met.time == 0.0) met = world.sweep({0.7 * sphere, 0.0}, eye, to - from);
+  return !met.hit;
+}
+
 VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
     : survey_(survey),
       options_(options),
       step_(options.step + kStepSlack),
-      radius_(0.9 * options.smallest),
+      radius_(kProbeShare * options.smallest),
       outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
       floor_(survey, step_),
       body_(survey, floor_, options.knee) {}
@@ -38,12 +47,7 @@ bool VoidProbe::has_floor(const Vec3& place) const {
 }
 
 bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
-  const double sphere = kSightShare * radius_;
-  const Vec3 knee = from + Vec3(0.0, 0.0, options_.knee);
-  Impact met = survey_.world().sweep({sphere, 0.0}, knee, to - from);
-  // A sphere that came to touch a wall may not be let go again: a smaller one is.
-  if (met.hit && met.time == 0.0) met = survey_.world().sweep({0.7 * sphere, 0.0}, knee, to - from);
-  return !met.hit;
+  return sees_at_knee(survey_.world(), from, to, options_.knee, options_.smallest);
 }
 
 bool VoidProbe::lets_pass(const Vec3& from, const Vec3& to, double body) const {

@@ -11,6 +11,11 @@
 
 namespace roam::training {
 
+/// Nothing between two places at knee height, the one of `from`, for a search for gaps of `smallest`. A sphere is
+/// swept, as small as goes between a rail and a wall and larger than the gaps of badly made walls: a ray would slip
+/// through those.
+[[nodiscard]] bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double knee, double smallest);
+
 /// What is asked of air, floor and wall at the level of a rim, which is the z of each place.
 class VoidProbe {
  public:
@@ -28,8 +33,7 @@ class VoidProbe {
 
   /// Floor that one steps up or down to.
   [[nodiscard]] bool has_floor(const Vec3& place) const;
-  /// Nothing between two places at knee height. A sphere is swept, as small as goes between a rail and a wall and
-  /// larger than the gaps of badly made walls: a ray would slip through those.
+  /// As sees_at_knee.
   [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const;
   /// A body as large comes straight from one place to another without meeting a wall.
   [[nodiscard]] bool lets_pass(const Vec3& from, const Vec3& to, double body) const;
