@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "train/random.h"
+
 namespace roam::training {
 
 namespace {
@@ -18,18 +20,7 @@ enum Side : std::uint64_t { neither = 0, left = 1, right = 2 };
 /// Floors that are gone through together.
 constexpr std::size_t block_floors = 16'384;
 
-/// The finalizer of splitmix64 (Steele, Lea & Flood, 2014).
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBULL;
-  return bits ^ (bits >> 31);
-}
-
-std::uint64_t hash_of(const Vec3& corner) {
-  std::uint64_t hash = 0x9E3779B97F4A7C15ULL;
-  for (int k = 0; k < 3; ++k) hash = mixed(hash + std::bit_cast<std::uint64_t>(corner[k] + 0.0));  // -0 is 0
-  return hash;
-}
+std::uint64_t hash_of(const Vec3& corner) { return hashed(corner + Vec3(0.0)); }  // -0 is 0
 
 Side side_of(const Vec3& from, const Vec3& to, const Vec3& inner) {
   const bool forward = std::tie(from.x, from.y, from.z) < std::tie(to.x, to.y, to.z);

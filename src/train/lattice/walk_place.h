@@ -10,7 +10,7 @@
 #include <unordered_map>
 
 #include "train/lattice/lattice.h"
-#include "train/places/random.h"
+#include "train/random.h"
 
 namespace roam::training {
 

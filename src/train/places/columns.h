@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "roam/math.h"
-#include "train/places/random.h"
+#include "train/random.h"
 
 namespace roam::training {
 

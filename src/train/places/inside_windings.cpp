@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "train/places/inside.h"
-#include "train/places/random.h"
+#include "train/random.h"
 
 namespace roam::training {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "train/places/places.h"
-#include "train/places/random.h"
+#include "train/random.h"
 
 namespace roam::training {
 

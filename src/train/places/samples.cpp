@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "train/places/random.h"
+#include "train/random.h"
 
 namespace roam::training {
 
