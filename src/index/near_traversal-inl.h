@@ -55,7 +55,7 @@ class NearTraversal {
           }
           Children children;
           const Node& node = look_at(index_.top, e.number, frame, around, margin(kTopSteps, frame), axis_reach(more),
-                                     kFewTiles, passed, children);
+                                     few_tiles(index_), passed, children);
           push_children(node, children, index_.top, nullptr, stack);
           prefetch_tiles(index_, node, children);
         });

@@ -73,6 +73,10 @@ HWY_INLINE double margin_of(const Index& index) { return index.absent ? index.ab
 /// Whether what is in a tile that is in memory is of no interest.
 HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.absent->only; }
 
+/// So many tiles may be visited in any order. Where tiles come and go, only one: behind what is met first it should not
+/// show in the last bits which have come.
+HWY_INLINE int few_tiles(const Index& index) { return index.absent ? 1 : kFewTiles; }
+
 /// The tiles that are left of a node over tiles.
 HWY_INLINE void prefetch_tiles(const Index& index, const Node& node, const Children& children) {
   for (std::uint32_t left = children.mask >> node.inner_count; left != 0; left &= left - 1) {

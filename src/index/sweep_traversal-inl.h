@@ -39,7 +39,7 @@ class SweepTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Descent met = descend(index_.top, e.number, frame, swept, grown, kFewTiles);
+          const Descent met = descend(index_.top, e.number, frame, swept, grown, few_tiles(index_));
           if (met.single) return tile(met.first);
           push_children(*met.node, met.children, index_.top, nullptr, stack);
           prefetch_tiles(index_, *met.node, met.children);
