@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "roam/train.h"
+#include "train/interval.h"
+#include "train/trials/over_gap.h"
+#include "train/trials/trials.h"
 #include "train_scenes.h"
 #include "train_shells.h"
 
@@ -82,6 +86,79 @@ TEST(TrialsOverACrack, ComeFromItsLowerSide) {
   EXPECT_NEAR(t.smallest, 0.2, 1e-3);
   EXPECT_TRUE(t.contradictions.empty()) << t.answer;
   EXPECT_GE(fallen(t), 1);
+}
+
+/// The same two ends, the first `rise` higher.
+Mesh uneven_ends(double hole, double rise) {
+  Mesh mesh = two_ends(hole);
+  for (int i = 0; i < 4; ++i) mesh.vertices[static_cast<std::size_t>(i)].z += rise;
+  add_wall(mesh, 5, 0, 5, width, deep, rise);
+  return mesh;
+}
+
+/// How a body of the radius ends that comes down over the gap and goes up again.
+std::pair<roam::Outcome, roam::Outcome> down_and_up(const roam::Survey& survey, double hole, double rise, double radius,
+                                                    double foot) {
+  const Vec3 high_end(1.5, 1, rise), low_end(8 + 0.5 * hole, 1, 0);
+  const auto goes = [&](const Vec3& from, const Vec3& to) {
+    const std::vector<Vec3> way{from, to};
+    return roam::training::try_way(survey, {.height = 1.8}, radius, foot, way).outcome;
+  };
+  return {goes(high_end, low_end), goes(low_end, high_end)};
+}
+
+TEST(UnevenCracks, CarryFromTheRadiusThatTheirRimsAskFor) {
+  using roam::Outcome;
+  for (const double hole : {0.4, 0.8, 1.2}) {
+    for (const double rise : {0.0, 0.03, 0.1, 0.2}) {
+      const roam::Survey survey = survey_of({uneven_ends(hole, rise)});
+      const double radius = roam::training::carried_from(0.5 * hole, rise, 45.0);
+      const auto [down, up] = down_and_up(survey, hole, rise, radius, 0.0);
+      EXPECT_EQ(down, Outcome::reached) << hole << " " << rise;
+      EXPECT_EQ(up, Outcome::reached) << hole << " " << rise;
+      // Higher up the step decides, and a long stride may make one from where a short one has sunk too far.
+      if (rise < 0.15 * hole) {
+        EXPECT_NE(down_and_up(survey, hole, rise, 0.94 * radius, 0.0).second, Outcome::reached) << hole << " " << rise;
+      }
+    }
+  }
+  EXPECT_EQ(roam::training::carried_from(0.4, 0.004, 45.0), 1.08 * 0.4);
+}
+
+TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
+  for (const double rise : {0.0, 0.03, 0.1, 0.15, 0.25}) {
+    const roam::Survey survey = survey_of({uneven_ends(0.8, rise)});
+    const Training t = roam::train(survey, {.height = 1.8});
+    EXPECT_TRUE(t.feasible) << t.answer;
+    EXPECT_NEAR(t.smallest, 0.4, 1e-3);
+    EXPECT_EQ(t.support_radius, 0.0);
+    EXPECT_TRUE(t.contradictions.empty()) << rise << ": " << t.answer;
+    EXPECT_EQ(t.answer.find("not count"), std::string::npos) << t.answer;
+    EXPECT_EQ(t.answer.find("higher rim") != std::string::npos, rise > 0.0) << t.answer;
+    if (rise == 0.0) {
+      EXPECT_NEAR(t.radius, 0.432, 1e-3);
+    }
+    const auto [down, up] = down_and_up(survey, 0.8, rise, t.radius, 0.0);
+    EXPECT_EQ(down, roam::Outcome::reached) << rise;
+    EXPECT_EQ(up, roam::Outcome::reached) << rise << ": " << t.answer;
+  }
+}
+
+TEST(UnevenCracks, AskForAFootWhereWhatRollsUpOverThemIsTooWide) {
+  constexpr double rise = 0.2;
+  Mesh mesh = uneven_ends(0.8, rise);
+  add_wall(mesh, 9, 0, 9, 0.55, 0, high);
+  add_wall(mesh, 9, 1.45, 9, width, 0, high);
+  const roam::Survey survey = survey_of({mesh});
+  const Training t = roam::train(survey, {.height = 1.8});
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.45, 2e-3);
+  EXPECT_FALSE(t.feasible) << t.answer;
+  EXPECT_EQ(t.radius, 0.3);
+  EXPECT_NEAR(t.support_radius, 0.42, 2e-3);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  EXPECT_NE(t.answer.find("higher rim"), std::string::npos) << t.answer;
+  EXPECT_EQ(down_and_up(survey, 0.8, rise, t.radius, t.support_radius).second, roam::Outcome::reached);
 }
 
 TEST(TrialsOverACrack, AreNotMadeWhereItsWidestPlaceOpensIntoADrop) {

@@ -44,27 +44,52 @@ std::string split_words(const Training& training) {
                : std::string("the widest crack");
 }
 
-std::string interval_words(const Training& training, bool cracks_known) {
-  const char* const no_crack = cracks_known ? "no crack lies on the way" : "not all cracks were looked for";
+/// What carries none that is smaller.
+struct LowerEnd {
+  double radius = 0.0;  ///< m; infinite where none was found that is carried
+  double level = 0.0;   ///< m, half width of the level crack that asks for as much
+  std::string why;
+};
+
+LowerEnd lower_end(const Training& training, const Evidence& evidence) {
+  const double carried = carried_on_paths(evidence, training);
+  // The walkers that confirm paths may have asked for more of cracks that are level.
+  if (!(carried > carried_share * training.smallest))
+    return {training.smallest, training.smallest, split_words(training)};
+  const FoundCrack& crack = evidence.cracks[*evidence.hardest];
+  return {carried, carried / carried_share,
+          fmt::format("the crack {:.3f} m wide at {}, up over its higher rim,", 2.0 * crack.radius, at(crack.point))};
+}
+
+/// "carries none below 0.600 m".
+std::string carries_none(const LowerEnd& lower) {
+  return std::isfinite(lower.radius) ? fmt::format("{} carries none below {:.3f} m", lower.why, lower.radius)
+                                     : fmt::format("{} carried none that was tried", lower.why);
+}
+
+std::string interval_words(const Training& training, const Evidence& evidence) {
+  const char* const no_crack = evidence.complete ? "no crack lies on the way" : "not all cracks were looked for";
   const bool cracked = training.smallest > 0.0;
+  const LowerEnd lower = lower_end(training, evidence);
+  if (!std::isfinite(lower.radius)) return fmt::format("Of the bodies without a foot {}.", carries_none(lower));
   if (!training.largest) {
     return cracked ? fmt::format("Any radius from {:.3f} m up does; {} decides, and no opening limits it.",
-                                 training.smallest, split_words(training))
+                                 lower.radius, lower.why)
                    : fmt::format("No opening limits the radius, and {}.", no_crack);
   }
   if (!cracked) {
     return fmt::format("Any radius up to {:.3f} m does; {} decides, and {}.", *training.largest,
                        opening_words(training), no_crack);
   }
-  return fmt::format("Any radius from {:.3f} to {:.3f} m does; {} decides the upper end, {} the lower.",
-                     training.smallest, *training.largest, opening_words(training), split_words(training));
+  return fmt::format("Any radius from {:.3f} to {:.3f} m does; {} decides the upper end, {} the lower.", lower.radius,
+                     *training.largest, opening_words(training), lower.why);
 }
 
-std::string feasible_words(const Training& training, bool cracks_known) {
+std::string feasible_words(const Training& training, const Evidence& evidence) {
   std::string text = fmt::format("A body with {} serves {}. {}", body_words(training.radius, training.support_radius),
-                                 all_paths(training), interval_words(training, cracks_known));
+                                 all_paths(training), interval_words(training, evidence));
   if (training.support_radius > 0.0 && training.smallest < training.radius) {
-    const bool is_carried = training.radius >= carried_share * training.smallest;
+    const bool is_carried = training.radius >= carried_on_paths(evidence, training);
     text += is_carried ? " The foot is for cracks beside the paths."
                        : " The foot is for that crack: a body so little wider than it sags between its rims.";
   }
@@ -99,23 +124,19 @@ std::string for_most_words(const Layout& layout, const Training& training) {
   return text;
 }
 
-std::string infeasible_words(const Layout& layout, const Training& training) {
+std::string infeasible_words(const Layout& layout, const Training& training, const Evidence& evidence) {
   if (training.largest && training.radius > *training.largest) return for_most_words(layout, training);
-  if (!training.largest) {
-    return fmt::format(
-        "No one radius serves {}: {} carries none below {:.3f} m, more than such a body may have. Use {}.",
-        all_paths(training), split_words(training), training.smallest,
-        body_words(training.radius, training.support_radius));
-  }
-  if (training.smallest <= *training.largest) {
-    return fmt::format("The body with {} did not come through on all paths. {}",
-                       body_words(training.radius, training.support_radius), interval_words(training, true));
-  }
-  return fmt::format(
-      "No one radius serves {}: {} lets at most {:.3f} m through, and {} carries none below {:.3f} m. "
-      "Use {}.",
-      all_paths(training), opening_words(training), *training.largest, split_words(training), training.smallest,
-      body_words(training.radius, training.support_radius));
+  const std::string body = body_words(training.radius, training.support_radius);
+  const LowerEnd lower = lower_end(training, evidence);
+  const bool has_interval = training.largest ? lower.level <= *training.largest : training.radius >= lower.radius;
+  if (has_interval)
+    return fmt::format("The body with {} did not come through on all paths. {}", body,
+                       interval_words(training, evidence));
+  if (!training.largest)
+    return fmt::format("No one radius serves {}: {}, more than such a body may have. Use {}.", all_paths(training),
+                       carries_none(lower), body);
+  return fmt::format("No one radius serves {}: {} lets at most {:.3f} m through, and {}. Use {}.", all_paths(training),
+                     opening_words(training), *training.largest, carries_none(lower), body);
 }
 
 std::string size_words(const ConnectedPart& part) {
@@ -174,21 +195,21 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
              : "There is no free place: nowhere does even the smallest body fit. Is the unit of length right?";
 }
 
-std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known, bool ended) {
+std::string interval_answer(const Layout& layout, const Training& training, const Evidence& evidence, bool ended) {
   const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
-  const bool has_conflict = training.largest && training.smallest > *training.largest;
+  const bool has_conflict = training.largest && lower_end(training, evidence).level > *training.largest;
   if (ended && training.paths.empty())
     return fmt::format("No path was planned yet: a body with {} is only what a person has.",
                        body_words(training.radius, training.support_radius));
   if (ended && !has_conflict) {
     text = fmt::format("A body with {} is the best so far. {}", body_words(training.radius, training.support_radius),
-                       interval_words(training, cracks_known));
+                       interval_words(training, evidence));
   } else if (training.paths.empty()) {
     text = fmt::format("There is room to stand but no way to go: a body with {} fits there.",
                        body_words(training.radius, training.support_radius));
   } else {
-    text = training.feasible ? feasible_words(training, cracks_known) : infeasible_words(layout, training);
+    text = training.feasible ? feasible_words(training, evidence) : infeasible_words(layout, training, evidence);
   }
   if (layout.components.size() > 1) {
     const auto planned = static_cast<std::size_t>(std::count_if(

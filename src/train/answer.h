@@ -12,6 +12,8 @@
 
 namespace roam::training {
 
+struct Evidence;
+
 /// "(1.00, 2.00, 3.00)".
 [[nodiscard]] std::string at(const Vec3& place);
 
@@ -22,8 +24,8 @@ namespace roam::training {
 [[nodiscard]] std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
                                            const std::vector<ConnectedPart>& parts);
 
-/// Of Method::interval. Whether all cracks were looked for, and whether it was ended before all was done.
-[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, bool cracks_known,
+/// Of Method::interval. Whether it was ended before all was done.
+[[nodiscard]] std::string interval_answer(const Layout& layout, const Training& training, const Evidence& evidence,
                                           bool ended);
 
 /// Of a trench that the body sinks into and no foot helps over.

@@ -6,11 +6,15 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "train/crossings.h"
 #include "train/trials/on_way.h"
+#include "train/trials/over_gap.h"
 
 namespace roam::training {
 namespace {
@@ -26,6 +30,14 @@ constexpr double climbs = 0.1;
 constexpr double growth = 1.6;
 constexpr double most_shut = 2.0;
 
+/// A body that is stopped at a crack becomes larger by so much, so often; then it gets a foot.
+constexpr double larger = 1.08;
+constexpr int most_larger = 2;
+/// A body that is so much larger than what the rims carry is not stopped by them.
+constexpr double unhindered = 1.25;
+/// m: who is stopped no farther from a gap, and a radius, may be by that.
+constexpr double beside_gap = 0.2;
+
 /// Where no way leads any more: a disc, seen from above, at one level.
 struct Shut {
   Vec3 place{0.0};
@@ -39,7 +51,8 @@ struct Shut {
 /// How a walker was stopped.
 struct Stop {
   Trial trial;
-  double along = 0.0;  ///< m of the way
+  double along = 0.0;                ///< m of the way
+  std::optional<std::size_t> crack;  ///< at which it was
 };
 
 /// What is known of one path.
@@ -63,7 +76,7 @@ Vec3 place_at(const std::vector<Vec3>& way, double along) {
 
 class Confirmation {
  public:
-  Confirmation(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+  Confirmation(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Evidence& evidence,
                Layout& layout, Stages& stages)
       : survey_(survey),
         options_(options),
@@ -78,6 +91,10 @@ class Confirmation {
     for (std::size_t i = 0; i < tries.size(); ++i)
       tries[i].nodes = layout_.tree.way(layout_.paths[i].ends.from, layout_.paths[i].ends.to);
     for (int round = 0; walk_all(tries) && !stages_.ended(); ++round) {
+      if (ask_for_more(tries)) {
+        --round;
+        continue;
+      }
       for (std::size_t i = 0; i < tries.size(); ++i)
         if (tries[i].stop) go_round(layout_.paths[i], tries[i], round < most_rounds);
       plan_again(tries);
@@ -105,17 +122,89 @@ class Confirmation {
     return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
   }
 
+  /// Where walkers were stopped at cracks whose rims may carry a larger body, or a foot. Each crack asks for more at
+  /// most so often; where nothing helped, it asks for what it did before. Whether there is another body to be sent.
+  bool ask_for_more(std::vector<Tries>& tries) {
+    std::set<std::size_t> cracks;
+    for (const Tries& t : tries)
+      if (t.stop && t.stop->crack) cracks.insert(*t.stop->crack);
+    for (const std::size_t crack : cracks) {
+      double& carried = evidence_.carried[crack];
+      const auto [asked, is_new] = asked_.try_emplace(crack, Asked{carried, 0});
+      ++asked->second.times;
+      if (asked->second.times <= most_larger) {
+        carried *= larger;
+      } else if (asked->second.times == most_larger + 1) {
+        carried = std::numeric_limits<double>::infinity();
+      } else {
+        carried = asked->second.before;
+      }
+    }
+    for (Tries& t : tries) {
+      if (!t.stop || !t.stop->crack) continue;
+      t.stop.reset();
+      t.walked = {};
+    }
+    return !cracks.empty();
+  }
+
+  /// The crack at which a body is that stops between two places of a way.
+  [[nodiscard]] std::optional<std::size_t> crack_at(const std::vector<Vec3>& way, double from, double to,
+                                                    const BodySize& body) const {
+    for (const Crossing& crossing : crossings_.on(way)) {
+      if (!is_asked(crossing.crack, body)) continue;
+      const double radius = evidence_.cracks[crossing.crack].radius;
+      const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
+      if (gap && to >= gap->from - body.radius - beside_gap && from <= gap->to + body.radius + beside_gap)
+        return crossing.crack;
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a crack that stops such a body may be asked for what it carries.
+  [[nodiscard]] bool is_asked(std::size_t crack, const BodySize& body) const {
+    const FoundCrack& found = evidence_.cracks[crack];
+    const auto asked = asked_.find(crack);
+    const bool given_up = asked != asked_.end() && asked->second.times > most_larger + 1;
+    return found.kind == Crack::Kind::crack && found.shallow_depth == 0.0 && !given_up &&
+           (body.support_radius < found.radius || asked != asked_.end()) &&
+           (asked != asked_.end() || body.radius < unhindered * evidence_.carried[crack]);
+  }
+
+  /// Where a body is stopped on its way back, up over a gap that it came down over.
+  [[nodiscard]] std::optional<Stop> stop_back(const std::vector<Vec3>& way, const BodySize& body) const {
+    for (const Crossing& crossing : crossings_.on(way)) {
+      if (!is_asked(crossing.crack, body)) continue;
+      const double radius = evidence_.cracks[crossing.crack].radius;
+      const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
+      if (!gap) continue;
+      const std::vector<Vec3> back = back_over(survey_, way, *gap, body.radius);
+      if (back.empty()) continue;
+      const Trial trial =
+          try_way(survey_, kind_, body.radius, body.support_radius, back, [this] { return !stages_.ended(); });
+      if (trial.outcome != Outcome::reached) return Stop{trial, gap->to, crossing.crack};
+    }
+    return std::nullopt;
+  }
+
   /// Where a body is stopped or falls; none where it comes through, which is kept, or is not meant to.
   [[nodiscard]] std::optional<Stop> stop_on(PlannedPath& path, const BodySize& body) const {
     const Passage& passage = path.passage;
     const auto tried = [&](const std::vector<Vec3>& way) {
       return try_way(survey_, kind_, body.radius, body.support_radius, way, [this] { return !stages_.ended(); });
     };
-    Stop stop{.trial = tried(passage.way)};
-    if (stop.trial.outcome == Outcome::reached) path.walked = stop.trial;
-    if (stop.trial.outcome == Outcome::reached || sinks_into_shallow(passage.way, body.radius)) return std::nullopt;
+    Stop stop{.trial = tried(passage.way), .crack = {}};
+    if (stop.trial.outcome == Outcome::reached) {
+      std::optional<Stop> back = stop_back(passage.way, body);
+      if (!back) path.walked = stop.trial;
+      return back;
+    }
+    if (sinks_into_shallow(passage.way, body.radius)) return std::nullopt;
     stop.along = nearest_on(passage.way, feet(stop.trial), kind_.mode).along;
-    if (judged(stop.trial.outcome) != Judgement::flies_off) return stop;
+    if (judged(stop.trial.outcome) != Judgement::flies_off) {
+      if (stop.trial.outcome == Outcome::blocked) stop.crack = crack_at(passage.way, stop.along, stop.along, body);
+      return stop;
+    }
     // Where it left the level of the way, and not where it came to lie.
     double goes = 0.0, falls = passage.length;
     while (falls - goes > 0.5 * options_.spacing && !stages_.ended()) {
@@ -123,6 +212,7 @@ class Confirmation {
       (tried(stretch(passage.way, 0.0, half)).outcome == Outcome::reached ? goes : falls) = half;
     }
     stop.along = goes;
+    stop.crack = crack_at(passage.way, goes, falls, body);
     return stop;
   }
 
@@ -220,15 +310,21 @@ class Confirmation {
   const Survey& survey_;
   const TrainOptions& options_;
   const BodyKind& kind_;
-  const Evidence& evidence_;
+  Evidence& evidence_;
   Layout& layout_;
   Stages& stages_;
   const Crossings crossings_;
+  /// What a crack was asked for.
+  struct Asked {
+    double before = 0.0;  ///< Evidence::carried, before
+    int times = 0;
+  };
+  std::map<std::size_t, Asked> asked_;
 };
 
 }  // namespace
 
-void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Evidence& evidence,
                    Layout& layout, Stages& stages) {
   stages.begin("walking the paths");
   Confirmation(survey, options, kind, evidence, layout, stages).run();

@@ -9,10 +9,12 @@
 
 namespace roam::training {
 
-/// On foot, for the interval. Sends the body that comes of the paths and the cracks along each of them. Where it is
-/// stopped or falls the lattice is shut and the way is planned again, round that place; where no way is left the path
-/// is taken out and told (Layout::unwalked), and others are drawn in its stead, once.
-void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, const Evidence& evidence,
+/// On foot, for the interval. Sends the body that comes of the paths and the cracks along each of them, and back over
+/// gaps whose far rim is lower. Where that is stopped or falls at a crack that a larger body or one on a foot goes
+/// over, these are tried first: what is asked for is kept in Evidence::carried. Where it is still, the lattice is shut
+/// and the way is planned again, round that place; where no way is left the path is taken out and told
+/// (Layout::unwalked), and others are drawn in its stead, once.
+void confirm_paths(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Evidence& evidence,
                    Layout& layout, Stages& stages);
 
 }  // namespace roam::training

@@ -7,10 +7,12 @@
 #include <iterator>
 #include <limits>
 
+#include "motion/free_disc.h"
 #include "train/detour.h"
 #include "train/neck_ways.h"
 #include "train/passage/refine.h"
 #include "train/places/regions.h"
+#include "train/trials/over_gap.h"
 
 namespace roam::training {
 
@@ -70,7 +72,6 @@ std::vector<FoundCrack> cracks_of(const Survey& survey, const TrainOptions& opti
 }
 
 void note_width(const FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
-  evidence.widest_anywhere = std::max(evidence.widest_anywhere, crack.radius);
   // Beside a wall a foot's disc finds room where no body does. Elsewhere the largest foot carries over all that is no
   // open drop.
   const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
@@ -121,7 +122,14 @@ class Paths {
         training_.smallest = crack.radius;
         evidence_.widest = crossing.crack;
       }
+      note_hardest(crossing.crack);
     }
+  }
+
+  void note_hardest(std::size_t crack) {
+    const double carried = evidence_.carried[crack];
+    if (carried <= carried_share * evidence_.cracks[crack].radius) return;
+    if (!evidence_.hardest || carried > evidence_.carried[*evidence_.hardest]) evidence_.hardest = crack;
   }
 
   /// Cracks are in the order of their width: the first that must be crossed decides.
@@ -146,6 +154,29 @@ class Paths {
   Training& training_;
   Evidence& evidence_;
 };
+
+/// `lower` (m): what is carried over all cracks on the paths.
+void choose(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, double lower,
+            Training& training) {
+  const double largest = training.largest.value_or(cap(kind, options));
+  // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
+  const double useful = least_useful(kind, options);
+  const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
+  const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
+  const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
+  // The half width of the level crack that asks for as much.
+  const double smallest = std::max(training.smallest, lower / carried_share);
+  training.feasible = !most_of_others && smallest <= most;
+  training.radius = std::min(person, upper);
+  if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (smallest + most);
+  training.support_radius = 0.0;
+  const auto widest = std::max_element(evidence.carried.begin(), evidence.carried.end());
+  if (widest != evidence.carried.end() && training.radius < *widest)
+    training.support_radius = std::min(options.support_max, evidence.least_foot);
+  // Over rims that only a larger body rolls up over, a foot that is hardly larger than the body is one of its own.
+  if (training.support_radius > 0.0 && training.support_radius <= training.radius)
+    training.support_radius = std::min(options.support_max, training.radius + foot_margin);
+}
 
 void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
   if (evidence.narrowest) {
@@ -178,13 +209,19 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
   stages.begin("looking for cracks");
   evidence.cracks = cracks_of(survey, options, layout, ahead, stages);
   evidence.complete = !stages.ended();
+  evidence.carried.assign(evidence.cracks.size(), 0.0);
   for (std::size_t i = 0; i < evidence.cracks.size(); ++i) {
     const FoundCrack& crack = evidence.cracks[i];
     if (crack.kind != Crack::Kind::crack) continue;
-    if (crack.shallow_depth == 0.0)
+    if (crack.shallow_depth == 0.0) {
       note_width(crack, options, layout.measure.narrowest, evidence);
-    else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius)
+      const double rise = rise_of(survey, crack, layout.measure.step);
+      // No way leads, and no foot carries, up to what is higher than its band.
+      evidence.carried[i] =
+          carried_from(crack.radius, rise > walking::carrying_band ? 0.0 : rise, survey.slope_degrees());
+    } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {
       evidence.shallow = i;
+    }
   }
   return evidence;
 }
@@ -192,6 +229,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
 BodySize body_of_paths(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
                        const Crossings& crossings, const Layout& layout) {
   Training first;
+  double carried = 0.0;
   for (const PlannedPath& planned : layout.paths) {
     const Passage& passage = planned.passage;
     TrainedPath& path = first.paths.emplace_back();
@@ -199,10 +237,12 @@ BodySize body_of_paths(const BodyKind& kind, const TrainOptions& options, const 
     if (path.largest) first.largest = std::min(first.largest.value_or(passage.radius), passage.radius);
     for (const Crossing& crossing : crossings.on(passage.way)) {
       const FoundCrack& crack = evidence.cracks[crossing.crack];
-      if (crack.kind == Crack::Kind::crack) first.smallest = std::max(first.smallest, crack.radius);
+      if (crack.kind != Crack::Kind::crack) continue;
+      first.smallest = std::max(first.smallest, crack.radius);
+      carried = std::max(carried, evidence.carried[crossing.crack]);
     }
   }
-  choose_body(kind, options, evidence, first);
+  choose(kind, options, evidence, std::max(carried, carried_share * first.smallest), first);
   return {first.radius, first.support_radius};
 }
 
@@ -220,21 +260,13 @@ double trapped_below(double crack_radius, double step) {
   return crack_radius > step && step > 0.0 ? (crack_radius * crack_radius + step * step) / (2.0 * step) : 0.0;
 }
 
+double carried_on_paths(const Evidence& evidence, const Training& training) {
+  const double level = carried_share * training.smallest;
+  return evidence.hardest ? std::max(level, evidence.carried[*evidence.hardest]) : level;
+}
+
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training) {
-  const double largest = training.largest.value_or(cap(kind, options));
-  // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
-  const double useful = least_useful(kind, options);
-  const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
-  const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
-  const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
-  const double lower = carried_share * training.smallest;
-  training.feasible = !most_of_others && training.smallest <= most;
-  training.radius = std::min(person, upper);
-  if (training.feasible && training.radius < lower)
-    training.radius = lower <= upper ? lower : 0.5 * (training.smallest + most);
-  training.support_radius = 0.0;
-  if (training.radius < carried_share * evidence.widest_anywhere)
-    training.support_radius = std::min(options.support_max, evidence.least_foot);
+  choose(kind, options, evidence, carried_on_paths(evidence, training), training);
 }
 
 void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,

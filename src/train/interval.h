@@ -34,14 +34,17 @@ struct PathCrossing {
 
 /// What the ends were found from.
 struct Evidence {
-  std::vector<FoundCrack> cracks;        ///< along the floor that was reached
+  std::vector<FoundCrack> cracks;  ///< along the floor that was reached
+  /// m, of each of them that is one and no trench: the least radius that its rims carry in both directions. The walkers
+  /// that confirm the paths may ask for more.
+  std::vector<double> carried;
   std::vector<PathCrossing> crossings;   ///< of gaps that are cracks
   std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
   std::optional<std::size_t> widest;     ///< the crack that decides the lower end
-  double widest_anywhere = 0.0;          ///< m, radius of the widest crack that a foot helps over, on a path or not
-  std::optional<std::size_t> shallow;    ///< the widest crack that none does, likewise
-  double least_foot = 0.0;               ///< m, of the least foot that is carried over all of them; 0: there are none
-  bool complete = true;                  ///< false: ended before all cracks were found
+  std::optional<std::size_t> hardest;  ///< the one on a path that asks for the largest body, where its rims are uneven
+  std::optional<std::size_t> shallow;  ///< the widest crack that none does, likewise
+  double least_foot = 0.0;             ///< m, of the least foot that is carried over all of them; 0: there are none
+  bool complete = true;                ///< false: ended before all cracks were found
 };
 
 /// How cracks are looked for.
@@ -72,9 +75,12 @@ void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout
 /// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
 [[nodiscard]] double trapped_below(double crack_radius, double step);
 
+/// The least radius that is carried over all cracks on the paths in both directions, m.
+[[nodiscard]] double carried_on_paths(const Evidence& evidence, const Training& training);
+
 /// Chooses radius and support_radius from the paths and both ends, and says whether the interval is feasible:
 ///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of
-///     3 % to the upper end and 8 % to the lower, so that the rims carry it;
+///     3 % to the upper end and 8 % to the lower, so that the rims carry it, and more where one rim is higher;
 ///   - where the upper end is of no use to anybody, as above of the paths that let a useful size through;
 ///   - where no radius is in the interval, the person's or the largest that passes, and a foot;
 ///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall the largest

@@ -13,6 +13,7 @@
 #include "train/cracks/floor_plan.h"
 #include "train/interval.h"
 #include "train/trials/on_way.h"
+#include "train/trials/over_gap.h"
 
 namespace roam::training {
 
@@ -47,6 +48,7 @@ struct Attempt {
   Judgement expected = Judgement::passed;
   std::string why;      ///< "just inside the opening"
   bool chosen = false;  ///< the body that is answered
+  bool back = false;    ///< over a part of the path, the other way round
 };
 
 std::string size_text(const Attempt& attempt) {
@@ -103,6 +105,7 @@ class Proof {
       if (sinks_into_shallow(i)) continue;                             // the answer says so
       all.push_back(
           {i, training_.radius, training_.support_radius, path.way, Judgement::passed, "the chosen body", true});
+      add_way_back(i, all);
     }
     for (std::size_t i = 0; i < training_.paths.size(); ++i) add_opening(i, all);
     for (const PathCrossing& crossing : evidence_.crossings) {
@@ -113,6 +116,21 @@ class Proof {
   }
 
  private:
+  /// Who comes down over a gap may drop onto its lower side: that does not show that he comes up again.
+  void add_way_back(std::size_t path, std::vector<Attempt>& all) {
+    for (const PathCrossing& c : evidence_.crossings) {
+      const FoundCrack& crack = evidence_.cracks[c.crossing.crack];
+      if (c.path != path || crack.shallow_depth > 0.0) continue;
+      const std::vector<Vec3>& way = training_.paths[path].way;
+      const auto gap = gap_on(survey_, way, c.crossing.at, crack.radius, layout_.measure.step);
+      if (!gap) continue;
+      std::vector<Vec3> back = back_over(survey_, way, *gap, training_.radius);
+      if (back.empty()) continue;
+      all.push_back({path, training_.radius, training_.support_radius, std::move(back), Judgement::passed,
+                     "the chosen body, back up over a gap", true, true});
+    }
+  }
+
   void add_opening(std::size_t path, std::vector<Attempt>& all) {
     const Passage& passage = layout_.paths[path].passage;
     if (!training_.paths[path].largest || !passage.opening) return;
@@ -167,10 +185,23 @@ class Proof {
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
     }
-    if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
+    if (comes_from_above(way, small)) {
+      if (ends_at_rim(way, crack, body)) {
+        way = way_over(survey_, crack, body + 0.5 * run_up);
+        if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
+      }
+      if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
+    }
     all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
+  }
+
+  /// Whether a body that begins at the end of a way does not stand on floor there, but on a crack's rim.
+  [[nodiscard]] bool ends_at_rim(const std::vector<Vec3>& way, const FoundCrack& crack, double body) const {
+    const double over = over_gap(way, crack.radius - foot_margin).value_or(0.0);
+    const auto gap = gap_on(survey_, way, over - crack.radius, crack.radius, layout_.measure.step);
+    return !gap || gap->beyond < body;
   }
 
   /// m along a way: up to where a foot as large is free of floor, and stays so until it falls.
@@ -243,7 +274,7 @@ class Proof {
 
 /// The same body on the same path is the same trial.
 std::optional<Trial> walked_before(const Layout& layout, const Attempt& attempt) {
-  if (!attempt.chosen) return std::nullopt;
+  if (!attempt.chosen || attempt.back) return std::nullopt;
   const std::optional<Trial>& walked = layout.paths[attempt.path].walked;
   const bool same = walked && walked->radius == attempt.radius && walked->support_radius == attempt.support_radius;
   return same ? walked : std::nullopt;

@@ -85,7 +85,7 @@ void find_interval(const Survey& survey, const TrainOptions& options, const Body
   if (!stages.ended()) add_regions(survey, options, layout, stages, training);
   if (!stages.ended()) prove(survey, kind, layout, evidence, stages, training);
   leave_out_parts_without_paths(layout, training);
-  training.answer = interval_answer(layout, training, evidence.complete, stages.ended());
+  training.answer = interval_answer(layout, training, evidence, stages.ended());
   if (evidence.least_foot > options.support_max && training.support_radius > 0.0)
     training.answer +=
         fmt::format(" A gap beside a wall needs a foot of {:.2f} m, more than was allowed: it is not carried.",

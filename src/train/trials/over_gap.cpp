@@ -1,0 +1,100 @@
+#include "train/trials/over_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "motion/ground.h"
+#include "train/cracks/floor_plan.h"
+#include "train/crossings.h"
+#include "train/interval.h"
+
+namespace roam::training {
+namespace {
+
+/// m along a way between two looks for floor.
+constexpr double look_every = 0.02;
+/// m: where a body begins, there is floor around it so far beyond its radius.
+constexpr double around = 0.1;
+/// m of the way on both sides of a gap that is gone back over.
+constexpr double run_up = 1.5;
+/// Rims lie opposite where the ways to them are farther apart than this, as a cosine.
+constexpr double opposite = -0.7;
+
+double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+
+double length_of(std::span<const Vec3> way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += glm::distance(way[i - 1], way[i]);
+  return length;
+}
+
+Vec3 place_on(std::span<const Vec3> way, double along) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length = glm::distance(way[i - 1], way[i]);
+    if (along <= length && length > 0.0) return way[i - 1] + (std::max(along, 0.0) / length) * (way[i] - way[i - 1]);
+    along -= length;
+  }
+  return way.back();
+}
+
+}  // namespace
+
+double carried_from(double half, double rise, double slope_degrees) {
+  const double level = carried_share * half;
+  if (std::abs(rise) <= level_rims) return level;
+  const double chord = std::hypot(half, 0.5 * rise), tilt = std::atan2(std::abs(rise), 2.0 * half);
+  const double upright = 0.5 * std::numbers::pi;
+  const double steepest =
+      std::max(radians(walking::rim_slope_degrees) - tilt, std::min(upright, radians(slope_degrees) + tilt));
+  // The same margin as over level rims.
+  return std::max(level, carried_share * walking::rim_sine * chord / std::sin(steepest));
+}
+
+double rise_of(const Survey& survey, const Crack& crack, double step) {
+  double rise = 0.0;
+  const std::vector<TouchedFloor> touched = touched_floor(FloorPlan(survey, step), {crack.point, crack.radius});
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    for (std::size_t k = i + 1; k < touched.size(); ++k) {
+      if (glm::dot(touched[i].way, touched[k].way) < opposite)
+        rise = std::max(rise, std::abs(touched[i].near.point.z - touched[k].near.point.z));
+    }
+  }
+  return rise;
+}
+
+std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double width, double step) {
+  const auto level = [&](double along) -> std::optional<double> {
+    const Vec3 above = place_on(way, along) + Vec3(0.0, 0.0, step);
+    const Impact floor = survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
+    return floor.hit ? std::optional(above.z - 2.0 * step * floor.time) : std::nullopt;
+  };
+  const double end = length_of(way), last = std::min(end, at + 6.0 * width);
+  std::optional<double> before;
+  std::optional<GapOnWay> gap;
+  for (double along = std::max(0.0, at - width); along <= last; along += look_every) {
+    const std::optional<double> here = level(along);
+    if (!here && before && !gap) gap = GapOnWay{along - look_every, along, 0.0, *before};
+    if (here && gap && along - gap->from < 0.5 * width) gap.reset();  // another, narrower one
+    if (here && gap) {
+      gap->to = along;
+      gap->beyond = end - along;
+      gap->rise = *here - gap->rise;
+      return gap;
+    }
+    if (here) before = here;
+  }
+  return std::nullopt;
+}
+
+std::vector<Vec3> back_over(const Survey& survey, std::span<const Vec3> way, const GapOnWay& gap, double radius) {
+  const double room = radius + around;
+  if (gap.rise >= -level_rims || gap.from < room || gap.beyond < room) return {};
+  std::vector<Vec3> part = stretch(way, 0.5 * (gap.from + gap.to), 0.5 * (gap.to - gap.from) + std::max(room, run_up));
+  if (!stands_on_floor(survey, part.front()) || !stands_on_floor(survey, part.back())) return {};
+  std::reverse(part.begin(), part.end());
+  return part;
+}
+
+}  // namespace roam::training
