@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cstdint>
@@ -36,10 +37,20 @@ void expect_same(const std::vector<FoundCrack>& a, const std::vector<FoundCrack>
   }
 }
 
-std::size_t bits(const std::vector<std::uint8_t>& edges) {
-  std::size_t set = 0;
-  for (const std::uint8_t of_floor : edges) set += static_cast<std::size_t>(std::popcount(of_floor));
+/// The edges of which it is known by now that they have no void.
+std::size_t known(RimEdges& edges) {
+  std::atomic<std::size_t> set{0};
+  edges.look_at_all(
+      [&](std::size_t, std::uint8_t& without, bool) { set += static_cast<std::size_t>(std::popcount(without)); }, {});
   return set;
+}
+
+/// A split in a fine mesh.
+FloorCase fine_split() {
+  for (FloorCase& c : floor_cases())
+    if (c.name == "SplitInAFineMesh") return c;
+  ADD_FAILURE();
+  return {};
 }
 
 /// Far from each other: no edge is shared, and nothing is beside any.
@@ -79,7 +90,7 @@ TEST(RimEdges, AreLookedAtAheadWhereThereIsAnotherCore) {
     RimEdges edges(survey, {});
     edges.look_ahead();
     std::this_thread::sleep_for(wait);
-    return bits(edges.without_void());
+    return known(edges);
   };
   EXPECT_EQ(known_after(1, 20ms), 0u);
   std::size_t known = 0;
@@ -87,12 +98,52 @@ TEST(RimEdges, AreLookedAtAheadWhereThereIsAnotherCore) {
   EXPECT_GE(known, 15'000u / 5);
 }
 
+TEST(RimEdges, AreTheSameHoweverFarTheOtherCoreHasCome) {
+  const FloorCase c = fine_split();
+  const Survey survey = survey_of(c.mesh);
+  const auto alone = find_cracks(survey, {}, c.is_reached);
+  ASSERT_EQ(alone.size(), 1u);
+  constexpr int together = 100;
+  const std::size_t floors = survey.floor_triangles().size(), of_floors = (floors + together - 1) / together;
+  std::size_t pieces = 0;
+  for (RimEdges edges(survey, {}, together); edges.look_ahead_here();) ++pieces;
+  ASSERT_GT(pieces, of_floors);
+  ASSERT_GT(of_floors, 20u);
+  // Among what floors share, and among the floors.
+  const std::size_t shared = pieces - of_floors;
+  for (const std::size_t ahead : {shared / 2, shared + 1, shared + of_floors / 3, pieces - 2, pieces}) {
+    SCOPED_TRACE(ahead);
+    RimEdges edges(survey, {}, together);
+    for (std::size_t i = 0; i < ahead; ++i) EXPECT_TRUE(edges.look_ahead_here());
+    std::atomic<std::size_t> are_known{0};
+    // Ended at the last moment, so that it stays as it is.
+    EXPECT_FALSE(edges.look_at_all([&](std::size_t, std::uint8_t&, bool is_known) { are_known += is_known ? 1 : 0; },
+                                   [](double done) { return done < 1.0; }));
+    EXPECT_EQ(are_known, ahead > shared ? std::min(floors, together * (ahead - shared)) : 0);
+    expect_same(find_cracks(survey, edges, c.is_reached), alone);
+    EXPECT_FALSE(edges.look_ahead_here());
+  }
+}
+
+TEST(RimEdges, KnowNoMoreThanWasLookedAtWhenTheyAreToldToEnd) {
+  const FloorCase c = fine_split();
+  const Survey survey = survey_of(c.mesh);
+  const auto alone = find_cracks(survey, {}, c.is_reached);
+  RimEdges edges(survey, {});
+  (void)find_cracks(survey, edges, c.is_reached, [](double) { return false; });
+  expect_same(find_cracks(survey, edges, c.is_reached), alone);
+}
+
 TEST(RimEdges, AreLeftWhereTheyEndBeforeTheOtherCore) {
-  for (int i = 0; i < 50; ++i) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
-    const Survey survey = survey_of(lone_floors(500));
-    RimEdges edges(survey, {});
+  const FloorCase c = fine_split();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+  const auto alone = find_cracks(survey_of(c.mesh), {}, c.is_reached);
+  for (int i = 0; i < 20; ++i) {
+    const Survey survey = survey_of(c.mesh);
+    RimEdges(survey, {}, 50).look_ahead();
+    RimEdges edges(survey, {}, 50);
     edges.look_ahead();
+    expect_same(find_cracks(survey, edges, c.is_reached), alone);
   }
 }
 

@@ -5,8 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <vector>
 
 #include "train/cracks/cracks.h"
 
@@ -15,8 +15,9 @@ namespace roam::training {
 /// Used by one thread at a time.
 class RimEdges {
  public:
-  /// `survey` must outlive it.
-  RimEdges(const Survey& survey, const CrackOptions& options);
+  /// `survey` must outlive it. So many floors are looked at together: some milliseconds of work, for most edges are
+  /// inside a floor.
+  explicit RimEdges(const Survey& survey, const CrackOptions& options, int floors_together = 4096);
   ~RimEdges() noexcept;
   RimEdges(const RimEdges&) = delete;
   RimEdges& operator=(const RimEdges&) = delete;
@@ -24,12 +25,17 @@ class RimEdges {
   [[nodiscard]] const CrackOptions& options() const;
   /// Lets one other core begin, where there is one and as long as it has nothing else to do.
   void look_ahead();
-  /// Ends that. Of each of survey.floor_triangles(), bit k: no void lies outside the edge from corner k to the next,
-  /// within one floor or beside it. What was not looked at yet is not set: who looks sets it, each floor by one thread.
-  [[nodiscard]] std::vector<std::uint8_t>& without_void();
-  /// After that: so many of the floors, from the first one on, have been looked at.
-  [[nodiscard]] std::size_t looked_at() const;
-  void set_all_looked_at();
+  /// What that core does next, done here. Returns whether there was anything left.
+  bool look_ahead_here();
+
+  /// Of one of survey.floor_triangles(), by its number. Bit k of `without`: no void lies outside the edge from corner k
+  /// to the next, within one floor or beside it. `is_known`: the others have one somewhere; else they have not been
+  /// looked at.
+  using Look = std::function<void(std::size_t floor, std::uint8_t& without, bool is_known)>;
+  /// Ends looking ahead, and calls `look` with all floors, from all cores: it sets what it finds out. `goes_on`, if
+  /// any, is asked with the fraction done, by one thread at a time; false ends it early. Returns whether it did not end
+  /// so: all is known then.
+  bool look_at_all(const Look& look, const std::function<bool(double)>& goes_on);
 
  private:
   struct State;

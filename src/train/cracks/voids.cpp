@@ -1,7 +1,5 @@
 #include "train/cracks/voids.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -142,35 +140,24 @@ std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& opti
 std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,
                                  RimEdges& edges, const std::function<bool(const Vec3& foot)>& is_reached,
                                  const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
-  constexpr std::size_t block = 2048;  // triangles: some milliseconds of work
   const auto floors = survey.floor_triangles();
-  const std::size_t blocks = (floors.size() + block - 1) / block;
-  std::vector<std::vector<RimPlace>> found(blocks);
-  std::vector<std::uint8_t>& without = edges.without_void();
-  const std::size_t looked_at = edges.looked_at();
   const Rims rims(probe, options);
-  std::mutex mutex;
-  std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t i) {
-    if (ended) return;
-    const std::size_t end = std::min((i + 1) * block, floors.size());
-    for (std::size_t f = i * block; f < end; ++f) {
-      // Most of the edges that are left by now have a void somewhere: who comes there is asked first.
-      const bool is_known = f < looked_at;
-      without[f] = rims.with_void(
-          survey.triangle(floors[f]), without[f], [&](const Vec3& at) { return !is_known || is_reached(at); },
-          [&](const Rim& rim) {
-            if (is_known || is_reached(rim.at)) found[i].push_back({rim.at, rim.outside, climb(probe, rim.outside)});
-            return true;
-          });
-    }
-    if (!goes_on) return;
-    const std::lock_guard lock(mutex);
-    if (!ended && !goes_on(double(++done) / double(blocks))) ended = true;
-  });
-  if (!ended) edges.set_all_looked_at();
   std::vector<RimPlace> all;
-  for (const std::vector<RimPlace>& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::mutex mutex;
+  const auto look = [&](std::size_t f, std::uint8_t& without, bool is_known) {
+    std::vector<RimPlace> found;
+    // Most of the edges that are left by now have a void somewhere: who comes there is asked first.
+    without = rims.with_void(
+        survey.triangle(floors[f]), without, [&](const Vec3& at) { return !is_known || is_reached(at); },
+        [&](const Rim& rim) {
+          if (is_known || is_reached(rim.at)) found.push_back({rim.at, rim.outside, climb(probe, rim.outside)});
+          return true;
+        });
+    if (found.empty()) return;
+    const std::lock_guard lock(mutex);
+    all.insert(all.end(), found.begin(), found.end());
+  };
+  if (!edges.look_at_all(look, goes_on)) ended = true;
   std::sort(all.begin(), all.end(), lies_before);
   return all;
 }
