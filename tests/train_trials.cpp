@@ -144,6 +144,27 @@ TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
   }
 }
 
+TEST(UnevenCracks, AskForMoreWhereTheirRimsPartElsewhereThanWhereTheyAreWidest) {
+  // The near side rises along the crack, which is a little wider where it is level.
+  constexpr double rise = 0.3, gap = 0.8;
+  Mesh mesh;
+  add_quad(mesh, {0, 0, 0}, {4.98, 0, 0}, {5, width, rise}, {0, width, rise});
+  add_floor(mesh, 5 + gap, 0, length, width, 0);
+  add_floor(mesh, 0, 0, length, width, deep);
+  add_floor(mesh, 0, 0, length, width, high);
+  for (const double y : {0.0, width}) add_wall(mesh, 0, y, length, y, deep, high);
+  for (const double x : {0.0, length}) add_wall(mesh, x, 0, x, width, deep, high);
+  const roam::Survey survey = survey_of({mesh});
+  const Training t = roam::train(survey, {.height = 1.8});
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_GT(t.radius, 0.45);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+  EXPECT_EQ(t.answer.find("not count"), std::string::npos) << t.answer;
+  const auto [down, up] = down_and_up(survey, gap, 0.5 * rise, t.radius, t.support_radius);
+  EXPECT_EQ(down, roam::Outcome::reached);
+  EXPECT_EQ(up, roam::Outcome::reached) << t.answer;
+}
+
 TEST(UnevenCracks, AskForAFootWhereWhatRollsUpOverThemIsTooWide) {
   constexpr double rise = 0.2;
   Mesh mesh = uneven_ends(0.8, rise);
