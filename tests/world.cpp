@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 
 #include "clutter.h"
 #include "oracle.h"
@@ -15,6 +16,7 @@ namespace {
 
 using clutter::Random;
 using roam::Body;
+using roam::Box;
 using roam::Mesh;
 using roam::Triangle;
 using roam::Vec3;
@@ -185,6 +187,38 @@ TEST(World, GapsAreLowerBoundsWhereTilesAreAboutEquallyNear) {
       ASSERT_FALSE(HasFatalFailure()) << "scene " << scene << " query " << q;
     }
   }
+}
+
+/// Few tiles are visited in any order, so none of them may keep another from being asked.
+TEST(World, SweepsAreNeverLateWhereSeveralTilesAreMet) {
+  Random random(11);
+  const Mesh mesh = clutter::make(random, {70000, 20.0, 0.01, 5.0, {300.0, 20.0, -7.0}});
+  const World world = World::build({&mesh, 1});
+  ASSERT_GT(world.stats().tiles, 4U);
+  std::vector<Box> boxes(mesh.triangles.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const Vec3& corner : mesh.triangle(i)) boxes[i].include(corner);
+  }
+  int met = 0;
+  for (int q = 0; q < 10000; ++q) {
+    const Body body{random.between(0.0, 0.1), 0.0};
+    const Vec3 from = Vec3(300.0, 20.0, -7.0) + random.in_box(19.0);
+    const Vec3 motion = random.between(0.5, 4.0) * random.direction();
+    const auto s = world.sweep(body, from, motion);
+    if (s.hit && s.time == 0.0) continue;
+    met += s.hit ? 1 : 0;
+    Box way;
+    way.include(from);
+    way.include(from + s.time * motion);
+    way = way.grown(body.radius);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Box& box = boxes[i];
+      if (glm::any(glm::lessThan(way.upper, box.lower)) || glm::any(glm::lessThan(box.upper, way.lower))) continue;
+      ASSERT_GE(oracle::least_distance(body, from, motion, s.time, mesh.triangle(i)), body.radius - kNearest)
+          << "query " << q;
+    }
+  }
+  EXPECT_GT(met, 2000);
 }
 
 }  // namespace
