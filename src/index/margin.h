@@ -65,7 +65,7 @@ inline constexpr double kLongestPiece = 64.0;
 inline constexpr int kManyChildren = 4;
 
 /// Of a node over tiles, so many children that a body may meet on such a motion are visited in any order: to ask which
-/// comes first takes as long as to look at them.
+/// comes first takes as long as to look at them. See few_tiles.
 inline constexpr int kFewTiles = 3;
 
 /// Metres. The box around a longer motion is too wide to tell much of what the motion meets.
