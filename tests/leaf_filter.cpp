@@ -155,45 +155,90 @@ TEST(LeafFilter, BoundsEveryTriangleOfAGap) {
   bound_every_triangle<lanes::Slack>(true);
 }
 
-/// Long narrow triangles, not yet so narrow that their edges stand for them, and places beside and above them.
+/// A leaf with one triangle, long and narrow, not yet so narrow that its edges stand for it.
+struct Sliver {
+  Leaf leaf{};
+  Triangle triangle{};
+  Vec3 along{0.0}, normal{0.0};  ///< of the longest edge; of unit length
+  bool some = false;             ///< it has an area
+
+  Sliver(clutter::Random& random, int turned) {
+    leaf.triangle_count = 1;
+    const Vec3 first = random.in_box(31.0), second = random.in_box(31.0);
+    along = second - first;
+    const Vec3 third = first + random.unit() * along + std::pow(10.0, random.between(-2.7, -0.5)) * random.direction();
+    const Vec3 corners[3] = {first, second, third};
+    for (int c = 0; c < 3; ++c) {
+      for (int k = 0; k < 3; ++k) {
+        const double steps = (corners[(c + turned) % 3][k] + 32.0) / kStep;
+        leaf.vertex[k][c] = static_cast<std::uint16_t>(steps);
+        triangle[c][k] = kStep * leaf.vertex[k][c];
+      }
+      for (int i = 0; i < kWidth; ++i) leaf.corner[c][i / 8] |= static_cast<std::uint32_t>(c) << (4 * (i % 8));
+    }
+    normal = clutter::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    const double area = clutter::length(normal);
+    some = area > 1e-6;
+    normal = normal / area;
+    along = along / clutter::length(along);
+  }
+};
+
 TEST(LeafFilter, KnowsHowNearASliverIs) {
   clutter::Random random(54);
   int tested = 0;
   for (int q = 0; q < 50000; ++q) {
-    Leaf leaf{};
-    leaf.triangle_count = 1;
-    const Vec3 first = random.in_box(31.0), second = random.in_box(31.0), apart = second - first;
-    const Vec3 third = first + random.unit() * apart + std::pow(10.0, random.between(-2.7, -0.5)) * random.direction();
-    const Vec3 corners[3] = {first, second, third};
-    Triangle t;
-    for (int c = 0; c < 3; ++c) {
-      for (int k = 0; k < 3; ++k) {
-        const double steps = (corners[(c + q) % 3][k] + 32.0) / kStep;
-        leaf.vertex[k][c] = static_cast<std::uint16_t>(steps);
-        t[c][k] = kStep * leaf.vertex[k][c];
-      }
-      for (int i = 0; i < kWidth; ++i) leaf.corner[c][i / 8] |= static_cast<std::uint32_t>(c) << (4 * (i % 8));
-    }
-    const Vec3 normal = clutter::cross(t[1] - t[0], t[2] - t[0]);
-    const double area = clutter::length(normal);
-    if (!(area > 1e-6)) continue;
+    const Sliver sliver(random, q);
+    if (!sliver.some) continue;
     ++tested;
-    const Vec3 side = clutter::cross(normal, apart) / (area * clutter::length(apart));
+    const Triangle& t = sliver.triangle;
+    const Vec3 side = clutter::cross(sliver.normal, sliver.along);
     const double beside = std::pow(10.0, random.between(-3.0, 0.5)), above = std::pow(10.0, random.between(-4.0, 1.0));
     const Vec3 place = t[0] + random.unit() * (t[1] - t[0]) + (q % 2 == 0 ? beside : -beside) * side +
-                       (q % 4 < 2 ? above : -above) * (normal / area);
+                       (q % 4 < 2 ? above : -above) * sliver.normal;
     const lanes::Frame frame(Vec3(0.0), kStep, place);
     lanes::VF left = lanes::set(0.0F);
     lanes::Children triangles;
     alignas(64) float most[kWidth];
-    lanes::near_leaf(leaf, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left, triangles,
-                     most);
+    lanes::near_leaf(sliver.leaf, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left,
+                     triangles, most);
     ASSERT_EQ(triangles.mask & 1U, 1U) << q;
     const long double least = oracle::distance(Body{0.0, 0.0}, place, t);
     ASSERT_GE(least, (long double)(triangles.key[0])) << q;
     ASSERT_LE(least, (long double)(most[0]) + 2e-5L) << q;
   }
   EXPECT_GT(tested, 40000);
+}
+
+/// Neither later than at the radius nor earlier than at the limit.
+TEST(LeafFilter, ArrivesAtASliverInTime) {
+  clutter::Random random(55);
+  int arrived = 0;
+  for (int q = 0; q < 50000; ++q) {
+    const Sliver sliver(random, q);
+    if (!sliver.some) continue;
+    const Body body{std::pow(10.0, random.between(-3.0, 0.6)), q % 2 == 0 ? 0.0 : random.between(0.1, 1.0)};
+    const double depth = q % 4 < 2 ? 0.0 : random.between(-0.02, 0.3) * body.radius;
+    const clutter::Graze g =
+        clutter::graze(random, sliver.triangle, body, depth, std::pow(10.0, random.between(-2.0, 1.8)));
+    const lanes::Frame frame(Vec3(0.0), kStep, g.from);
+    const lanes::Motion motion(g.motion, body.half_height);
+    const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
+    const float limit = static_cast<float>(body.radius) + 0.00114F;
+    lanes::Met met;
+    lanes::sweep_leaf(sliver.leaf, frame, motion, lanes::NoRay(motion), radius, limit, 0.0F, 1.0F, met);
+    const bool here = (met.arrived & 1U) != 0;
+    arrived += here ? 1 : 0;
+    const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : 1.0;
+    if (free > 0.0) {
+      ASSERT_GE(oracle::least_distance(body, g.from, g.motion, free, sliver.triangle), (long double)(radius)-1e-6L)
+          << q;
+    }
+    if (here) {
+      ASSERT_LE(oracle::distance_on_the_way(body, g.from, g.motion, free, sliver.triangle), (long double)(limit)) << q;
+    }
+  }
+  EXPECT_GT(arrived, 5000);
 }
 
 /// What a ray leaves out rests on it: the vectors across are rounded, and so not quite across the way.
