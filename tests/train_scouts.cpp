@@ -12,6 +12,7 @@ namespace {
 
 using roam::Survey;
 using roam::Vec3;
+using roam::training::AheadLimits;
 using roam::training::Measure;
 using roam::training::NodeId;
 using roam::training::WidestTree;
@@ -29,10 +30,11 @@ struct Scouted {
   std::uint64_t answered = 0;
 };
 
-Scouted grown(const seeded::Gallery& gallery, const Measure& measure, std::uint64_t most, int threads) {
+Scouted grown(const seeded::Gallery& gallery, const Measure& measure, std::uint64_t most, int threads,
+              const AheadLimits& ahead = {}) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const Survey survey = Survey::build({gallery.mesh}, {.threads = 1, .lossless = true, .progress = {}});
-  WidestTree tree(survey, measure, 0.2);
+  WidestTree tree(survey, measure, 0.2, roam::training::everywhere, ahead);
   const auto root = tree.seed(gallery.from);
   Grown found;
   if (!root) return {};
@@ -63,6 +65,21 @@ TEST(Scouts, ChangeNoPlaceOfTheLattice) {
     }
   }
   // How many depends on what else the machine does.
+  EXPECT_GT(answered, 0u);
+}
+
+TEST(Scouts, ChangeNoPlaceWhereTheyAreForgotten) {
+  std::uint64_t answered = 0;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const seeded::Gallery gallery = seeded::gallery(seed);
+    const Measure measure{.height = 1.9};
+    const Scouted alone = grown(gallery, measure, 1'000'000, 1);
+    for (const AheadLimits& ahead : {AheadLimits{3, 1 << 20}, AheadLimits{8192, 20}, AheadLimits{1, 1}}) {
+      const Scouted scouted = grown(gallery, measure, 1'000'000, 4, ahead);
+      EXPECT_TRUE(alone.grown == scouted.grown) << seed << " " << ahead.places << " " << ahead.points;
+      answered += scouted.answered;
+    }
+  }
   EXPECT_GT(answered, 0u);
 }
 

@@ -18,7 +18,9 @@ class LatticeGraph {
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
   /// All neighbours, which are made and measured if need be.
   virtual Neighbours expand(NodeId id) = 0;
-  /// A place will be expanded soon: other cores may ask by then what expand() needs to know. Changes no answer.
+  /// Whether other cores may ask ahead what expand() needs to know; not at first. Changes no answer.
+  virtual void let_look_ahead(bool /*may*/) {}
+  /// They may: of a place that will be expanded soon.
   virtual void look_ahead(NodeId /*id*/) {}
   /// How many steps they had answered when they were gone.
   [[nodiscard]] virtual std::uint64_t answered_ahead() const { return 0; }
@@ -41,7 +43,7 @@ class LatticeGraph {
 };
 
 [[nodiscard]] std::unique_ptr<LatticeGraph> walk_lattice(const Survey& survey, const Measure& measure, double spacing,
-                                                         const Box& within);
+                                                         const Box& within, const AheadLimits& ahead);
 [[nodiscard]] std::unique_ptr<LatticeGraph> fly_lattice(const Survey& survey, const Measure& measure, double spacing,
                                                         const Box& within);
 

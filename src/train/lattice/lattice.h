@@ -6,6 +6,7 @@
 /// sphere of `widest` that sees only floor below the knee, so that cracks are carried and both ends of the interval
 /// stay independent. Flying: a cubic lattice; a place is the centre.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -63,6 +64,12 @@ using Neighbours = InlineList<NodeId, 26>;
 inline constexpr Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                                 Vec3(std::numeric_limits<double>::infinity())};
 
+/// What may be asked ahead, on other cores, on foot: more is forgotten. No answer depends on it.
+struct AheadLimits {
+  std::size_t places = 8192;     ///< whose steps are asked about, and that nobody has come to
+  std::size_t points = 1 << 20;  ///< that anybody has asked about: some megabytes
+};
+
 /// A tree over all places reached from the first one: of all ways between two of them, the one in it is a widest.
 /// Grown best first (Prim, with the largest least clearance): see Pollack, "The maximum capacity through a network",
 /// 1960.
@@ -70,7 +77,8 @@ class WidestTree {
  public:
   /// `survey` must outlive the tree. Nothing outside `within` is looked at. The lattice lies so that the first place
   /// that is asked for is one of it.
-  WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within = everywhere);
+  WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within = everywhere,
+             const AheadLimits& ahead = {});
 
   /// The place of the lattice at or nearest to `place` (within 1.5 spacings, in sight), made if need be; none where no
   /// body of `narrowest` can be.

@@ -11,9 +11,6 @@ namespace roam::training {
 namespace {
 
 constexpr std::uint8_t all_directions = 0xFF;
-/// Places whose steps are asked ahead and that nobody has come to, and points that anybody has asked about: more are
-/// forgotten, some megabytes.
-constexpr std::size_t most_out = 8192, most_asked_about = 1 << 20;
 
 /// Metres. Feet over one point of the lattice that differ by less are the same place: balls that come down beside
 /// different things rest at slightly different heights.
@@ -35,16 +32,12 @@ struct Column {
 
 class WalkLattice final : public LatticeGraph {
  public:
-  WalkLattice(const Survey& survey, const Measure& measure, double spacing, const Box& within)
-      : survey_(survey),
-        measure_(measure),
-        plan_{spacing},
-        within_(within),
-
-        steps_(survey, measure) {}
+  WalkLattice(const Survey& survey, const Measure& measure, double spacing, const Box& within, const AheadLimits& ahead)
+      : survey_(survey), measure_(measure), plan_{spacing}, within_(within), ahead_(ahead), steps_(survey, measure) {}
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
+  void let_look_ahead(bool may) override { looks_ahead_ = may; }
   void look_ahead(NodeId id) override;
   bool goes(NodeId from, NodeId to) override;
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
@@ -65,13 +58,14 @@ class WalkLattice final : public LatticeGraph {
   const Measure measure_;
   LatticePlan plan_;
   const Box within_;
+  const AheadLimits ahead_;
   const WalkSteps steps_;
   LatticeTable table_;
   std::vector<Column> columns_;
   LatticeTable asked_about_;  ///< by storey: who has sent scouts there
   std::size_t asked_points_ = 0;
   std::uint64_t answered_ahead_ = 0;
-  bool looks_ahead_ = false;  ///< there are other cores
+  bool looks_ahead_ = false;
   Scouts scouts_{steps_, plan_};
 };
 
@@ -125,7 +119,6 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
 }
 
 void WalkLattice::look_ahead(NodeId id) {
-  looks_ahead_ = true;
   Column& column = columns_[id];
   // Where nothing limits a body, answers are had sooner than they are sent for.
   if (column.is_scouted || column.settled == all_directions || nodes_[id].clearance >= steps_.unlimited()) return;
@@ -145,7 +138,7 @@ void WalkLattice::look_ahead(NodeId id) {
   }
   if (asked == 0) return;
   asked_points_ += static_cast<std::size_t>(std::popcount(asked));
-  if (scouts_.out() >= most_out || asked_points_ > most_asked_about) {
+  if (scouts_.out() >= ahead_.places || asked_points_ > ahead_.points) {
     scouts_.forget();
     asked_about_ = {};
     asked_points_ = 0;
@@ -255,8 +248,8 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
 }  // namespace
 
 std::unique_ptr<LatticeGraph> walk_lattice(const Survey& survey, const Measure& measure, double spacing,
-                                           const Box& within) {
-  return std::make_unique<WalkLattice>(survey, measure, spacing, within);
+                                           const Box& within, const AheadLimits& ahead) {
+  return std::make_unique<WalkLattice>(survey, measure, spacing, within, ahead);
 }
 
 }  // namespace roam::training

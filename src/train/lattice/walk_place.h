@@ -44,6 +44,9 @@ struct Foot {
 /// Any number of threads.
 class KnownGaps {
  public:
+  /// What is known of more is forgotten, some 20 MB.
+  static constexpr std::size_t most_known = 1 << 18;
+
   /// Whether a gap is open, by the axis over it at the level of its rim: `look(axis)`, once or oftener.
   template <class Look>
   bool is_open(const Vec3& axis, const Look& look) {
@@ -54,6 +57,7 @@ class KnownGaps {
     }
     const bool open = look(axis);
     const std::lock_guard lock(part.mutex);
+    if (part.open.size() >= most_known / parts_.size()) part.open.clear();
     part.open.emplace(axis, open);
     return open;
   }

@@ -31,7 +31,7 @@ struct ScoutedSteps {
   }
 };
 
-/// Used by one thread. Nothing is asked where there is but one core for it.
+/// Used by one thread. Worth it only where there are other cores: who sends them sees to that.
 class Scouts {
  public:
   Scouts(const WalkSteps& steps, const LatticePlan& plan) : steps_(steps), plan_(plan) {}

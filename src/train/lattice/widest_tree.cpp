@@ -103,11 +103,12 @@ struct WidestTree::State {
   }
 };
 
-WidestTree::WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within)
+WidestTree::WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within,
+                       const AheadLimits& ahead)
     : state_(std::make_shared<State>()) {
   state_->spacing = spacing;
   state_->graph = measure.mode == Mode::fly ? fly_lattice(survey, measure, spacing, within)
-                                            : walk_lattice(survey, measure, spacing, within);
+                                            : walk_lattice(survey, measure, spacing, within, ahead);
 }
 
 std::optional<NodeId> WidestTree::seed(const Vec3& place) {
@@ -120,6 +121,7 @@ bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::u
   State& s = *state_;
   // Where all in reach is taken, all that is offered is.
   s.looks_ahead = until == no_node && has_other_cores();
+  s.graph->let_look_ahead(s.looks_ahead);
   s.turn_to(root);
   for (std::size_t taken = 0; !s.edges.empty(); ++taken) {
     if (until != no_node && s.root[until] == s.growing) return true;
@@ -195,6 +197,7 @@ Neighbours WidestTree::neighbours(NodeId id) const { return state_->graph->neigh
 std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::function<bool(const Node&)>& blocked,
                                           double least, const std::function<bool(std::uint64_t)>& goes_on) {
   LatticeGraph& graph = *state_->graph;
+  graph.let_look_ahead(false);
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   std::vector<NodeId> before(graph.size(), no_node);
   std::vector<float> offered(graph.size(), -1.0F);  // as State::offered; blocked places are offered more than there is
