@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,6 +127,7 @@ TEST(UnevenCracks, CarryFromTheRadiusThatTheirRimsAskFor) {
 }
 
 TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
+  int led_down = 0;
   for (const double rise : {0.0, 0.03, 0.1, 0.15, 0.25}) {
     const roam::Survey survey = survey_of({uneven_ends(0.8, rise)});
     const Training t = roam::train(survey, {.height = 1.8});
@@ -138,10 +140,35 @@ TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
     if (rise == 0.0) {
       EXPECT_NEAR(t.radius, 0.432, 1e-3);
     }
+    // Who came down over the crack, from where there is room to stand to where there is, went back up over it.
+    const double room = t.radius + 0.12;
+    for (const roam::TrainedPath& path : t.paths) {
+      const bool down = path.from.x < 5.0 - room && path.to.x > 5.8 + room && rise > 0.0;
+      const auto chosen = std::count_if(path.trials.begin(), path.trials.end(),
+                                        [&](const roam::Trial& trial) { return trial.radius == t.radius; });
+      EXPECT_EQ(chosen, down ? 2 : 1) << rise << " from " << path.from.x << " to " << path.to.x;
+      led_down += down ? 1 : 0;
+    }
     const auto [down, up] = down_and_up(survey, 0.8, rise, t.radius, 0.0);
     EXPECT_EQ(down, roam::Outcome::reached) << rise;
     EXPECT_EQ(up, roam::Outcome::reached) << rise << ": " << t.answer;
   }
+  EXPECT_GT(led_down, 0);
+}
+
+TEST(UnevenCracks, AreNotTriedFromTheirRimWhereAPathEndsOnThat) {
+  // By this seed path 3 ends on the lower rim. Who begins there has no floor under him that a foot could go on in.
+  constexpr double rise = 0.03;
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, deep}, {12, width, 3.5});
+  add_floor(mesh, 0, 0, 6, width, rise);
+  add_floor(mesh, 6.8, 0, 12, width, 0);
+  add_wall(mesh, 6, 0, 6, width, deep, rise);
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  EXPECT_TRUE(std::any_of(t.paths.begin(), t.paths.end(), [](const roam::TrainedPath& path) {
+    return std::abs(path.to.x - 6.8) < 1e-6 && std::abs(path.from.z - rise) < 1e-3;
+  }));
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
 }
 
 TEST(UnevenCracks, AskForMoreWhereTheirRimsPartElsewhereThanWhereTheyAreWidest) {

@@ -178,7 +178,7 @@ class Confirmation {
       const double radius = evidence_.cracks[crossing.crack].radius;
       const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
       if (!gap) continue;
-      const std::vector<Vec3> back = back_over(survey_, way, *gap, body.radius);
+      const std::vector<Vec3> back = back_over(survey_, way, *gap, body.radius, layout_.measure.step);
       if (back.empty()) continue;
       const Trial trial =
           try_way(survey_, kind_, body.radius, body.support_radius, back, [this] { return !stages_.ended(); });

@@ -124,7 +124,7 @@ class Proof {
       const std::vector<Vec3>& way = training_.paths[path].way;
       const auto gap = gap_on(survey_, way, c.crossing.at, crack.radius, layout_.measure.step);
       if (!gap) continue;
-      std::vector<Vec3> back = back_over(survey_, way, *gap, training_.radius);
+      std::vector<Vec3> back = back_over(survey_, way, *gap, training_.radius, layout_.measure.step);
       if (back.empty()) continue;
       all.push_back({path, training_.radius, training_.support_radius, std::move(back), Judgement::passed,
                      "the chosen body, back up over a gap", true, true});

@@ -39,6 +39,13 @@ Vec3 place_on(std::span<const Vec3> way, double along) {
   return way.back();
 }
 
+/// z of the floor at a place, no farther than a step above or below.
+std::optional<double> level_at(const Survey& survey, const Vec3& place, double step) {
+  const Vec3 above = place + Vec3(0.0, 0.0, step);
+  const Impact floor = survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
+  return floor.hit ? std::optional(above.z - 2.0 * step * floor.time) : std::nullopt;
+}
+
 }  // namespace
 
 double carried_from(double half, double rise, double slope_degrees) {
@@ -65,16 +72,11 @@ double rise_of(const Survey& survey, const Crack& crack, double step) {
 }
 
 std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double width, double step) {
-  const auto level = [&](double along) -> std::optional<double> {
-    const Vec3 above = place_on(way, along) + Vec3(0.0, 0.0, step);
-    const Impact floor = survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
-    return floor.hit ? std::optional(above.z - 2.0 * step * floor.time) : std::nullopt;
-  };
   const double end = length_of(way), last = std::min(end, at + 6.0 * width);
   std::optional<double> before;
   std::optional<GapOnWay> gap;
   for (double along = std::max(0.0, at - width); along <= last; along += look_every) {
-    const std::optional<double> here = level(along);
+    const std::optional<double> here = level_at(survey, place_on(way, along), step);
     if (!here && before && !gap) gap = GapOnWay{along - look_every, along, 0.0, *before};
     if (here && gap && along - gap->from < 0.5 * width) gap.reset();  // another, narrower one
     if (here && gap) {
@@ -88,11 +90,17 @@ std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, 
   return std::nullopt;
 }
 
-std::vector<Vec3> back_over(const Survey& survey, std::span<const Vec3> way, const GapOnWay& gap, double radius) {
+std::vector<Vec3> back_over(const Survey& survey, std::span<const Vec3> way, const GapOnWay& gap, double radius,
+                            double step) {
   const double room = radius + around;
   if (gap.rise >= -level_rims || gap.from < room || gap.beyond < room) return {};
   std::vector<Vec3> part = stretch(way, 0.5 * (gap.from + gap.to), 0.5 * (gap.to - gap.from) + std::max(room, run_up));
-  if (!stands_on_floor(survey, part.front()) || !stands_on_floor(survey, part.back())) return {};
+  // Ways cut across a step: a body must not begin within the floor, nor above it.
+  for (Vec3* end : {&part.front(), &part.back()}) {
+    const std::optional<double> level = level_at(survey, *end, step);
+    if (!level) return {};
+    end->z = *level;
+  }
   std::reverse(part.begin(), part.end());
   return part;
 }

@@ -37,6 +37,6 @@ struct GapOnWay {
 /// Where a way leads down over a gap: the way back, up over it. Empty where the rims are level, or where the way begins
 /// or ends so near to the gap that a body of the radius does not stand there.
 [[nodiscard]] std::vector<Vec3> back_over(const Survey& survey, std::span<const Vec3> way, const GapOnWay& gap,
-                                          double radius);
+                                          double radius, double step);
 
 }  // namespace roam::training
