@@ -338,13 +338,26 @@ inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
                    .mesh = gap_to_drop(4.0, 0.025),
                    .cracks = {0.45},
                    .has_drop = true});
-  // What is nearer than r + 1 m to the first open disc that a body of r comes to, around the wall's corner, belongs to
-  // the drop: y > 4.0, where the gap is 0.9 m wide.
-  cases.push_back({.name = "GapAlongAWallThatWidensTowardsADrop",
-                   .mesh = gap_to_drop(4.0, 0.0),
-                   .cracks = {0.445},
-                   .has_drop = true,
-                   .tolerance = 0.006});
+  // What is nearer than r + 1 m to the first open disc that a body of r comes to belongs to the drop: that disc's
+  // centre is 1 m from the floor's corner, and r from the wall's, 0.9 m beside it. Where the drop begins is found to
+  // some centimetres.
+  const auto widest_before_drop = [](double length) {
+    const double slope = 0.3 / length, cosine = 1.0 / std::hypot(1.0, slope), mouth = length + 0.8;
+    double r = 0.45;
+    for (int i = 0; i < 20; ++i) {
+      const double x = 0.5 * (1.0 - r * r + 0.9 * 0.9) / 0.9;  // of the centre, from the floor's edge
+      const double y = mouth + std::sqrt(1.0 - x * x) - std::sqrt((1.0 + r) * (1.0 + r) - (x - r) * (x - r));
+      r = (0.6 + slope * y) * cosine / (1.0 + cosine);  // touches the floor's edge and the wall
+    }
+    return r;
+  };
+  for (const auto& [name, length] :
+       {std::pair{"GapAlongAWallThatWidensTowardsADrop", 4.0}, {"ShortGapAlongAWallThatWidensTowardsADrop", 2.0}})
+    cases.push_back({.name = name,
+                     .mesh = gap_to_drop(length, 0.0),
+                     .cracks = {widest_before_drop(length)},
+                     .has_drop = true,
+                     .tolerance = 0.003});
   // Measured up to where an open disc that touches both corners of the mouth takes over, 1 - sqrt(1 - w^2 / 4) inside.
   const auto widest = [](double from, double to) {
     const double slant = 0.5 * (to - from) / 12.0, cosine = 1.0 / std::hypot(1.0, slant);
