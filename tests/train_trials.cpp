@@ -156,6 +156,16 @@ TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
   EXPECT_GT(led_down, 0);
 }
 
+TEST(UnevenCracks, AreNoneWhereKerbsOfOneHeightStandOnBothRims) {
+  Mesh mesh = two_ends(0.6);
+  add_box(mesh, {4.9, 0, 0}, {5, width, 0.2});
+  add_box(mesh, {5.6, 0, 0}, {5.7, width, 0.2});
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  EXPECT_NEAR(t.smallest, 0.3, 1e-3);
+  EXPECT_NEAR(t.radius, 1.08 * 0.3, 1e-3) << t.answer;
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+}
+
 TEST(UnevenCracks, AreNotTriedFromTheirRimWhereAPathEndsOnThat) {
   // By this seed path 3 ends on the lower rim. Who begins there has no floor under him that a foot could go on in.
   constexpr double rise = 0.03;

@@ -21,6 +21,8 @@ constexpr double around = 0.1;
 constexpr double run_up = 1.5;
 /// Rims lie opposite where the ways to them are farther apart than this, as a cosine.
 constexpr double opposite = -0.7;
+/// And on one side where they are less.
+constexpr double same_side = 0.9;
 
 double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 
@@ -62,10 +64,17 @@ double carried_from(double half, double rise, double slope_degrees) {
 double rise_of(const Survey& survey, const Crack& crack, double step) {
   double rise = 0.0;
   const std::vector<TouchedFloor> touched = touched_floor(FloorPlan(survey, step), {crack.point, crack.radius});
+  // Under a kerb that stands on the rim there is floor too: a body touches what is highest.
+  const auto level = [&](const TouchedFloor& rim) {
+    double highest = rim.near.point.z;
+    for (const TouchedFloor& other : touched)
+      if (glm::dot(rim.way, other.way) > same_side) highest = std::max(highest, other.near.point.z);
+    return highest;
+  };
   for (std::size_t i = 0; i < touched.size(); ++i) {
     for (std::size_t k = i + 1; k < touched.size(); ++k) {
       if (glm::dot(touched[i].way, touched[k].way) < opposite)
-        rise = std::max(rise, std::abs(touched[i].near.point.z - touched[k].near.point.z));
+        rise = std::max(rise, std::abs(level(touched[i]) - level(touched[k])));
     }
   }
   return rise;
