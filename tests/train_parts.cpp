@@ -212,6 +212,23 @@ TEST(TrainedParts, HaveNoCracksBehindAThinWall) {
   }
 }
 
+TEST(TrainedParts, HaveOpenDropsBehindAThinWall) {
+  // As before, with a floor 2 m deeper and 2.5 m of nothing beside the ledge.
+  using namespace scenes;
+  constexpr double length = 6.0, near = 3.0, far = 4.02, ledge = 0.08, pit = 2.5;
+  Mesh mesh;
+  add_quad(mesh, {0, 0, 0}, {length, 0, 0}, {length, far + ledge, 0}, {0, near + ledge, 0});
+  add_quad(mesh, {0, 0, 3}, {length, 0, 3}, {length, far, 3}, {0, near, 3});
+  add_quad(mesh, {0, near, 1.2}, {length, far, 1.2}, {length, far + pit, 1.2}, {0, near + pit, 1.2});
+  add_wall(mesh, 0, near, length, far, 0.0, 3.0);
+  add_wall(mesh, 0, near + ledge + pit, length, far + ledge + pit, -2.0, 3.0);
+  add_wall(mesh, 0, 0, length, 0, 0.0, 3.0);
+  for (const double x : {0.0, length}) add_wall(mesh, x, 0, x, far + pit, -2.0, 3.0);
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  ASSERT_FALSE(t.cracks.empty());
+  for (const roam::Crack& crack : t.cracks) EXPECT_EQ(crack.kind, roam::Crack::Kind::open_drop);
+}
+
 TEST(TrainedRegions, AreNoneWhereADoorLetsTheBodyThrough) {
   // A door of 0.6 m near a corner, so that the lattice's places before it lie beside its jambs; the other way, under a
   // lintel, is too low.
