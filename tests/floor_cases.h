@@ -358,6 +358,16 @@ inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
                      .cracks = {widest_before_drop(length)},
                      .has_drop = true,
                      .tolerance = 0.003});
+  // The floor of a corridor ends 0.8 m before a bend, beyond which it opens into a pit. The widest bodies touch both
+  // outer walls and the inner corner, 2 (0.4 - r)^2 = r^2: farther from floor than walls let anybody be wide.
+  Mesh bend;
+  add_fan(bend, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 0.4, 0.0}, {0.0, 0.4, 0.0}});
+  add_walls(bend, {{0.0, 0.4}, {4.4, 0.4}, {4.4, 1.3}, {1.4, 1.3}, {1.4, 6.3}, {7.8, 6.3}, {7.8, 1.3}});
+  add_walls(bend, {{7.8, 1.3}, {4.8, 1.3}, {4.8, 0.0}, {0.0, 0.0}, {0.0, 0.4}});
+  cases.push_back({.name = "CorridorThatBendsIntoAPit",
+                   .mesh = std::move(bend),
+                   .cracks = {0.8 - 0.4 * std::numbers::sqrt2 / (1.0 + std::numbers::sqrt2)},
+                   .tolerance = 0.01});
   // Measured up to where an open disc that touches both corners of the mouth takes over, 1 - sqrt(1 - w^2 / 4) inside.
   const auto widest = [](double from, double to) {
     const double slant = 0.5 * (to - from) / 12.0, cosine = 1.0 / std::hypot(1.0, slant);
