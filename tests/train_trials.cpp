@@ -156,6 +156,13 @@ TEST(UnevenCracks, AreGoneOverInBothDirectionsByTheTrainedBody) {
   EXPECT_GT(led_down, 0);
 }
 
+TEST(UnevenCracks, AreNotToBeClimbedBySpheresThatAreSmallerThanTheRimIsHigh) {
+  const Training t = roam::train(survey_of({uneven_ends(0.4, 0.25)}), {});
+  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_NEAR(t.smallest, 0.2, 1e-3);
+  EXPECT_TRUE(t.contradictions.empty()) << t.answer;
+}
+
 TEST(UnevenCracks, AreNoneWhereKerbsOfOneHeightStandOnBothRims) {
   Mesh mesh = two_ends(0.6);
   add_box(mesh, {4.9, 0, 0}, {5, width, 0.2});

@@ -192,7 +192,9 @@ class Proof {
       }
       if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
     }
-    all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
+    // A sphere climbs at most its radius: one that passes below the crack's width may not come up to its higher rim.
+    if (kind_.height > 0.0 || rise_of(survey_, crack, layout_.measure.step) <= body)
+      all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
   }
