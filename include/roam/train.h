@@ -3,7 +3,7 @@
 /// Which sizes of a body can go everywhere in a scene and fall nowhere; and what to use where no one size can.
 ///
 ///     const roam::Training t = roam::train(survey, {.height = 1.8});
-///     if (t.feasible) std::cout << "any radius from " << t.smallest << " to " << t.largest.value_or(1.0) << " m\n";
+///     std::cout << t.answer << "\n";  // and t.radius serves all paths without a foot, where t.feasible
 ///     if (t.places > 0) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));  // profile.h
 ///
 /// Xie & Niu 2020 (PLoS ONE 15(2): e0229038, figure 6) roam n random paths with a radius that goes down where the
@@ -69,7 +69,7 @@ struct TrainedPath {
   Vec3 from{0.0}, to{0.0};        ///< of the feet, or the centre when flying
   std::vector<Vec3> way;          ///< likewise; on foot not for follow() as it is: see standing() in standing.h
   std::optional<double> largest;  ///< radius that passes, m; none: not limited
-  double smallest = 0.0;          ///< radius that falls into no crack on the way, m; 0: there is none
+  double smallest = 0.0;          ///< half the width of the widest crack on the way, m; 0: there is none
   std::vector<Trial> trials;
 };
 
@@ -122,7 +122,7 @@ struct Training {
   double support_radius = 0.0;  ///< of its foot, m; 0: it needs none of its own
   double step = 0.3;            ///< that it climbs, m: TrainOptions::step or less, a sphere at most its radius
   double slope_degrees = 45.0;  ///< that it climbs: the survey's
-  /// The feasible interval of one radius for all paths: [smallest, largest]. None: no opening limits it. 0: no crack.
+  /// Between which one radius serves all paths, m; where rims are uneven from above `smallest` on. 0: no crack; none: free.
   double smallest = 0.0;
   std::optional<double> largest;
   double trapped_radius = 0.0;  ///< a sphere that rolls without a foot cannot climb out of the widest crack below this
