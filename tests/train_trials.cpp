@@ -9,7 +9,7 @@
 
 #include "roam/train.h"
 #include "train/interval.h"
-#include "train/trials/over_gap.h"
+#include "train/over_gap.h"
 #include "train/trials/trials.h"
 #include "train_scenes.h"
 #include "train_shells.h"

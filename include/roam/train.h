@@ -122,7 +122,7 @@ struct Training {
   double support_radius = 0.0;  ///< of its foot, m; 0: it needs none of its own
   double step = 0.3;            ///< that it climbs, m: TrainOptions::step or less, a sphere at most its radius
   double slope_degrees = 45.0;  ///< that it climbs: the survey's
-  /// Between which one radius serves all paths, m; over uneven rims from above `smallest` on. 0: no crack. None: no limit.
+  /// Between which one radius serves all paths, m; over uneven rims from above `smallest` on. 0: no crack. None: free.
   double smallest = 0.0;
   std::optional<double> largest;
   double trapped_radius = 0.0;  ///< a sphere that rolls without a foot cannot climb out of the widest crack below this

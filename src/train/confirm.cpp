@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "train/crossings.h"
+#include "train/over_gap.h"
 #include "train/trials/on_way.h"
-#include "train/trials/over_gap.h"
 
 namespace roam::training {
 namespace {

@@ -10,9 +10,9 @@
 #include "motion/free_disc.h"
 #include "train/detour.h"
 #include "train/neck_ways.h"
+#include "train/over_gap.h"
 #include "train/passage/refine.h"
 #include "train/places/regions.h"
-#include "train/trials/over_gap.h"
 
 namespace roam::training {
 

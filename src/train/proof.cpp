@@ -12,8 +12,8 @@
 #include "train/answer.h"
 #include "train/cracks/floor_plan.h"
 #include "train/interval.h"
+#include "train/over_gap.h"
 #include "train/trials/on_way.h"
-#include "train/trials/over_gap.h"
 
 namespace roam::training {
 

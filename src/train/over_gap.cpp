@@ -1,4 +1,4 @@
-#include "train/trials/over_gap.h"
+#include "train/over_gap.h"
 
 #include <algorithm>
 #include <cmath>
