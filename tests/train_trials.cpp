@@ -226,6 +226,26 @@ TEST(UnevenCracks, AskForAFootWhereWhatRollsUpOverThemIsTooWide) {
   EXPECT_EQ(down_and_up(survey, 0.8, rise, t.radius, t.support_radius).second, roam::Outcome::reached);
 }
 
+TEST(UnevenCracks, AndDoorsTellNoIntervalThatIsUpsideDown) {
+  constexpr double rise = 0.2;
+  const double least = roam::training::carried_from(0.4, rise, 45.0) / 1.0149;  // without its margin
+  for (const double door : {0.91, 0.94, 0.955, 0.97, 0.99}) {
+    Mesh mesh = uneven_ends(0.8, rise);
+    add_wall(mesh, 9, 0, 9, 1.0 - 0.5 * door, 0, high);
+    add_wall(mesh, 9, 1.0 + 0.5 * door, 9, width, 0, high);
+    const Training t = roam::train(survey_of({mesh}), {.height = 1.7});
+    SCOPED_TRACE(t.answer);
+    EXPECT_EQ(t.feasible, least < 0.5 * door) << door;
+    if (t.feasible) {
+      EXPECT_GE(t.radius, least - 1e-3);
+      EXPECT_LE(t.radius, 0.5 * door);
+    } else {
+      EXPECT_GT(t.support_radius, 0.4);
+    }
+    EXPECT_TRUE(t.contradictions.empty()) << t.contradictions.front();
+  }
+}
+
 TEST(TrialsOverACrack, AreNotMadeWhereItsWidestPlaceOpensIntoADrop) {
   // A split of 0.62 m that widens to 0.8 m towards the end of both floors: who stands over its mouth has a drop before
   // him, in which a foot finds room.

@@ -47,17 +47,14 @@ std::string split_words(const Training& training) {
 /// What carries none that is smaller.
 struct LowerEnd {
   double radius = 0.0;  ///< m; infinite where none was found that is carried
-  double level = 0.0;   ///< m, half width of the level crack that asks for as much
   std::string why;
 };
 
 LowerEnd lower_end(const Training& training, const Evidence& evidence) {
-  const double carried = carried_on_paths(evidence, training);
-  // The walkers that confirm paths may have asked for more of cracks that are level.
-  if (!(carried > carried_share * training.smallest))
-    return {training.smallest, training.smallest, split_words(training)};
+  const double least = least_on_paths(evidence, training);
+  if (!(least > training.smallest)) return {training.smallest, split_words(training)};
   const FoundCrack& crack = evidence.cracks[*evidence.hardest];
-  return {carried, carried / carried_share,
+  return {least,
           fmt::format("the crack {:.3f} m wide at {}, up over its higher rim,", 2.0 * crack.radius, at(crack.point))};
 }
 
@@ -128,7 +125,7 @@ std::string infeasible_words(const Layout& layout, const Training& training, con
   if (training.largest && training.radius > *training.largest) return for_most_words(layout, training);
   const std::string body = body_words(training.radius, training.support_radius);
   const LowerEnd lower = lower_end(training, evidence);
-  const bool has_interval = training.largest ? lower.level <= *training.largest : training.radius >= lower.radius;
+  const bool has_interval = training.largest ? lower.radius <= *training.largest : training.radius >= lower.radius;
   if (has_interval)
     return fmt::format("The body with {} did not come through on all paths. {}", body,
                        interval_words(training, evidence));
@@ -198,7 +195,7 @@ std::string nothing_to_train(const Survey& survey, const TrainOptions& options,
 std::string interval_answer(const Layout& layout, const Training& training, const Evidence& evidence, bool ended) {
   const std::vector<std::string>& contradictions = training.contradictions;
   std::string text;
-  const bool has_conflict = training.largest && lower_end(training, evidence).level > *training.largest;
+  const bool has_conflict = training.largest && lower_end(training, evidence).radius > *training.largest;
   if (ended && training.paths.empty())
     return fmt::format("No path was planned yet: a body with {} is only what a person has.",
                        body_words(training.radius, training.support_radius));

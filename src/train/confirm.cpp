@@ -64,16 +64,6 @@ struct Tries {
   bool gone = false;  ///< no way is left
 };
 
-Vec3 place_at(const std::vector<Vec3>& way, double along) {
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const double length = glm::distance(way[i - 1], way[i]);
-    if (along <= length)
-      return way[i - 1] + (length > 0.0 ? std::max(along, 0.0) / length : 0.0) * (way[i] - way[i - 1]);
-    along -= length;
-  }
-  return way.back();
-}
-
 class Confirmation {
  public:
   Confirmation(const Survey& survey, const TrainOptions& options, const BodyKind& kind, Evidence& evidence,
@@ -115,6 +105,7 @@ class Confirmation {
       if (path.passage.limited && path.passage.radius < body.radius)
         fitting.radius = inside_share * path.passage.radius;
       if (path.walked && BodySize{path.walked->radius, path.walked->support_radius} == fitting) t.walked = fitting;
+      if (t.walked == fitting) t.stop.reset();  // by another body
       if (stages_.ended() || t.walked == fitting) return;
       t.stop = stop_on(path, fitting);
       if (!t.stop) t.walked = fitting;
@@ -248,14 +239,14 @@ class Confirmation {
 
   void shut_at(const Passage& passage, Tries& t) const {
     const double spacing = options_.spacing, from = t.stop->along, ahead = t.stop->trial.radius + spacing;
-    const Vec3 behind = place_at(passage.way, from - spacing);
+    const Vec3 behind = place_on(passage.way, from - spacing);
     Vec3 top = behind;
     for (double at = 0.0; at <= ahead; at += 0.25 * spacing) {
-      const Vec3 place = place_at(passage.way, from + at);
+      const Vec3 place = place_on(passage.way, from + at);
       if (place.z > top.z + 0.2 * climbs) top = place;
     }
     const bool up = top.z - behind.z > climbs;
-    Shut shut{up ? top : place_at(passage.way, from + 0.5 * ahead), (up ? 1.5 : 1.0) * spacing,
+    Shut shut{up ? top : place_on(passage.way, from + 0.5 * ahead), (up ? 1.5 : 1.0) * spacing,
               up ? climbs : layout_.measure.step};
     const double most = up ? most_shut : 3.0 * spacing;
     for (const Shut& other : t.shut) {

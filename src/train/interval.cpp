@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "motion/free_disc.h"
+#include "motion/ground.h"
 #include "train/detour.h"
 #include "train/neck_ways.h"
 #include "train/over_gap.h"
@@ -155,6 +156,12 @@ class Paths {
   Evidence& evidence_;
 };
 
+/// The lower end of which `carried` (m) is with its margin: of level rims it is half the width.
+double without_margin(double carried, double smallest) {
+  return carried > carried_share * smallest ? std::max(smallest, carried / (carried_share * walking::rim_sine))
+                                            : smallest;
+}
+
 /// `lower` (m): what is carried over all cracks on the paths.
 void choose(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, double lower,
             Training& training) {
@@ -164,11 +171,10 @@ void choose(const BodyKind& kind, const TrainOptions& options, const Evidence& e
   const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
   const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
   const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
-  // The half width of the level crack that asks for as much.
-  const double smallest = std::max(training.smallest, lower / carried_share);
-  training.feasible = !most_of_others && smallest <= most;
+  const double least = without_margin(lower, training.smallest);
+  training.feasible = !most_of_others && least <= most;
   training.radius = std::min(person, upper);
-  if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (smallest + most);
+  if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (least + most);
   training.support_radius = 0.0;
   const auto widest = std::max_element(evidence.carried.begin(), evidence.carried.end());
   if (widest != evidence.carried.end() && training.radius < *widest)
@@ -176,6 +182,7 @@ void choose(const BodyKind& kind, const TrainOptions& options, const Evidence& e
   // Over rims that only a larger body rolls up over, a foot that is hardly larger than the body is one of its own.
   if (training.support_radius > 0.0 && training.support_radius <= training.radius)
     training.support_radius = std::min(options.support_max, training.radius + foot_margin);
+  if (training.support_radius <= training.radius) training.support_radius = 0.0;
 }
 
 void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
@@ -216,7 +223,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
     if (crack.shallow_depth == 0.0) {
       note_width(crack, options, layout.measure.narrowest, evidence);
       const double rise = rise_of(survey, crack, layout.measure.step);
-      // No way leads, and no foot carries, up to what is higher than its band.
+      // No foot carries up to what is higher than its band, and what climbs there does so by its step.
       evidence.carried[i] =
           carried_from(crack.radius, rise > walking::carrying_band ? 0.0 : rise, survey.slope_degrees());
     } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {
@@ -263,6 +270,10 @@ double trapped_below(double crack_radius, double step) {
 double carried_on_paths(const Evidence& evidence, const Training& training) {
   const double level = carried_share * training.smallest;
   return evidence.hardest ? std::max(level, evidence.carried[*evidence.hardest]) : level;
+}
+
+double least_on_paths(const Evidence& evidence, const Training& training) {
+  return without_margin(carried_on_paths(evidence, training), training.smallest);
 }
 
 void choose_body(const BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training) {

@@ -42,7 +42,7 @@ struct Evidence {
   std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
   std::optional<std::size_t> widest;     ///< the crack that decides the lower end
   std::optional<std::size_t> hardest;  ///< the one on a path that asks for the largest body, where its rims are uneven
-  std::optional<std::size_t> shallow;  ///< the widest crack that none does, likewise
+  std::optional<std::size_t> shallow;  ///< the widest that no foot is carried over
   double least_foot = 0.0;             ///< m, of the least foot that is carried over all of them; 0: there are none
   bool complete = true;                ///< false: ended before all cracks were found
 };
@@ -77,6 +77,10 @@ void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout
 
 /// The least radius that is carried over all cracks on the paths in both directions, m.
 [[nodiscard]] double carried_on_paths(const Evidence& evidence, const Training& training);
+
+/// The lower end, m: half the width of the widest crack on the paths, or the least radius that comes up over a higher
+/// rim.
+[[nodiscard]] double least_on_paths(const Evidence& evidence, const Training& training);
 
 /// Chooses radius and support_radius from the paths and both ends, and says whether the interval is feasible:
 ///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of

@@ -32,15 +32,6 @@ double length_of(std::span<const Vec3> way) {
   return length;
 }
 
-Vec3 place_on(std::span<const Vec3> way, double along) {
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const double length = glm::distance(way[i - 1], way[i]);
-    if (along <= length && length > 0.0) return way[i - 1] + (std::max(along, 0.0) / length) * (way[i] - way[i - 1]);
-    along -= length;
-  }
-  return way.back();
-}
-
 /// z of the floor at a place, no farther than a step above or below.
 std::optional<double> level_at(const Survey& survey, const Vec3& place, double step) {
   const Vec3 above = place + Vec3(0.0, 0.0, step);
@@ -49,6 +40,15 @@ std::optional<double> level_at(const Survey& survey, const Vec3& place, double s
 }
 
 }  // namespace
+
+Vec3 place_on(std::span<const Vec3> way, double along) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length = glm::distance(way[i - 1], way[i]);
+    if (along <= length && length > 0.0) return way[i - 1] + (std::max(along, 0.0) / length) * (way[i] - way[i - 1]);
+    along -= length;
+  }
+  return way.back();
+}
 
 double carried_from(double half, double rise, double slope_degrees) {
   const double level = carried_share * half;
@@ -80,14 +80,14 @@ double rise_of(const Survey& survey, const Crack& crack, double step) {
   return rise;
 }
 
-std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double width, double step) {
-  const double end = length_of(way), last = std::min(end, at + 6.0 * width);
+std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double half, double step) {
+  const double end = length_of(way), last = std::min(end, at + 6.0 * half);
   std::optional<double> before;
   std::optional<GapOnWay> gap;
-  for (double along = std::max(0.0, at - width); along <= last; along += look_every) {
+  for (double along = std::max(0.0, at - half); along <= last; along += look_every) {
     const std::optional<double> here = level_at(survey, place_on(way, along), step);
     if (!here && before && !gap) gap = GapOnWay{along - look_every, along, 0.0, *before};
-    if (here && gap && along - gap->from < 0.5 * width) gap.reset();  // another, narrower one
+    if (here && gap && along - gap->from < 0.5 * half) gap.reset();  // another, narrower one
     if (here && gap) {
       gap->to = along;
       gap->beyond = end - along;

@@ -23,6 +23,9 @@ inline constexpr double level_rims = 5e-3;
 /// below are its own.
 [[nodiscard]] double rise_of(const Survey& survey, const Crack& crack, double step);
 
+/// The place `along` (m) a way; one of its ends where that lies beyond it.
+[[nodiscard]] Vec3 place_on(std::span<const Vec3> way, double along);
+
 /// The part of a way without floor.
 struct GapOnWay {
   double from = 0.0, to = 0.0;  ///< m along the way
@@ -30,8 +33,9 @@ struct GapOnWay {
   double rise = 0.0;            ///< m, of the floor there over the floor before it
 };
 
-/// The gap that a way comes to about `at` (m along it), and that is `width` wide or, crossed obliquely, wider.
-[[nodiscard]] std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double width,
+/// The gap that a way comes to about `at` (m along it), of a crack of half width `half`: the first that is not far
+/// narrower, and no longer than three such cracks.
+[[nodiscard]] std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, double at, double half,
                                              double step);
 
 /// Where a way leads down over a gap: the way back, up over it. Empty where the rims are level, or where the way begins

@@ -192,8 +192,10 @@ class Proof {
       }
       if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
     }
-    // A sphere climbs at most its radius: one that passes below the crack's width may not come up to its higher rim.
-    if (kind_.height > 0.0 || rise_of(survey_, crack, layout_.measure.step) <= body)
+    // No foot carries up to what is above its band. And a sphere climbs at most its radius: one that passes below the
+    // crack's width may not come up to its higher rim.
+    const double climbed = kind_.height > 0.0 ? walking::carrying_band : std::min(body, walking::carrying_band);
+    if (rise_of(survey_, crack, layout_.measure.step) <= climbed)
       all.push_back({crossing.path, body, foot, way, Judgement::passed, "a foot just wide enough"});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Judgement::flies_off,
                    "a foot just too small"});
