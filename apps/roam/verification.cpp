@@ -32,9 +32,15 @@ Box box_of(const Triangle& triangle) {
   return box;
 }
 
+/// Metres. What a body stands on or slides along is so near, but certified as a little less: it is measured, too.
+constexpr double beside = 0.01;
+
+/// How near to the axis a triangle is measured, m.
+double reach_of(const Piece& piece) { return std::max(piece.body.radius, piece.clearance) + beside; }
+
 /// All that may lie within reach of the piece. Each bound is rounded outward once more than its sums were rounded.
 Box box_of(const Piece& piece) {
-  const double reach = std::nextafter(std::max(piece.body.radius, piece.clearance), infinity);
+  const double reach = std::nextafter(reach_of(piece), infinity);
   Box box;
   box.include(piece.from);
   box.include(piece.to);
@@ -152,7 +158,7 @@ class Verifier::Run {
       if (steps.empty() || steps.back() != piece.step) steps.push_back(piece.step);
     };
     const Neighbourhood near(piece);
-    const double reach = std::max(piece.body.radius, piece.clearance);
+    const double reach = reach_of(piece);
     for (const Candidate& c : candidates) {
       const Triangle t = triangle(c);
       // What is farther than the radius and the certified clearance may still be the nearest of all.

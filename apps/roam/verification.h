@@ -50,9 +50,9 @@ struct Verification {
 
 /// Checks pieces against triangles that come little by little, so that a way of any length is checked against a scene
 /// of any size while this is read once. A triangle is passed over only when its box is farther from the box of the
-/// piece, or the ball around it from the piece, than both the radius and the certified clearance; that is told in
-/// doubles with more room than their rounding. Whatever is left is measured by swept_distance. Independent of any
-/// Space. Uses all cores.
+/// piece, or the ball around it from the piece, than the radius and the certified clearance and 1 cm more, so that what
+/// a body stands on is measured; that is told in doubles with more room than their rounding. Whatever is left is
+/// measured by swept_distance. Independent of any Space. Uses all cores.
 class Verifier {
  public:
   /// The pieces must stay.
