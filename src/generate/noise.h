@@ -5,16 +5,9 @@
 
 #include <cstdint>
 
-namespace roam::generate {
+#include "math/mix.h"
 
-/// Mixes 64 bits (the finalizer of splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number
-/// generators", 2014).
-[[nodiscard]] inline std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+namespace roam::generate {
 
 [[nodiscard]] inline std::uint64_t hash(std::uint64_t seed, std::int64_t a, std::int64_t b = 0) {
   return mix(mix(seed ^ static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b));

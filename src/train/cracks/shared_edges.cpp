@@ -70,7 +70,7 @@ void SharedEdges::each_edge(std::size_t block, const Take& take) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
       // Sums: either order of the corners.
-      const std::uint64_t more = mixed(corners[k]) + mixed(corners[next]);
+      const std::uint64_t more = mix(corners[k]) + mix(corners[next]);
       take(Edge{corners[k] + corners[next], more >> 44, side_of(t[k], t[next], t[(k + 2) % 3]), 3 * floor + k});
     }
   }

@@ -63,7 +63,7 @@ class Columns {
   /// The slot of a column, or the free one where it would be.
   [[nodiscard]] std::size_t find(std::uint64_t column) const {
     const std::size_t last = table_.size() - 1;  // a power of two less one
-    std::size_t i = static_cast<std::size_t>(mixed(column)) & last;
+    std::size_t i = static_cast<std::size_t>(mix(column)) & last;
     while (table_[i].last != none && table_[i].column != column) i = (i + 1) & last;
     return i;
   }

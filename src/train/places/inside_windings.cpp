@@ -42,7 +42,7 @@ Side side_of(const Vec3& from, const Vec3& to, const Vec3& third) {
 
 std::uint64_t hash(const Key& edge) {
   std::uint64_t h = 0;
-  for (const double number : edge) h = mixed(h ^ std::bit_cast<std::uint64_t>(number));
+  for (const double number : edge) h = mix(h ^ std::bit_cast<std::uint64_t>(number));
   return h;
 }
 

@@ -59,7 +59,7 @@ void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uin
       const Vec3 p(origin.x + cell * i, origin.y + cell * j, 0.0);
       const double u = plan_area(p, t[1], t[2]) / whole, v = plan_area(t[0], p, t[2]) / whole, w = 1.0 - u - v;
       if (u < 0.0 || v < 0.0 || w < 0.0) continue;
-      const std::uint64_t turn = mixed(mixed(seed ^ std::bit_cast<std::uint64_t>(i)) ^ std::bit_cast<std::uint64_t>(j));
+      const std::uint64_t turn = mix(mix(seed ^ std::bit_cast<std::uint64_t>(i)) ^ std::bit_cast<std::uint64_t>(j));
       out.push_back({second_half(turn), {p.x, p.y, u * t[0].z + v * t[1].z + w * t[2].z}});
     }
   }
@@ -71,8 +71,8 @@ std::vector<Sample> sample_floors(const Survey& survey, std::uint64_t seed) {
   for (const TriangleId id : ids) total += area(survey.triangle(id));
   const double cell = std::max(smallest_cell, std::sqrt(total / samples_by_area));
   Vec3 origin = survey.floor().bounds().lower;
-  origin.x += cell * unit(mixed(seed));
-  origin.y += cell * unit(mixed(seed + 1));
+  origin.x += cell * unit(mix(seed));
+  origin.y += cell * unit(mix(seed + 1));
   const std::uint64_t one_in = 1 + ids.size() / samples_by_triangle;
   std::vector<Sample> samples;
   for (const TriangleId id : ids) {
@@ -80,7 +80,7 @@ std::vector<Sample> sample_floors(const Survey& survey, std::uint64_t seed) {
     sample_by_area(t, origin, cell, seed, samples);
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     if (const std::uint64_t turn = hashed(middle, seed); turn % one_in == 0)
-      samples.push_back({first_half(mixed(turn)), middle});
+      samples.push_back({first_half(mix(turn)), middle});
   }
   return samples;
 }
@@ -100,9 +100,9 @@ void sample_air(const Survey& survey, std::uint64_t seed, std::vector<Sample>& o
   for (std::uint64_t i = 0; i < count[0]; ++i) {
     for (std::uint64_t j = 0; j < count[1]; ++j) {
       for (std::uint64_t k = 0; k < count[2]; ++k) {
-        const std::uint64_t turn = mixed(mixed(mixed(seed ^ i) ^ j) ^ k);
-        const Vec3 part(static_cast<double>(i) + unit(mixed(turn)), static_cast<double>(j) + unit(mixed(turn + 1)),
-                        static_cast<double>(k) + unit(mixed(turn + 2)));
+        const std::uint64_t turn = mix(mix(mix(seed ^ i) ^ j) ^ k);
+        const Vec3 part(static_cast<double>(i) + unit(mix(turn)), static_cast<double>(j) + unit(mix(turn + 1)),
+                        static_cast<double>(k) + unit(mix(turn + 2)));
         out.push_back({second_half(turn), box.lower + cell * part});
       }
     }
