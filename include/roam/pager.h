@@ -85,6 +85,10 @@ class Pager final : public LiveSpace {
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
                                     double reach) const override;
   [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override;
+  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
+                                const Vec3& motion) const override;
+  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
+                              double reach) const override;
   using Space::floor_clearance;
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
                                           const Floor& floor) const override;

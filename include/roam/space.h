@@ -31,6 +31,7 @@
 #include "roam/error.h"
 #include "roam/math.h"
 #include "roam/sweep.h"
+#include "roam/vicinity.h"
 
 namespace roam {
 
@@ -135,6 +136,19 @@ class Space {
   /// nothing rests on it then as it does on sweep().
   [[nodiscard]] virtual double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
     return clearance(body, from, motion, reach).distance;
+  }
+
+  /// sweep() and gap() of a body that asks again from near where it asked last and keeps what lies around it: the same
+  /// promises, and in a World or a Pager less to look at. Within what they leave open an answer may be another, in the
+  /// last digits of a time or by the part that a gap may be told too small: it depends on where a search begins. The
+  /// same questions in the same order, from an equal vicinity on, get the same bits.
+  [[nodiscard]] virtual Impact sweep_in([[maybe_unused]] Vicinity& vicinity, const Body& body, const Vec3& from,
+                                        const Vec3& motion) const {
+    return sweep(body, from, motion);
+  }
+  [[nodiscard]] virtual double gap_in([[maybe_unused]] Vicinity& vicinity, const Body& body, const Vec3& from,
+                                      const Vec3& motion, double reach) const {
+    return gap(body, from, motion, reach);
   }
 
   /// First triangle that the ray from + t * motion, t in [0, 1], meets: the sweep of a point, which slips through no

@@ -178,6 +178,7 @@ class Walker {
   Refuge footing_;  ///< last place with something below: of the ghost, and of walking before another mode
   double height_ = 0.0;
   walking::Known known_;  ///< at position_
+  Vicinity vicinity_;
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;

@@ -63,6 +63,14 @@ class NearTraversal {
     return left_;
   }
 
+  double run(std::span<const Root> roots) {
+    prefetch_tiles(index_, roots);
+    // What was not gathered, or was cut off, is farther.
+    left_ = reach_;
+    for (const Root& root : roots) tile(root.tile, &root);
+    return left_;
+  }
+
  private:
   /// What was out of reach: how far from the axis at least.
   struct Passed {
@@ -130,7 +138,8 @@ class NearTraversal {
     left_ = std::min(left_, double(least) - piece_.body.radius - error);
   }
 
-  void tile(std::uint32_t number) {
+  /// Visits what is near in a tile, from its root on or from what was gathered of it.
+  void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) {
       reach_ = index_.absent->near(index_.absent->context, number);
@@ -163,7 +172,9 @@ class NearTraversal {
         reach = axis_reach(error);
       }
     };
-    if (Bounds::kLoose && !looked_) {
+    if (gathered != nullptr) {
+      begin(*gathered, frame, around, grown, reach, nodes, leaves, passed, beyond, look_at_leaf);
+    } else if (Bounds::kLoose && !looked_) {
       dive(nodes, leaves, beyond, look, look_at_leaf);
     } else {
       stack_.start();
@@ -175,6 +186,35 @@ class NearTraversal {
       push_children(node, children, nodes, leaves, stack_);
     });
     note(passed, error);
+  }
+
+  /// Begins with what was gathered of a tile: looks at the nearest, if it is a leaf, before the others are put on the
+  /// stack.
+  template <class Beyond, class LookAtLeaf>
+  HWY_INLINE void begin(const Root& root, const Frame& frame, const Around& around, float grown, const float& reach,
+                        const Block* nodes, const Block* leaves, Passed& passed, const Beyond& beyond,
+                        const LookAtLeaf& look_at_leaf) {
+    stack_.clear();
+    std::uint32_t met = ~0U;
+    if (Bounds::kLoose && boxed_) {
+      passed.entry = std::min(passed.entry, around.reach);
+      met = met_children(root.node, around.box);
+      if (met == 0) return;
+    }
+    Children children;
+    near_node(root.node, frame, way_, grown, reach, passed.lanes, children);
+    children.mask &= met;
+    if (children.mask == 0) return;
+    const std::uint32_t nearest = nearest_of(children);
+    if (Bounds::kLoose && nearest >= root.node.inner_count) {
+      children.mask &= ~(1U << nearest);
+      look_at_leaf(root.number[nearest]);
+      for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+        if (beyond(children.key[i])) children.mask &= ~(1U << i);
+      }
+    }
+    push_children(root, children, nodes, leaves, stack_);
   }
 
   /// Begins the search in a tile: goes down from its root by the nearest child to a leaf, and looks at that before what

@@ -37,6 +37,18 @@ HWY_INLINE void push_children(const Node& node, const Children& children, const 
   }
 }
 
+/// The same of a root that was gathered.
+HWY_INLINE void push_children(const Root& root, const Children& children, const Block* nodes, const Block* leaves,
+                              Stack& stack) {
+  stack.begin_children();
+  for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    const bool leaf = i >= root.node.inner_count;
+    prefetch((leaf ? leaves : nodes) + root.number[i]);
+    stack.push(children.key[i], root.number[i], leaf);
+  }
+}
+
 /// Visits `e` and then what is on the stack, nearest first, as long as it is not `beyond` what matters.
 template <class Beyond, class VisitEntry>
 HWY_INLINE void go_on_from(Stack::Entry e, Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
@@ -76,6 +88,11 @@ HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.a
 /// So many tiles may be visited in any order. Where tiles come and go, only one: behind what is met first it should not
 /// show in the last bits which have come.
 HWY_INLINE int few_tiles(const Index& index) { return index.absent ? 1 : kFewTiles; }
+
+/// All tiles of which something was gathered.
+HWY_INLINE void prefetch_tiles(const Index& index, std::span<const Root> roots) {
+  for (const Root& root : roots) hwy::Prefetch(index.tiles + root.tile);
+}
 
 /// The tiles that are left of a node over tiles.
 HWY_INLINE void prefetch_tiles(const Index& index, const Node& node, const Children& children) {

@@ -47,12 +47,19 @@ class SweepTraversal {
     return best_;
   }
 
+  Impact run(std::span<const Root> roots) {
+    prefetch_tiles(index_, roots);
+    for (const Root& root : roots) tile(root.tile, &root);
+    return best_;
+  }
+
  private:
   [[nodiscard]] float grown_for(float radius, float steps, const Frame& frame) const {
     return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
   }
 
-  void tile(std::uint32_t number) {
+  /// Looks for the first impact in a tile, from its root on or from what was gathered of it.
+  void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
     const Frame frame(t.origin, t.step, piece_.start);
@@ -67,17 +74,36 @@ class SweepTraversal {
     if constexpr (Line::kIs) line_.enter(frame, motion_, radius, kTileSteps);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    search(
-        stack_, [this](float key) { return key >= t_max_; },
-        [&](const Stack::Entry& e) {
-          std::uint32_t only = e.number;
-          if (!e.leaf) {
-            const Descent met = descend(nodes, e.number, frame, swept, grown, 1);
-            if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
-            only = met.first;
-          }
-          leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
-        });
+    const auto beyond = [this](float key) { return key >= t_max_; };
+    const auto visit = [&](const Stack::Entry& e) {
+      std::uint32_t only = e.number;
+      if (!e.leaf) {
+        const Descent met = descend(nodes, e.number, frame, swept, grown, 1);
+        if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
+        only = met.first;
+      }
+      leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
+    };
+    if (gathered == nullptr) return search(stack_, beyond, visit);
+    stack_.clear();
+    Children children;
+    look_at(gathered->node, frame, swept, grown, children);
+    push_children(*gathered, children, nodes, leaves, stack_);
+    go_on(stack_, beyond, visit);
+  }
+
+  /// Which children of a node that was gathered a short motion may meet.
+  HWY_INLINE void look_at(const Node& node, const Frame& frame, const Swept& swept, float grown, Children& out) const {
+    const std::uint32_t met = met_children(node, swept);
+    if ((met & (met - 1)) == 0) return out.take(met);
+    choose(node, frame, met, grown, out);
+  }
+
+  /// Of several children that a short motion may meet, which and when.
+  HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
+    sweep_node(node, frame, motion_, grown, t_max_, out);
+    out.mask &= met;
+    if (std::popcount(out.mask) >= kManyChildren) delay_children(node, frame, motion_, grown, t_max_, out);
   }
 
   /// What is left below a node: a single leaf, or the children of one node.
@@ -124,11 +150,7 @@ class SweepTraversal {
         out.children.take(met);
         return out;
       }
-      sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
-      out.children.mask &= met;
-      if (std::popcount(out.children.mask) >= kManyChildren) {
-        delay_children(*out.node, frame, motion_, grown, t_max_, out.children);
-      }
+      choose(*out.node, frame, met, grown, out.children);
     }
     return out;
   }

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "index/traverse.cpp"
 #include <hwy/foreach_target.h>
 // Must come after foreach_target.h.
+#include "index/gather-inl.h"
 #include "index/near_traversal-inl.h"
 #include "index/sweep_traversal-inl.h"
 
@@ -20,6 +21,20 @@ double VisitNear(const Index& index, const Piece& piece, double reach, double pa
                     : NearTraversal<Tight>(index, piece, reach, part, visit, context).run();
 }
 
+bool Gather(const Index& index, std::uint32_t number, const Box& box, Roots& out) {
+  return Gathering(index, number, box, out).run();
+}
+
+Impact FirstImpactFrom(const Index& index, std::span<const Root> roots, const Piece& piece, double until) {
+  return SweepTraversal<NoRay>(index, piece, until).run(roots);
+}
+
+double VisitNearFrom(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
+                     Visit visit, void* context) {
+  return part > 0.0 ? NearTraversal<Slack>(index, piece, reach, part, visit, context).run(roots)
+                    : NearTraversal<Tight>(index, piece, reach, part, visit, context).run(roots);
+}
+
 }  // namespace roam::index::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -28,6 +43,9 @@ namespace roam::index {
 
 HWY_EXPORT(FirstImpact);
 HWY_EXPORT(VisitNear);
+HWY_EXPORT(Gather);
+HWY_EXPORT(FirstImpactFrom);
+HWY_EXPORT(VisitNearFrom);
 
 Impact first_impact(const Index& index, const Piece& piece, double until) {
   return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece, until);
@@ -35,6 +53,19 @@ Impact first_impact(const Index& index, const Piece& piece, double until) {
 
 double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
   return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, part, visit, context);
+}
+
+bool gather(const Index& index, std::uint32_t number, const Box& box, Roots& out) {
+  return HWY_DYNAMIC_DISPATCH(Gather)(index, number, box, out);
+}
+
+Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece, double until) {
+  return HWY_DYNAMIC_DISPATCH(FirstImpactFrom)(index, roots, piece, until);
+}
+
+double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
+                  Visit visit, void* context) {
+  return HWY_DYNAMIC_DISPATCH(VisitNearFrom)(index, roots, piece, reach, part, visit, context);
 }
 
 }  // namespace roam::index

@@ -7,9 +7,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "index/block.h"
 #include "index/grid.h"
+#include "index/roots.h"
 #include "roam/sweep.h"
 #include "sweep/certified.h"
 
@@ -63,6 +65,16 @@ struct Impact {
 /// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
+/// Adds what of an index, by the number that the caller gives it, meets a box of a few metres, so that first_impact()
+/// and visit_near() of what stays in the box begin there. False where there are too many tiles or one is absent: then
+/// `out` means nothing.
+[[nodiscard]] bool gather(const Index& index, std::uint32_t number, const Box& box, Roots& out);
+
+/// The first impact as above, beginning at the roots of this index that were gathered for a box in which the body stays
+/// with all errors of tiles. The piece is at most kShortMotion long, the body not thin.
+[[nodiscard]] Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece,
+                                  double until = 1.0);
+
 /// How near a stored triangle, without its low bits, comes to the body's axis on its way, metres.
 struct Nearness {
   float least;  ///< certified: it comes no nearer
@@ -78,6 +90,10 @@ using Visit = double (*)(void* context, const Place& place, const Nearness& near
 /// a lower bound of how near the others come, metres from the surface. Of a gap `part` may be given up by
 /// Nearness::least, which saves time.
 double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context);
+
+/// The same, beginning at such roots; what is within the reach lies in their box too.
+double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
+                  Visit visit, void* context);
 
 /// The stored triangle as seen from `start`.
 [[nodiscard]] certified::LocalTriangle local_triangle(const Index& index, const Place& place, const Vec3& start);

@@ -78,9 +78,9 @@ struct Below {
 };
 Below look_below(const Move& m, double horizontal, double reach) {
   const double nearly = std::min(reach, near_skins * m.skin + near_part * horizontal);
-  Impact s = m.space.sweep(m.body(), m.place, Vec3(0.0, 0.0, -nearly));
+  Impact s = m.sweep(Vec3(0.0, 0.0, -nearly));
   if (s.hit || !(nearly < reach)) return {s, s.time * nearly};
-  s = m.space.sweep(m.body(), m.place, Vec3(0.0, 0.0, -reach));
+  s = m.sweep(Vec3(0.0, 0.0, -reach));
   return {s, s.time * reach};
 }
 
@@ -141,7 +141,7 @@ bool step_off(Move& move, Stance& stance, const Impact& rim) {
   trial.place += outward * off.fraction;
   const double reach = move.feet() - (stance.level - move.settings.step) + 3.0 * move.skin;
   if (!(reach > 0.0)) return false;
-  const Impact landing = move.space.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  const Impact landing = trial.sweep(Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return false;
   const std::optional<Footing> ground = footing(trial, stance, landing);
   if (!ground) return false;
@@ -215,7 +215,7 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   if (!(glm::length(onward) > skin)) return std::nullopt;
   trial.place += onward;
   const double reach = rise.z + step;
-  const Impact landing = move.space.sweep(move.body(), trial.place, Vec3(0.0, 0.0, -reach));
+  const Impact landing = trial.sweep(Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
   const std::optional<Footing> ground = footing(trial, stance, landing);
   if (!ground || ground->level > stance.level + step + 2.0 * skin) return std::nullopt;

@@ -42,13 +42,13 @@ constexpr std::size_t events_of_motion = 16;
 
 }  // namespace
 
-Advance probe(const Space& space, const Body& body, const Vec3& from, const Vec3& motion, double skin) {
+Advance Move::probe(const Vec3& motion) const {
   Advance a;
   const double length = glm::length(motion);
   if (!(length > 0.0)) return a;
   const Vec3 direction = motion / length;
   const double looked = length + look_ahead * skin;
-  const Impact s = space.sweep(body, from, direction * looked);
+  const Impact s = sweep(direction * looked);
   if (!s.hit) return a;
   a.contact = s;
   // The plane of the contact bounds the gap from below on the whole way: it shrinks by `approach` a metre.
@@ -110,7 +110,7 @@ double Move::look_along(const Vec3& motion) {
   }
   const bool in_the_open = same_body && ball.gap >= reach;
   const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
-  const double gap = space.gap(body(), place, motion, look);
+  const double gap = space.gap_in(vicinity, body(), place, motion, look);
   if (gap > free_gap) {
     ball = {place + motion, gap, length, settings.radius, height};
     // What is near may be so at the far end of the way.

@@ -43,11 +43,6 @@ struct Advance {
   double gap = 0.0;       ///< metres from its surface to the plane of the contact, at the end of the advance
 };
 
-/// How far `body` gets from `from` along `motion`. It stops where the gap to the plane of the contact is `skin`: the
-/// skin is measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near.
-/// A body that is nearer than the skin already does not advance towards that plane; along it and away it does.
-[[nodiscard]] Advance probe(const Space& space, const Body& body, const Vec3& from, const Vec3& motion, double skin);
-
 class Move {
  public:
   /// A place on the way that undo() returns to.
@@ -64,6 +59,7 @@ class Move {
   };
 
   const Space& space;
+  Vicinity& vicinity;  ///< of the body
   const WalkerSettings& settings;
   StepReport& report;
   const double skin;
@@ -73,9 +69,10 @@ class Move {
   double time = 0.0;  ///< seconds since the step began
   Known known;        ///< `unproven` is false from the first advance on
 
-  Move(const Space& in, const WalkerSettings& of, StepReport& into, double skin_width, double cosine, const Vec3& from,
-       double whole_height, const Known& what_is_known)
+  Move(const Space& in, Vicinity& keeping, const WalkerSettings& of, StepReport& into, double skin_width, double cosine,
+       const Vec3& from, double whole_height, const Known& what_is_known)
       : space(in),
+        vicinity(keeping),
         settings(of),
         report(into),
         skin(skin_width),
@@ -86,7 +83,12 @@ class Move {
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
-  [[nodiscard]] Advance probe(const Vec3& motion) const { return walking::probe(space, body(), place, motion, skin); }
+  /// The first impact of the body on its way along `motion`.
+  [[nodiscard]] Impact sweep(const Vec3& motion) const { return space.sweep_in(vicinity, body(), place, motion); }
+  /// How far the body gets along `motion`. It stops where the gap to the plane of the contact is `skin`: the skin is
+  /// measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near. A body
+  /// that is nearer than the skin already does not advance towards that plane; along it and away it does.
+  [[nodiscard]] Advance probe(const Vec3& motion) const;
 
   /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
   /// contact.

@@ -72,7 +72,7 @@ WalkerInput Walker::slowed(const WalkerInput& input) {
 }
 
 walking::Move Walker::under_way() {
-  walking::Move m(*space_, settings_, report_, skin_, slope_cosine_, position_, height_, known_);
+  walking::Move m(*space_, vicinity_, settings_, report_, skin_, slope_cosine_, position_, height_, known_);
   m.time = report_.elapsed;
   return m;
 }

@@ -9,6 +9,7 @@
 #include "math/largest.h"
 #include "roam/error.h"
 #include "world/scene_queries.h"
+#include "world/vicinity.h"
 
 namespace roam {
 namespace query {
@@ -51,14 +52,20 @@ bool nearer(const Contact& a, const Contact& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
 }
 
+std::span<const index::Root> all_of(const index::Roots& roots) {
+  return {roots.root.data(), static_cast<std::size_t>(roots.count)};
+}
+
 /// One world, as impact_of and collect_of ask it.
 class WorldScene {
  public:
-  WorldScene(const WorldData& world, TriangleId base) : world_(world), index_(world.view()), base_(base) {}
+  WorldScene(const WorldData& world, TriangleId base, const index::Roots* roots)
+      : world_(world), index_(world.view()), base_(base), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece) {
     if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
-    const index::Impact impact = index::first_impact(index_, piece);
+    const index::Impact impact =
+        roots_ ? index::first_impact(index_, all_of(*roots_), piece) : index::first_impact(index_, piece);
     place_ = impact.place;
     return impact.hit ? std::optional(impact.time) : std::nullopt;
   }
@@ -66,13 +73,19 @@ class WorldScene {
     return contact_at(index_, at_rest, place_, base_);
   }
   void near(const index::Piece& piece, Collector& collector) const {
-    if (meets(world_.reach, piece, collector.reach())) visit_near(index_, piece, base_, collector);
+    if (!meets(world_.reach, piece, collector.reach())) return;
+    if (roots_) {
+      visit_near(index_, all_of(*roots_), piece, base_, collector);
+    } else {
+      visit_near(index_, piece, base_, collector);
+    }
   }
 
  private:
   const WorldData& world_;
   index::Index index_;
   TriangleId base_;
+  const index::Roots* roots_;
   index::Place place_;
 };
 
@@ -179,18 +192,32 @@ Contact contact_at(const index::Index& index, const index::Piece& piece, const i
   return contact_with(index::local_triangle(index, place, piece.start), index, piece, place, base);
 }
 
+namespace {
+
+/// The part of a gap that may be given up.
+double part_of(const Collector& collector) { return collector.bounds_only() ? gap_part : 0.0; }
+
+}  // namespace
+
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
-  const double part = collector.bounds_only() ? gap_part : 0.0;
-  collector.left_out(index::visit_near(index, piece, collector.enough(), part, &Visitor::visit, &visitor));
+  collector.left_out(
+      index::visit_near(index, piece, collector.enough(), part_of(collector), &Visitor::visit, &visitor));
 }
 
-void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector) {
-  collect_of(WorldScene(world, base), way, collector);
+void visit_near(const index::Index& index, std::span<const index::Root> roots, const index::Piece& piece,
+                TriangleId base, Collector& collector) {
+  Visitor visitor{index, piece, base, collector};
+  collector.left_out(
+      index::visit_near(index, roots, piece, collector.enough(), part_of(collector), &Visitor::visit, &visitor));
 }
 
-Impact first_impact(const WorldData& world, const Way& way) {
-  WorldScene scene(world, 0);
+void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector, const index::Roots* roots) {
+  collect_of(WorldScene(world, base, roots), way, collector);
+}
+
+Impact first_impact(const WorldData& world, const Way& way, const index::Roots* roots) {
+  WorldScene scene(world, 0, roots);
   return impact_of(scene, way);
 }
 
@@ -206,6 +233,18 @@ Clearance clearance_of(const Contact* nearest, double reach) {
 }
 
 }  // namespace query
+
+namespace {
+
+const index::Roots* roots_in(Vicinity& vicinity, const WorldData& world, const Body& body, const Vec3& from,
+                             const Vec3& motion, double reach) {
+  const Question question{body, from, motion, reach, world.stats.largest_error_m, world.revision};
+  return roots_in(vicinity, question, [&](const Box& box, index::Roots& out) {
+    return world.reach.empty() || index::gather(world.view(), 0, box, out);
+  });
+}
+
+}  // namespace
 
 Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
   query::check(body, from, motion);
@@ -229,6 +268,17 @@ Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motio
 double World::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
+  });
+}
+
+Impact World::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
+  query::check(body, from, motion);
+  return query::first_impact(*data_, {body, from, motion}, roots_in(vicinity, *data_, body, from, motion, 0.0));
+}
+
+double World::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    query::collect(*data_, {body, from, way}, 0, collector, roots_in(vicinity, *data_, body, from, way, reach));
   });
 }
 

@@ -128,12 +128,17 @@ class Collector {
 
 /// Offers the collector every triangle of the index within its reach of the piece, its number raised by `base`.
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector);
+/// The same, beginning at what was gathered of the index.
+void visit_near(const index::Index& index, std::span<const index::Root> roots, const index::Piece& piece,
+                TriangleId base, Collector& collector);
 
-/// The first impact with the world on the way; `time` is that of the whole motion.
-[[nodiscard]] Impact first_impact(const WorldData& world, const Way& way);
+/// The first impact with the world on the way; `time` is that of the whole motion. Begins at `roots`, unless that is
+/// null; so does the next.
+[[nodiscard]] Impact first_impact(const WorldData& world, const Way& way, const index::Roots* roots = nullptr);
 
 /// Offers the collector every triangle within its reach of the way, its number raised by `base`.
-void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector);
+void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector,
+             const index::Roots* roots = nullptr);
 
 /// The nearest contact, or none, as a clearance.
 [[nodiscard]] Clearance clearance_of(const Contact* nearest, double reach);

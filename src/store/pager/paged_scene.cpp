@@ -1,5 +1,8 @@
 #include "store/pager/paged_scene.h"
 
+#include <algorithm>
+#include <span>
+
 #include "world/unknown.h"
 
 namespace roam::paging {
@@ -41,9 +44,33 @@ struct Asking {
 
 constexpr TriangleId page_base(std::uint32_t page) { return store::stored_id(page, 0, 0); }
 
+/// Calls visit(page, its roots) for each page of which there are some.
+template <class Visit>
+void each_page(const index::Roots& roots, const Visit& visit) {
+  const index::Root* const end = roots.root.data() + roots.count;
+  for (const index::Root* begin = roots.root.data(); begin != end;) {
+    const std::uint32_t page = begin->index;
+    const index::Root* const last = std::find_if(begin, end, [page](const index::Root& r) { return r.index != page; });
+    visit(page, std::span(begin, last));
+    begin = last;
+  }
+}
+
 }  // namespace
 
+bool gather(const Residents& residents, const Box& box, index::Roots& out) {
+  const index::Absent none{.sweep = nullptr, .near = nullptr, .context = nullptr, .margin = Pager::margin};
+  bool complete = true;
+  residents.tree().near(
+      {box.center(), Vec3(0.0), 0.5 * box.size() + Pager::margin}, [&](std::uint32_t number, const Interval&) {
+        const Residents::Page& page = residents.page(number);
+        complete = complete && page.in.tiles != nullptr && index::gather(residents.view(page, none), number, box, out);
+      });
+  return complete;
+}
+
 std::optional<double> PagedScene::first(const index::Piece& piece) {
+  if (roots_ != nullptr) return first_of_roots(piece);
   Asking asking{residents_, piece, nullptr, false, 0, {}};
   const index::Absent absent = asking.absent();
   double until = 1.0;
@@ -75,6 +102,22 @@ std::optional<double> PagedScene::first(const index::Piece& piece) {
   return hit ? std::optional(until) : std::nullopt;
 }
 
+std::optional<double> PagedScene::first_of_roots(const index::Piece& piece) {
+  const index::Absent none{};
+  double until = 1.0;
+  bool hit = false;
+  each_page(*roots_, [&](std::uint32_t number, std::span<const index::Root> roots) {
+    const index::Index index = residents_.view(residents_.page(number), none);
+    const index::Impact impact = index::first_impact(index, roots, piece, until);
+    if (!impact.hit) return;
+    hit = known_ = true;
+    until = impact.time;
+    page_ = number;
+    place_ = impact.place;
+  });
+  return hit ? std::optional(until) : std::nullopt;
+}
+
 Contact PagedScene::touched(const index::Piece& at_rest) const {
   if (!known_) return near_box(box_, at_rest, base_);
   const index::Absent none{};
@@ -82,6 +125,14 @@ Contact PagedScene::touched(const index::Piece& at_rest) const {
 }
 
 void PagedScene::near(const index::Piece& piece, query::Collector& collector) const {
+  if (roots_ != nullptr) {
+    const index::Absent none{};
+    each_page(*roots_, [&](std::uint32_t number, std::span<const index::Root> roots) {
+      const index::Index index = residents_.view(residents_.page(number), none);
+      query::visit_near(index, roots, piece, page_base(number), collector);
+    });
+    return;
+  }
   const bool only_coming = what_ == What::coming;
   Asking asking{residents_, piece, &collector, only_coming, 0, {}};
   const index::Absent absent = asking.absent();
@@ -91,8 +142,7 @@ void PagedScene::near(const index::Piece& piece, query::Collector& collector) co
     if (page.in.tiles != nullptr) {
       asking.page = number;
       query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
-    } else if ((!only_coming || !page.failed) &&
-               collector.takes_unknown(page.box, piece.body.radius, Pager::margin)) {
+    } else if ((!only_coming || !page.failed) && collector.takes_unknown(page.box, piece.body.radius, Pager::margin)) {
       collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})), Pager::margin);
     }
     look = way_around(piece, collector.reach());

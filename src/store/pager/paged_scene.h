@@ -4,11 +4,15 @@
 
 #include <optional>
 
+#include "index/roots.h"
 #include "store/pager/cells.h"
 #include "store/pager/residents.h"
 #include "world/query.h"
 
 namespace roam::paging {
+
+/// Adds what of all pages meets the box. False where not all of that is in memory, or is too much.
+[[nodiscard]] bool gather(const Residents& residents, const Box& box, index::Roots& out);
 
 /// As world/scene_queries.h asks it.
 class PagedScene {
@@ -18,14 +22,19 @@ class PagedScene {
     coming,  ///< what is unknown and has not failed
   };
   explicit PagedScene(const Residents& residents, What what = What::everything) : residents_(residents), what_(what) {}
+  /// Of everything, beginning at `roots`, unless that is null.
+  PagedScene(const Residents& residents, const index::Roots* roots) : residents_(residents), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece);
   [[nodiscard]] Contact touched(const index::Piece& at_rest) const;
   void near(const index::Piece& piece, query::Collector& collector) const;
 
  private:
+  std::optional<double> first_of_roots(const index::Piece& piece);
+
   const Residents& residents_;
-  What what_;
+  What what_ = What::everything;
+  const index::Roots* roots_ = nullptr;
   // What first() met.
   bool known_ = false;
   std::uint32_t page_ = 0;

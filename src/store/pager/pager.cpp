@@ -16,6 +16,7 @@
 #include "store/pager/paged_scene.h"
 #include "store/tile_reader.h"
 #include "world/scene_queries.h"
+#include "world/vicinity.h"
 
 namespace roam {
 namespace {
@@ -111,7 +112,7 @@ struct Pager::State {
 
   // Of the thread that moves the body.
   Residents residents;
-  std::uint64_t revision = 0;
+  std::uint64_t revision = next_revision();  ///< which no other space has
   std::uint64_t tiles = 0, pages = 0, triangles = 0, used = 0, loads = 0, evictions = 0;
 
   Planner planner;  ///< of the loading threads
@@ -121,6 +122,9 @@ struct Pager::State {
   void count(const Thing& thing, bool comes);
   [[nodiscard]] bool take(const Message& message, const Traveller& traveller);
   [[nodiscard]] bool exchange(const Traveller& traveller, double& latency);
+  /// What a body asks that keeps what lies around it.
+  [[nodiscard]] PagedScene scene_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
+                                    double reach) const;
 };
 
 /// Keeps the counters when something comes into use, or goes.
@@ -219,7 +223,7 @@ bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
   const Traveller traveller(body, place, velocity);
   double latency = s.governor.latency();
   const bool changed = s.exchange(traveller, latency);
-  if (changed) ++s.revision;
+  if (changed) s.revision = next_revision();
   const bool complete = s.tiles == s.store->info().tiles;
   s.governor.look(s.residents, traveller, latency, changed, complete);
   return changed;
@@ -265,6 +269,25 @@ double Pager::gap(const Body& body, const Vec3& from, const Vec3& motion, double
   const PagedScene scene(state_->residents);
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect_of(scene, {body, from, way}, collector);
+  });
+}
+
+PagedScene Pager::State::scene_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
+                                  double reach) const {
+  const Question question{body, from, motion, reach, store->info().largest_error_m, revision};
+  return {residents, roots_in(vicinity, question,
+                              [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
+}
+
+Impact Pager::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
+  query::check(body, from, motion);
+  PagedScene scene = state_->scene_in(vicinity, body, from, motion, 0.0);
+  return query::impact_of(scene, {body, from, motion});
+}
+
+double Pager::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
+    query::collect_of(state_->scene_in(vicinity, body, from, way, reach), {body, from, way}, collector);
   });
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// What a body keeps of the space around it, from one question to the next.
+
+#include <memory>
+
+namespace roam {
+
+/// The part of a space's index that lies around a body, so that a body which asks again from nearly the same place need
+/// not look for it again: Space::sweep_in and Space::gap_in.
+///
+///     roam::Vicinity vicinity;  // the body's own
+///     while (moving) {
+///       const double gap = world.gap_in(vicinity, body, place, motion, reach);
+///       ...
+///     }
+///
+/// Nobody need tell it anything. Where a question leads out of it, is asked of another space or comes after a change, it
+/// is gathered anew; who looks or goes far at once is answered by the whole index, as by sweep() and gap(). So it is for
+/// one body that moves by a part of its size at a time: bodies that take turns want one each, and so do threads.
+///
+/// Takes 2 kB when it is made and no more memory after that. A copy goes on as the original would have. One that was
+/// moved from may be assigned to or destroyed, and is as good as none where it is asked in.
+class Vicinity {
+ public:
+  Vicinity();
+  ~Vicinity();
+  Vicinity(const Vicinity& other);
+  Vicinity(Vicinity&&) noexcept;
+  Vicinity& operator=(const Vicinity& other);
+  Vicinity& operator=(Vicinity&&) noexcept;
+
+  struct State;
+  /// For the spaces of this library; null when it was moved from.
+  [[nodiscard]] State* state() { return state_.get(); }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace roam

@@ -1,0 +1,52 @@
+#include "world/vicinity.h"
+
+#include "index/margin.h"
+#include "math/largest.h"
+
+namespace roam {
+namespace {
+
+/// Metres. The box is so much wider than what was asked, and so many ways longer.
+constexpr double spare = 0.25;
+constexpr double ways_ahead = 3.0;
+
+/// Metres. Who looks farther, or goes farther at a time, leaves the box so soon, or meets so much of it, that to gather
+/// takes longer than it saves.
+constexpr double farthest_reach = 0.25;
+constexpr double longest_way = 0.2;
+
+/// Metres, beside the errors of the space: far above any rounding.
+constexpr double slack = 1e-2;
+
+}  // namespace
+
+bool Vicinity::State::reach(const Question& q) {
+  const bool thin = q.body.half_height == 0.0 && q.body.radius < index::kThinBody;
+  const double longest = largest(q.motion);
+  if (thin || longest > double(index::kShortMotion)) return false;
+  const double r = q.body.radius + q.reach + 2.0 * q.largest_error + slack;
+  const Vec3 around(r, r, r + q.body.half_height);
+  Box asked;
+  asked.include(q.from);
+  asked.include(q.from + q.motion);
+  asked = asked.grown(around);
+  if (box.holds(asked.lower) && box.holds(asked.upper)) return true;
+  if (q.reach > farthest_reach || longest > longest_way) return false;
+  const Vec3 ahead = q.from + (1.0 + ways_ahead) * q.motion;
+  box = asked;
+  box.include(ahead - around);
+  box.include(ahead + around);
+  box = box.grown(spare);
+  revision = 0;
+  return true;
+}
+
+Vicinity::Vicinity() : state_(std::make_unique<State>()) {}
+Vicinity::~Vicinity() = default;
+Vicinity::Vicinity(const Vicinity& other)
+    : state_(other.state_ ? std::make_unique<State>(*other.state_) : nullptr) {}
+Vicinity::Vicinity(Vicinity&&) noexcept = default;
+Vicinity& Vicinity::operator=(const Vicinity& other) { return *this = Vicinity(other); }
+Vicinity& Vicinity::operator=(Vicinity&&) noexcept = default;
+
+}  // namespace roam
