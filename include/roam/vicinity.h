@@ -15,8 +15,8 @@ namespace roam {
 ///       ...
 ///     }
 ///
-/// Nobody need tell it anything. Where a question leads out of it, is asked of another space or comes after a change, it
-/// is gathered anew; who looks or goes far at once is answered by the whole index, as by sweep() and gap(). So it is for
+/// It need be told nothing. Where a question leads out of it, is asked of another space or comes after a change, it is
+/// gathered anew; who looks or goes far at once is answered by the whole index, as by sweep() and gap(). So it is for
 /// one body that moves by a part of its size at a time: bodies that take turns want one each, and so do threads.
 ///
 /// Takes 2 kB when it is made and no more memory after that. A copy goes on as the original would have. One that was

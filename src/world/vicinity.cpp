@@ -43,8 +43,7 @@ bool Vicinity::State::reach(const Question& q) {
 
 Vicinity::Vicinity() : state_(std::make_unique<State>()) {}
 Vicinity::~Vicinity() = default;
-Vicinity::Vicinity(const Vicinity& other)
-    : state_(other.state_ ? std::make_unique<State>(*other.state_) : nullptr) {}
+Vicinity::Vicinity(const Vicinity& other) : state_(other.state_ ? std::make_unique<State>(*other.state_) : nullptr) {}
 Vicinity::Vicinity(Vicinity&&) noexcept = default;
 Vicinity& Vicinity::operator=(const Vicinity& other) { return *this = Vicinity(other); }
 Vicinity& Vicinity::operator=(Vicinity&&) noexcept = default;
