@@ -11,6 +11,7 @@
 #include "index/binary_tree.h"
 #include "index/collapse.h"
 #include "index/grid.h"
+#include "judged_queries.h"
 #include "pager_made.h"
 #include "roam/generate.h"
 #include "store/tile_reader.h"
@@ -19,6 +20,7 @@
 
 namespace {
 
+using judged::along;
 using roam::Box;
 using roam::Clearance;
 using roam::Contact;
@@ -137,18 +139,6 @@ class StoredWorld {
   std::vector<std::size_t> order_;  ///< of the tiles below the tree
   std::vector<TriangleId> number_;
 };
-
-/// Metres. An arrival is accepted up to 20 um before the body touches, and twice the rounding error of its frame
-/// (docs/algorithm.md). What of that is used depends on where the arrival is looked for from, and so on the order in
-/// which tiles are visited, which is another where the tree over them is divided into pages.
-constexpr double arrival = 2.5e-5;
-
-/// The same along the way: the flatter it meets, the more.
-double along(const Vec3& way, const Impact& impact) {
-  const double length = glm::length(way);
-  const double steep = impact.hit && length > 0.0 ? std::abs(glm::dot(impact.normal, way)) / length : 0.0;
-  return arrival / std::max(0.01, steep);
-}
 
 /// Bits, not values: -0 is not 0.
 bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }

@@ -9,23 +9,23 @@
 #include <glm/vector_relational.hpp>
 
 #include "clutter.h"
+#include "judged_queries.h"
 #include "oracle.h"
 #include "roam/error.h"
 
 namespace {
 
 using clutter::Random;
+using judged::judge_gap;
+using judged::kFarthest;
+using judged::kFarthestLossless;
+using judged::kNearest;
 using roam::Body;
 using roam::Box;
 using roam::Mesh;
 using roam::Triangle;
 using roam::Vec3;
 using roam::World;
-
-/// What World promises (m): a body is never nearer than its radius by more than this, and never stopped farther off.
-constexpr double kNearest = 1e-6;
-constexpr double kFarthest = 2e-3;
-constexpr double kFarthestLossless = 1e-5;
 
 struct Case {
   const char* name;
@@ -40,18 +40,6 @@ long double least_distance(const Mesh& mesh, const Body& body, const Vec3& from,
     least = std::min(least, oracle::least_distance(body, from, motion, t, mesh.triangle(i)));
   }
   return least;
-}
-
-/// Judges Space::gap where the body's surface comes as near as `gap` (m).
-void judge_gap(double bound, double gap, const Body& body, double reach) {
-  if (gap > -body.radius) {
-    ASSERT_LE(bound, std::max(gap, 0.0) + kNearest);
-  }
-  if (bound == reach) {
-    ASSERT_GE(gap, reach - kNearest);
-  } else {
-    ASSERT_LE(gap, std::max(bound, 0.0) * (8.0 / 7.0) + kFarthest);
-  }
 }
 
 class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
