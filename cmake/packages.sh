@@ -7,7 +7,16 @@ program_packages="g++ cmake ninja-build ccache pkg-config
   libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev
   libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
 test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg"
-bench_packages="libbullet-dev libembree-dev libfcl-dev libogre-1.12-dev"
+bench_packages="libbullet-dev libembree-dev libfcl-dev libogre-1.12-dev"  # benchmarks do without those that are not there
+
+# missing_of PACKAGE...: those that are not installed.
+missing_of() {
+  local installed package
+  installed=" $(dpkg-query --show --showformat='${db:Status-Status}=${Package} ' 2> /dev/null)"
+  for package in "$@"; do
+    [[ $installed == *" installed=$package "* ]] || echo "$package"
+  done
+}
 
 # install_missing PACKAGE...: asks apt only for packages that are not there, and is silent when all of them are.
 install_missing() {
@@ -16,17 +25,13 @@ install_missing() {
     echo "  $*" >&2
     return 0
   fi
-  local installed package missing=()
-  installed=" $(dpkg-query --show --showformat='${db:Status-Status}=${Package} ' 2> /dev/null)"
-  for package in "$@"; do
-    [[ $installed == *" installed=$package "* ]] || missing+=("$package")
-  done
+  local missing as_root=()
+  mapfile -t missing < <(missing_of "$@")
   ((${#missing[@]})) || return 0
 
-  local as_root=()
   if (($(id -u) != 0)); then
     if ! command -v sudo > /dev/null; then
-      echo "roam needs these packages, and there is no sudo here to install them with. As root:" >&2
+      echo "These packages are missing, and there is no sudo here to install them with. As root:" >&2
       echo "  apt-get install ${missing[*]}" >&2
       return 1
     fi
@@ -39,6 +44,25 @@ install_missing() {
   echo "apt-get could not install all of: ${missing[*]}" >&2
   echo "Install them by hand and start again; docs/dependencies.md says what each one is for." >&2
   return 1
+}
+
+# install_optional PACKAGE...: the same for packages that may be left out. Those that cannot be had are named.
+install_optional() {
+  local package offered=() left_out=()
+  if ! command -v dpkg-query > /dev/null; then
+    left_out=("$@")
+  else
+    for package in $(missing_of "$@"); do
+      # One by one: apt-get installs none of several packages when it does not know one of them.
+      if apt-get install --simulate -qq --no-install-recommends "$package" &> /dev/null < /dev/null; then
+        offered+=("$package")
+      else
+        left_out+=("$package")
+      fi
+    done
+    if ((${#offered[@]})) && ! install_missing "${offered[@]}"; then left_out+=("${offered[@]}"); fi
+  fi
+  ((${#left_out[@]} == 0)) || echo "Going on without what apt-get does not offer or install here: ${left_out[*]}" >&2
 }
 
 # configure PRESET [ARGUMENTS...]: quiet when it succeeds, the whole log when it does not.
