@@ -2,7 +2,11 @@
 // the motion, each covering a stretch of a few radii; what they visit goes to a sphere test in doubles. The row stops
 // at the first stretch that begins behind the first touch so far.
 
+#if ROAM_BENCH_EMBREE >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <array>
