@@ -77,14 +77,10 @@ void compare(const Options& options, const Scene& scene, const roam::World& worl
   }
 }
 
-double at(std::vector<double>& sorted, double part) {
-  return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
-}
-
 void print(const char* what, std::vector<double> times) {
   std::sort(times.begin(), times.end());
-  std::printf("%-10s p50 %7.2f  p99 %7.2f  p99.9 %7.2f  max %8.2f us\n", what, 1e6 * at(times, 0.5),
-              1e6 * at(times, 0.99), 1e6 * at(times, 0.999), 1e6 * at(times, 1.0));
+  const auto at = [&](double part) { return 1e6 * quantile(times, part); };
+  std::printf("%-10s p50 %7.2f  p99 %7.2f  p99.9 %7.2f  max %8.2f us\n", what, at(0.5), at(0.99), at(0.999), at(1.0));
 }
 
 /// Flies to and fro, 60 steps a second by the clock; through a space that need not be updated when `pager` is null.

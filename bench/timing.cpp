@@ -31,10 +31,6 @@ double empty_ticks() {
   return median(empty);
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
 }  // namespace
 
 double median(std::vector<double> values) {

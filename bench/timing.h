@@ -33,6 +33,12 @@ using Ask = std::function<void(std::span<const Query>, std::span<double> nanosec
 /// The upper one where there are two in the middle. `values` must not be empty.
 [[nodiscard]] double median(std::vector<double> values);
 
+/// What lies at this part, 0 to 1, of the way through values in ascending order, the lower one where it is between two:
+/// p99 at 0.99, the largest at 1. 0 when there are none.
+[[nodiscard]] inline double quantile(std::span<const double> sorted, double part) {
+  return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+}
+
 /// The figures of a set of queries, in nanoseconds.
 struct Summary {
   double mean = 0;

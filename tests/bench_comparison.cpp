@@ -113,6 +113,18 @@ TEST(BenchComparison, NamesAnEngineThatEndsAndGoesOnWithTheOthers) {
   EXPECT_EQ(runs[2].verdict.queries, 0U) << "no verdict on half a run";
 }
 
+TEST(BenchTiming, TakesTheLowerOfTwoValuesThatAPartLiesBetween) {
+  const std::vector<double> four{1.0, 2.0, 3.0, 4.0};
+  EXPECT_EQ(quantile(four, 0.0), 1.0);
+  EXPECT_EQ(quantile(four, 0.5), 2.0);
+  EXPECT_EQ(quantile(four, 0.99), 3.0);
+  EXPECT_EQ(quantile(four, 1.0), 4.0);
+  EXPECT_EQ(quantile({}, 0.5), 0.0);
+  std::vector<double> many;
+  for (int i = 0; i <= 1000; ++i) many.push_back(i);
+  EXPECT_EQ(quantile(many, 0.99), 990.0);
+}
+
 TEST(BenchComparison, EndsWhenItIsToldTo) {
   const Engine quick = engine(
       "quick", [](const Query&) { return Answer{}; }, 1.0);
