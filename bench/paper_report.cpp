@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bars.h"
+#include "timing.h"
 
 namespace roam::bench {
 namespace {
@@ -30,9 +31,7 @@ Steps steps_of(const RowFindings& row, const std::vector<std::size_t>& ways) {
   }
   if (all.empty()) return {};
   std::sort(all.begin(), all.end());
-  const auto at = [&](double part) {
-    return 1e-3 * all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
-  };
+  const auto at = [&](double part) { return 1e-3 * quantile(all, part); };
   Steps steps{all.size(), 0, at(0.5), at(0.99), at(1.0), 1e-3 * std::accumulate(all.begin(), all.end(), 0.0)};
   steps.jams =
       static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](double ns) { return ns > 1e9 * jam; }));
@@ -99,6 +98,9 @@ std::string table_1(const PaperFindings& findings) {
   std::string out =
       fmt::format("{:<18} {:>6} {:<26} {:<22} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "way", "r, m", "row",
                   "outcome", "time, s", "steps", "p50, us", "p99, us", "max, us", "in walls", "deepest");
+  if (std::all_of(findings.rows.begin(), findings.rows.end(), [](const auto& row) { return row.judged.empty(); })) {
+    return out + "no row went a way\n\n";
+  }
   for (std::size_t way = 0; way < findings.ways.size(); ++way) {
     for (const RowFindings& row : findings.rows) {
       if (row.judged.empty()) continue;

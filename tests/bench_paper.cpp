@@ -196,6 +196,8 @@ TEST(BenchPaperReport, KeepsARowThatFailedApartFromOneThatIsAbsent) {
   EXPECT_EQ(report["absent"][0]["row"], "unity");
   EXPECT_EQ(report["absent"][0]["why"], "not sold here");
   EXPECT_EQ(paper_status(found), app::done) << "others may fail";
+  EXPECT_EQ(paper_tables(found).find("no row went a way"), std::string::npos);
+  EXPECT_NE(paper_tables(findings({broken(other_row)})).find("no row went a way"), std::string::npos);
 }
 
 TEST(BenchPaperReport, FailsWithARowOfRoamsOwn) {
