@@ -14,7 +14,8 @@ struct StepTimes {
   double median_us, p99_us;
 };
 
-/// Both axes in powers of ten. Throws roam::Error when the file cannot be written.
+/// Both axes in powers of ten, as many as the times need; there is one at least. Throws roam::Error when the file
+/// cannot be written.
 void write_picture(const std::string& file, const std::vector<StepTimes>& times);
 
 }  // namespace roam::bench
