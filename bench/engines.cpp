@@ -8,6 +8,7 @@
 #include "bench_verbs.h"
 #include "comparison.h"
 #include "interrupt.h"
+#include "output_file.h"
 #include "report.h"
 #include "roam/error.h"
 #include "run_options.h"
@@ -43,16 +44,30 @@ struct Findings {
 
 void note(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
+/// The engines that were asked for. Throws where none of them is here.
+std::vector<EngineOffer> asked_engines(const Options& options) {
+  std::vector<EngineOffer> offers = engine_offers(options.places);
+  const auto& wanted = options.engines;
+  std::erase_if(offers, [&](const EngineOffer& offer) {
+    return !wanted.empty() && std::find(wanted.begin(), wanted.end(), offer.name) == wanted.end();
+  });
+  if (std::any_of(offers.begin(), offers.end(), [](const EngineOffer& offer) { return offer.make != nullptr; })) {
+    return offers;
+  }
+  std::string why = "none of the engines that were asked for is here";
+  for (const EngineOffer& offer : offers) why += "; " + offer.name + ": " + offer.missing;
+  throw Error(why);
+}
+
 Findings find(const Options& options) {
+  const std::vector<EngineOffer> offers = asked_engines(options);
   Findings findings;
   const Scene scene = make_scene(options.scene, [] { return !app::interrupted(); });
   findings.scene = scene.name;
   findings.triangles = scene.triangles();
   note(scene.name);
   const Reference reference(scene.meshes);
-  for (const EngineOffer& offer : engine_offers(options.places)) {
-    const auto& wanted = options.engines;
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), offer.name) == wanted.end()) continue;
+  for (const EngineOffer& offer : offers) {
     if (!offer.make) {
       findings.absent.push_back(offer);
       continue;
@@ -66,8 +81,7 @@ Findings find(const Options& options) {
     }
   }
   if (findings.engines.empty()) {
-    if (!findings.failed.empty()) throw Error(findings.failed.front().name + " failed: " + findings.failed.front().why);
-    throw Error("none of the engines that were asked for is here");
+    throw Error(findings.failed.front().name + " failed while it was built: " + findings.failed.front().why);
   }
   for (const std::string& name : options.sets) {
     note("asking " + name);
@@ -188,6 +202,8 @@ void draw(const std::string& file, const Findings& findings) {
 }
 
 app::ExitStatus run(const Options& options) {
+  const std::filesystem::path scene = options.scene.scene;
+  if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
   const Findings findings = find(options);
   if (options.json) {
     app::print(to_json(findings, options.comparison.rounds));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -17,9 +16,11 @@
 #include <osgUtil/PolytopeIntersector>
 #include <vector>
 
+#include "number_options.h"
 #include "osgRoam/BoxIntersector.h"
 #include "osg_scene.h"
 #include "roam/generate.h"
+#include "thread_clock.h"
 
 namespace {
 
@@ -82,12 +83,6 @@ bool ask_polytope(osg::Node& scene, const Vec3& from, const Vec3& to) {
   return intersector->containsIntersections();
 }
 
-double thread_milliseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 using Ask = bool (*)(osg::Node&, const Vec3&, const Vec3&);
 
 /// Mean milliseconds of every `every`th step of the path.
@@ -98,12 +93,12 @@ double mean_step(Ask ask, osg::Node& scene, std::size_t every, std::size_t& hits
   const auto steps = static_cast<std::size_t>(length / step_length);
   hits = 0;
   std::size_t asked = 0;
-  const double start = thread_milliseconds();
+  const double start = roam::bench::thread_time();
   for (std::size_t i = 0; i < steps; i += every, ++asked) {
     const Vec3 from = path.from + static_cast<double>(i) * step;
     hits += ask(scene, from, from + step) ? 1 : 0;
   }
-  return (thread_milliseconds() - start) / static_cast<double>(asked);
+  return 1e-6 * (roam::bench::thread_time() - start) / static_cast<double>(asked);
 }
 
 void run(std::uint64_t triangles, std::size_t every) {
@@ -131,10 +126,10 @@ int main(int argc, char** argv) {
   std::uint64_t triangles = 1'970'000;
   std::size_t every = 20;
   CLI::App app{"Times osgRoam::BoxIntersector and osgUtil::PolytopeIntersector on path 1 of the gallery"};
-  app.add_option("--triangles", triangles, "of the gallery")->capture_default_str();
+  roam::bench::add_triangles(app, "--triangles", triangles, "of the gallery");
   app.add_option("--every", every, "ask only each Nth step where nothing is indexed and there is one geode")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(roam::bench::at_least_one());
   CLI11_PARSE(app, argc, argv);
   try {
     run(triangles, every);

@@ -10,6 +10,8 @@
 
 #include "bench_verbs.h"
 #include "interrupt.h"
+#include "number_options.h"
+#include "output_file.h"
 #include "paper_scene.h"
 #include "report.h"
 #include "roam/error.h"
@@ -144,10 +146,7 @@ std::vector<Row> measure(const std::vector<Size>& sizes, const Options& options)
       for (std::size_t i = 0; i < sizes.size(); ++i) {
         std::vector<double> times = fly(sizes[i], all_of_it[w], options.speed);
         std::sort(times.begin(), times.end());
-        const auto at = [&](double part) {
-          return 1e-3 * times[static_cast<std::size_t>(part * static_cast<double>(times.size() - 1))];
-        };
-        rounds[i].push_back({at(0.5), at(0.99)});
+        rounds[i].push_back({1e-3 * quantile(times, 0.5), 1e-3 * quantile(times, 0.99)});
         rows[i].steps = times.size();
       }
     }
@@ -163,9 +162,12 @@ std::vector<Row> measure(const std::vector<Size>& sizes, const Options& options)
   return rows;
 }
 
-std::string table(const std::vector<Row>& rows) {
-  std::string out = fmt::format("{:>12} {:<7} {:>9} {:>10} {:>11} {:>7}", "triangles", "where", "build, s", "MiB",
-                                "B/triangle", "steps");
+std::string table(const std::vector<Row>& rows, const Options& options) {
+  std::string out =
+      fmt::format("a sphere of {:g} m along the gallery's first path at {:g} m/s; us, medians over rounds: {}\n\n",
+                  radius, options.speed, options.rounds);
+  out += fmt::format("{:>12} {:<7} {:>9} {:>10} {:>11} {:>7}", "triangles", "where", "build, s", "MiB", "B/triangle",
+                     "steps");
   for (const What what : all_of_it) out += fmt::format(" {:>21}", fmt::format("{} p50 / p99", name(what)));
   out += "\n";
   for (const Row& row : rows) {
@@ -177,6 +179,7 @@ std::string table(const std::vector<Row>& rows) {
     for (const Times& t : row.times) out += fmt::format(" {:>21}", fmt::format("{:.3g} / {:.3g}", t.p50, t.p99));
     out += "\n";
   }
+  if (rows.size() < 2) return out;
   out += "\nfrom the first to the last, p50:";
   for (std::size_t w = 0; w < all_of_it.size(); ++w) {
     out += fmt::format(" {} x{:.2f}", name(all_of_it[w]), rows.back().times[w].p50 / rows.front().times[w].p50);
@@ -202,6 +205,7 @@ Json to_json(const std::vector<Row>& rows, const Options& options) {
 
 app::ExitStatus run(const Options& options) {
   if (options.least > options.triangles) throw app::UsageError("--least is larger than --triangles");
+  if (!options.picture.empty()) app::check_output({}, "--picture", options.picture);
   const ScratchFolder scratch(options.scratch);
   std::vector<Size> sizes;
   for (std::uint64_t n = options.least; n < options.triangles; n *= 10) {
@@ -209,7 +213,7 @@ app::ExitStatus run(const Options& options) {
   }
   sizes.push_back(make_size(options.triangles, options, scratch.path()));
   const std::vector<Row> rows = measure(sizes, options);
-  app::print(options.json ? to_json(rows, options).dump(2) + "\n" : table(rows));
+  app::print(options.json ? to_json(rows, options).dump(2) + "\n" : table(rows, options));
   if (!options.picture.empty()) {
     std::vector<StepTimes> curve;
     for (const Row& row : rows) curve.push_back({row.size->triangles, row.times[2].p50, row.times[2].p99});
@@ -232,19 +236,18 @@ void add_scale(CLI::App& program, app::Run& run) {
   CLI::App* verb = program.add_subcommand("scale", "The time of a sweep and of a step by the size of the scene");
   verb->footer(help);
   const auto options = std::make_shared<Options>();
-  const CLI::AsNumberWithUnit number(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}});
-  verb->add_option("--triangles", options->triangles, "Of the largest scene (default: 1M)")
-      ->transform(number)
-      ->type_name("N");
-  verb->add_option("--least", options->least, "Of the smallest (default: 100k)")->transform(number)->type_name("N");
+  add_triangles(*verb, "--triangles", options->triangles, "Of the largest scene");
+  add_triangles(*verb, "--least", options->least, "Of the smallest");
   verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
       ->capture_default_str()
       ->check(app::positive);
-  verb->add_option("--pager", options->pager_mib, "MiB of each pager")->capture_default_str();
-  verb->add_option("--speed", options->speed, "Metres per second")->capture_default_str()->check(app::positive);
+  verb->add_option("--pager", options->pager_mib, "MiB of each pager")
+      ->capture_default_str()
+      ->check(from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));
+  verb->add_option("--speed", options->speed, "Metres per second")->capture_default_str()->check(from_to(0.1, 1e4));
   verb->add_option("--rounds", options->rounds, "Flights of each kind through each scene; medians over them")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one());
   verb->add_option("--scratch", options->scratch, "Where stores are made (default: the system's temporary folder)")
       ->type_name("DIR");
   verb->add_option("--picture", options->picture, "Draw the steps' times by size, to an SVG file")->type_name("FILE");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "counted_space.h"
+#include "number_options.h"
 #include "roam/generate.h"
 #include "roam/pager.h"
 #include "roam/route.h"
@@ -83,10 +84,6 @@ Flight fly(const Options& options, const std::shared_ptr<const roam::Store>& sto
   });
 }
 
-double at(const std::vector<double>& sorted, double part) {
-  return 1e-3 * sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
-}
-
 /// How often a step asks what, and how long that takes: of one flight, in which each question was timed.
 void print_queries(const Flight& flight, std::uint64_t triangles) {
   const auto steps = static_cast<double>(flight.times.size());
@@ -100,6 +97,9 @@ void print_queries(const Flight& flight, std::uint64_t triangles) {
 }
 
 int run(const Options& options) {
+  if (options.stores.empty() && options.galleries.empty()) {
+    throw roam::Error("there is nothing to fly through: name a store, or --gallery N");
+  }
   struct Rounds {
     std::shared_ptr<const roam::Store> store;
     std::shared_ptr<const roam::World> world;
@@ -121,9 +121,9 @@ int run(const Options& options) {
       std::vector<double> times = flight.times;
       std::sort(times.begin(), times.end());
       one.steps = times.size();
-      one.p50.push_back(at(times, 0.5));
-      one.p99.push_back(at(times, 0.99));
-      one.most.push_back(at(times, 1.0));
+      one.p50.push_back(1e-3 * quantile(times, 0.5));
+      one.p99.push_back(1e-3 * quantile(times, 0.99));
+      one.most.push_back(1e-3 * quantile(times, 1.0));
     }
   }
   std::vector<StepTimes> table;
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   app.add_flag("--queries", options.queries, "counts what a step asks, which takes time of its own");
   app.add_option("--rounds", options.rounds, "flights through each, in turns")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one());
   app.add_option("--picture", options.picture, "an SVG file to write");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,6 +1,5 @@
 // What the tiles of a store take on disk, and how long they take to encode and decode.
 
-#include <time.h>
 #include <xxhash.h>
 
 #include <CLI/CLI.hpp>
@@ -9,22 +8,21 @@
 #include <cstdio>
 #include <exception>
 
+#include "number_options.h"
 #include "roam/error.h"
 #include "scene.h"
 #include "store/codec/streams.h"
 #include "store_codec_tiles.h"
+#include "thread_clock.h"
+#include "timing.h"
 
 namespace {
 
 using namespace store_codec;
 using roam::store::shape_of;
 
-/// Processor seconds of this thread: other programs do not count.
-double now() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
+/// Seconds.
+double now() { return 1e-9 * roam::bench::thread_time(); }
 
 /// Bytes that an ideal coder takes for letters of the frequencies that these have.
 double entropy(std::span<const std::byte> letters) {
@@ -126,9 +124,9 @@ int run(const Options& options) {
   std::printf("disk %.3f bytes a triangle, floor %.3f, ratio %.2f; source numbers %.3f; resident %.2f\n",
               disk / triangles, floor_bytes / triangles, disk / floor_bytes, number_bytes / triangles,
               resident / triangles);
+  const auto at = [&](double part) { return 1e6 * roam::bench::quantile(best, part); };
   std::printf("encode %.0f ns a triangle, hash %.1f, decode %.1f; a tile: p50 %.0f us, p99 %.0f, most %.0f\n",
-              1e9 * encode / triangles, 1e9 * hash / triangles, 1e9 * decode / triangles, 1e6 * best[best.size() / 2],
-              1e6 * best[best.size() * 99 / 100], 1e6 * best.back());
+              1e9 * encode / triangles, 1e9 * hash / triangles, 1e9 * decode / triangles, at(0.5), at(0.99), at(1.0));
   if (sum == 0) std::printf("the hashes sum up to nothing\n");  // so that no compiler leaves them out
   if (options.streams) {
     for (int s = 0; s < roam::store::kStreams; ++s) std::printf("  %-9s %.4f\n", kNames[s], floor[s] / triangles);
@@ -142,10 +140,10 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app{"What tiles of a store take on disk, and the time to encode and decode them"};
   app.add_option("--scene", options.scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
-  app.add_option("--triangles", options.scene.triangles, "of a made scene")->capture_default_str();
+  roam::bench::add_triangles(app, "--triangles", options.scene.triangles, "of a made scene");
   app.add_option("--rounds", options.rounds, "a tile's time is the least of these")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(roam::bench::at_least_one());
   app.add_flag("--lossless", options.lossless, "tiles that keep the source's floats");
   app.add_flag("--streams", options.streams, "print the entropy of each stream, bytes a triangle");
   CLI11_PARSE(app, argc, argv);
