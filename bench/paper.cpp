@@ -7,6 +7,8 @@
 
 #include "bench_verbs.h"
 #include "interrupt.h"
+#include "number_options.h"
+#include "output_file.h"
 #include "paper_report.h"
 #include "paper_scene.h"
 #include "report.h"
@@ -47,18 +49,37 @@ void judge(PaperFindings& findings, const PaperScene& scene) {
   }
 }
 
+/// The rows that were asked for. Throws where none of them can be run.
+std::vector<PaperRow> asked_rows(const Options& options) {
+  std::vector<PaperRow> rows = paper_rows(options.paper.wasm);
+  const auto& wanted = options.rows;
+  std::erase_if(rows, [&](const PaperRow& row) {
+    return !wanted.empty() && std::find(wanted.begin(), wanted.end(), row.name) == wanted.end();
+  });
+  if (std::any_of(rows.begin(), rows.end(), [](const PaperRow& row) { return row.load != nullptr; })) return rows;
+  std::string why = "none of the rows that were asked for can be run here";
+  for (const PaperRow& row : rows) why += fmt::format("; {}: {}", row.name, row.missing);
+  throw Error(why);
+}
+
+std::set<Reads> read_by(const std::vector<PaperRow>& rows) {
+  std::set<Reads> read;
+  for (const PaperRow& row : rows) {
+    if (row.load) read.insert(row.reads);
+  }
+  return read;
+}
+
 PaperFindings find(const Options& options, const std::vector<PaperRow>& rows) {
   PaperFindings findings;
   const ScratchFolder scratch(options.paper.scratch);
-  const LaidOut laid = lay_out(options.paper, scratch.path());
+  const LaidOut laid = lay_out(options.paper, read_by(rows), scratch.path());
   findings.scene = laid.title;
   findings.triangles = laid.triangles;
   findings.prepared = laid.prepared;
   findings.patience = options.paper.patience;
   findings.ways = paper_ways(options.paper.radius, options.paper.split_radius);
   for (const PaperRow& row : rows) {
-    const auto& wanted = options.rows;
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), row.name) == wanted.end()) continue;
     RowFindings& found = findings.rows.emplace_back();
     found.row = &row;
     if (!row.load) continue;
@@ -71,7 +92,9 @@ PaperFindings find(const Options& options, const std::vector<PaperRow>& rows) {
 }
 
 app::ExitStatus run(const Options& options) {
-  const std::vector<PaperRow> rows = paper_rows(options.paper.wasm);
+  const std::vector<PaperRow> rows = asked_rows(options);
+  const std::filesystem::path scene = options.paper.scene;
+  if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
   const PaperFindings findings = find(options, rows);
   if (options.json) {
     app::print(paper_json(findings));
@@ -83,9 +106,10 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "The scene is laid out in a scratch folder: as a file and a store for roam, as osgb files for the others. Each\n"
-    "row then runs in a process of its own. Rows that cannot be run are named, and so are rows that take more than\n"
-    "they may. When all have ended, the scene is read once more, and their ways are judged by it.\n"
+    "The scene is laid out in a scratch folder, in the files that the rows asked for read: a PLY and a store for\n"
+    "roam, osgb for OpenSceneGraph, Bullet and PhysX, .mesh for OGRE. Each row then runs in a process of its own.\n"
+    "Rows that cannot be run are named, and so are rows that take more than they may. When all have ended, the\n"
+    "scene is read once more, and their ways are judged by it.\n"
     "docs/paper.md explains the cells, and sets them beside the printed ones.\n\n"
     "Exit status 3: roam itself was in a wall; 1: also when a row of roam's own failed.\n\n"
     "Examples:\n"
@@ -100,18 +124,20 @@ void add_paper(CLI::App& program, app::Run& run) {
   verb->footer(help);
   const auto options = std::make_shared<Options>();
   PaperOptions& paper = options->paper;
-  verb->add_option("--scene", paper.scene, "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
-      ->type_name("FILE");
-  verb->add_option("--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB (default: 2M)")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}}))
-      ->type_name("N");
+  CLI::Option* scene = verb->add_option("--scene", paper.scene,
+                                        "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
+                           ->type_name("FILE");
+  constexpr std::uint64_t least = 50'000;  // with fewer the gallery leaves out the grotto of the last two ways
+  add_triangles(*verb, "--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB", least)
+      ->excludes(scene);
   verb->add_option("--rows", options->rows, "Which rows, separated by commas (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(row_names()));
-  verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(app::positive);
+  const CLI::Validator free_at_the_start = from_to(0.01, 0.9);  // m: the floor is 0.95 m below the paths
+  verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(free_at_the_start);
   verb->add_option("--split-radius", paper.split_radius, "Of the sphere that is to cross the split, metres")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(free_at_the_start);
   verb->add_option("--patience", paper.patience, "Seconds: a way that takes longer is ended")
       ->capture_default_str()
       ->check(app::positive);
@@ -120,6 +146,7 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->check(app::positive);
   verb->add_option("--memory", paper.memory, "A row that takes more is ended (default: three quarters of what is free)")
       ->transform(CLI::AsSizeValue(false))
+      ->check(from_to<std::uint64_t>(1u << 20, 1ull << 50))
       ->type_name("BYTES");
   verb->add_option("--wasm-engines", paper.wasm, "The folder whose node_modules hold PhysX: physx-js-webidl, from npm")
       ->type_name("DIR");

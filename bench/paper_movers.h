@@ -17,11 +17,14 @@ namespace roam::bench {
 /// Added to Table 1's coordinates for engines that compute in floats: 13.7 km from the origin these are 1 mm apart.
 inline const Vec3 paper_shift{13121.5, -909.5, -182.0};
 
-/// The scene, as the command lays it out for its rows.
+/// What a row reads: the scene's file, a store of it, tiles for OpenSceneGraph, tiles for OGRE.
+enum class Reads : std::uint8_t { file, store, osgb, ogre };
+
+/// The scene, as the command lays it out for its rows. What none of them reads, but for the file, is not there.
 struct PaperScene {
-  std::string scene;           ///< what roam reads: a file
-  std::string store;           ///< the same as a store
-  std::string tiles;           ///< a folder of files, shifted: osgb and OGRE's, one a mesh, and paged.osgb of them all
+  std::string scene;  ///< what roam reads: a file
+  std::string store;  ///< the same as a store
+  std::string tiles;  ///< a folder of files, shifted: osgb and OGRE's, one a mesh, and paged.osgb of the former
   std::size_t tile_count = 0;  ///< 0.osgb, 0.mesh, 1.osgb, ...
   std::uint64_t memory = 0;    ///< bytes that pagers may take
 };
@@ -31,6 +34,7 @@ struct PaperRow {
   std::string title;    ///< of the tables
   std::string how;      ///< what moves the sphere, and where the scene is
   std::string missing;  ///< empty, or what to install
+  Reads reads = Reads::osgb;
   std::function<Mover(const PaperScene&)> load{};
 };
 /// `wasm`: the folder whose node_modules hold PhysX; empty: nowhere.
@@ -56,14 +60,14 @@ using TileReader = std::function<void(const PaperScene& scene, const std::functi
 void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 void read_ogre_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 
-/// Writes the folder of PaperScene::tiles mesh by mesh; returns how many there are.
+/// Writes OpenSceneGraph's files into the folder of PaperScene::tiles, mesh by mesh.
 class TileWriter {
  public:
   explicit TileWriter(std::string folder);
   ~TileWriter();
   void add(const Mesh& mesh);
   /// Writes paged.osgb.
-  std::size_t finish();
+  void finish();
 
  private:
   struct State;

@@ -100,11 +100,10 @@ void TileWriter::add(const Mesh& mesh) {
   state_->paged->addChild(page);
 }
 
-std::size_t TileWriter::finish() {
+void TileWriter::finish() {
   if (!osgDB::writeNodeFile(*state_->paged, state_->folder + "/paged.osgb")) {
     throw Error("cannot write " + state_->folder + "/paged.osgb; check the free space");
   }
-  return state_->count;
 }
 
 Mover paper_method(const PaperScene& scene, Graph graph) {

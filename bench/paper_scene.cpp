@@ -57,17 +57,17 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, ignored);
 }
 
-LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
+LaidOut lay_out(const PaperOptions& options, const std::set<Reads>& read, const std::string& folder) {
   const auto start = std::chrono::steady_clock::now();
   LaidOut laid;
   laid.scene.memory = 64ull << 20;
   laid.scene.tiles = folder + "/tiles";
   laid.scene.store = folder + "/scene.roam";
   fs::create_directory(laid.scene.tiles);
-  TileWriter tiles(laid.scene.tiles);
-  std::function<void(const Mesh&)> write_for_ogre = [](const Mesh&) {};
+  TileWriter osgb(laid.scene.tiles);
+  std::function<void(const Mesh&)> write_for_ogre;
 #ifdef ROAM_BENCH_OGRE
-  write_for_ogre = ogre_tile_writer(laid.scene.tiles);
+  if (read.contains(Reads::ogre)) write_for_ogre = ogre_tile_writer(laid.scene.tiles);
 #endif
   const std::vector<Way> ways = paper_ways(options.radius, options.split_radius);
   bool anything_near = false;
@@ -75,8 +75,9 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
     app::stop_if_interrupted();
     laid.triangles += mesh.triangles.size();
     anything_near = anything_near || near(ways, mesh);
-    tiles.add(mesh);
-    write_for_ogre(mesh);
+    ++laid.scene.tile_count;
+    if (read.contains(Reads::osgb)) osgb.add(mesh);
+    if (write_for_ogre) write_for_ogre(mesh);
   };
   const auto goes_on = [](const auto&) { return !app::interrupted(); };
   fmt::print(stderr, "laying out the scene in {}\n", folder);
@@ -96,12 +97,14 @@ LaidOut lay_out(const PaperOptions& options, const std::string& folder) {
         "the scene has nothing near the three paths of the paper's Table 1: it must be at their coordinates, "
         "metres, z up");
   }
-  laid.scene.tile_count = tiles.finish();
-  StoreBuildOptions build;
-  build.scene = {laid.scene.scene};
-  build.output = laid.scene.store;
-  build.progress = goes_on;
-  build_store(build);
+  if (read.contains(Reads::osgb)) osgb.finish();
+  if (read.contains(Reads::store)) {
+    StoreBuildOptions build;
+    build.scene = {laid.scene.scene};
+    build.output = laid.scene.store;
+    build.progress = goes_on;
+    build_store(build);
+  }
   laid.prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return laid;
 }

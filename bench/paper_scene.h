@@ -3,6 +3,7 @@
 /// The scene of the paper's experiments, laid out for those who are to move in it.
 
 #include <functional>
+#include <set>
 
 #include "paper_movers.h"
 #include "roam/mesh.h"
@@ -42,8 +43,9 @@ struct LaidOut {
   PaperScene scene;
 };
 
-/// Writes the files into `folder`. Throws roam::Error, and roam::Cancelled after Ctrl-C.
-[[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::string& folder);
+/// Writes what is to be read into `folder`, and the scene's file where it is made. Throws roam::Error, and
+/// roam::Cancelled after Ctrl-C.
+[[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::set<Reads>& read, const std::string& folder);
 
 /// The scene that roam's rows read, mesh by mesh, in bounded memory. Throws as lay_out does.
 void stream_laid_out(const PaperScene& scene, const std::function<void(const Mesh&)>& take);

@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <thread>
 
 #include "program.h"
 
@@ -87,6 +91,7 @@ TEST(BenchEngines, NamesEnginesThatAreNotHereAndWhatToInstall) {
   const ProgramResult elsewhere = bench(with(small, {"--engines", "physx", "--wasm-engines", folder.file("nothing")}));
   EXPECT_EQ(elsewhere.status, 1);
   EXPECT_TRUE(says(elsewhere.err, "none of the engines")) << elsewhere.err;
+  EXPECT_TRUE(says(elsewhere.err, "npm install --prefix " + folder.file("nothing"))) << elsewhere.err;
 }
 
 TEST(BenchEngines, PrintsATableAndDrawsBars) {
@@ -195,6 +200,58 @@ TEST(BenchPaper, EndsARowThatTakesMoreThanItMay) {
   }
 }
 
+/// The kinds of files that are in a folder at some time while `work` is done, by their extensions.
+template <class Work>
+std::set<std::string> kinds_meanwhile(const std::string& folder, const Work& work) {
+  namespace fs = std::filesystem;
+  std::set<std::string> kinds;
+  std::atomic<bool> done = false;
+  std::thread look([&] {
+    while (!done) {
+      try {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+          kinds.insert(entry.path().extension());
+        }
+      } catch (const fs::filesystem_error&) {
+        // It went while it was looked at.
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  work();
+  done = true;
+  look.join();
+  return kinds;
+}
+
+TEST(BenchPaper, LaysOutOnlyWhatTheRowsRead) {
+  for (const auto& [row, reads] :
+       {std::pair{"roam", ".ply"}, {"roam-store", ".roam"}, {"polytope-kdtree", ".osgb"}, {"ogre-bullet", ".mesh"}}) {
+    const TestFolder folder;
+    ProgramResult result;
+    const std::set<std::string> kinds = kinds_meanwhile(folder.file(""), [&] {
+      result = bench({"paper", "--triangles", "50k", "--rows", row, "--scratch", folder.file("")});
+    });
+    if (row == std::string("ogre-bullet") && result.status == 1) {
+      EXPECT_TRUE(says(result.err, "libogre")) << result.err;
+      continue;
+    }
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const char* kind : {".ply", ".roam", ".osgb", ".mesh"}) {
+      const bool wanted = kind == std::string(".ply") || kind == std::string(reads);
+      EXPECT_EQ(kinds.contains(kind), wanted) << row << " " << kind;
+    }
+  }
+}
+
+TEST(BenchPaper, SaysAtOnceThatNoneOfItsRowsCanBeRun) {
+  const ProgramResult result = bench({"paper", "--rows", "unity,physx"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(says(result.err, "unity: it cannot be run")) << result.err;
+  EXPECT_TRUE(says(result.err, "physx: `npm install")) << result.err;
+  EXPECT_FALSE(says(result.err, "laying out")) << result.err;
+}
+
 /// Interrupts that command after each of some times, and looks at what is left.
 void expect_to_end_on_ctrl_c(std::vector<std::string> arguments, const std::vector<double>& seconds) {
   arguments.insert(arguments.begin(), "bench");
@@ -243,8 +300,44 @@ TEST(BenchScale, GoesFromMemoryToAStoreAndDrawsIt) {
     EXPECT_GT(size["bytes"], 0);
     for (const char* what : {"sweep", "clearance", "step"}) EXPECT_GE(size[what]["p99_us"], size[what]["p50_us"]);
   }
-  EXPECT_TRUE(folder.read("scale.svg").starts_with("<svg"));
+  const std::string svg = folder.read("scale.svg");
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  const std::regex circle("cx=\"([^\"]*)\" cy=\"([^\"]*)\"");
+  int circles = 0;
+  for (std::sregex_iterator found(svg.begin(), svg.end(), circle), none; found != none; ++found, ++circles) {
+    EXPECT_GE(std::stod((*found)[1]), 70.0) << "left of its axis: " << found->str();
+    EXPECT_LE(std::stod((*found)[1]), 530.0) << found->str();
+    EXPECT_GE(std::stod((*found)[2]), 40.0) << found->str();
+    EXPECT_LE(std::stod((*found)[2]), 340.0) << "below its axis: " << found->str();
+  }
+  EXPECT_EQ(circles, 4) << "median and p99 of two sizes";
   EXPECT_EQ(bench({"scale", "--least", "2M", "--triangles", "1M"}).status, 2);
+}
+
+TEST(BenchVerbs, RefuseBeforeAnyWorkWhatCanOnlyFail) {
+  const TestFolder folder;
+  for (const char* verb : {"engines", "paper", "scale"}) {
+    const ProgramResult nowhere = bench({verb, "--picture", folder.file("no/such/folder.svg")});
+    EXPECT_EQ(nowhere.status, 2) << nowhere.err;
+    EXPECT_TRUE(says(nowhere.err, "there is no folder")) << nowhere.err;
+    for (const char* count : {"0", "-5", "9999", "2000M", "many"}) {
+      const ProgramResult result = bench({verb, "--triangles", count});
+      EXPECT_EQ(result.status, 2) << verb << " " << count << ": " << result.err;
+      EXPECT_TRUE(says(result.err, "--triangles")) << result.err;
+    }
+  }
+  using Words = std::vector<std::string>;
+  for (const Words& words :
+       {Words{"engines", "--queries", "0"}, Words{"engines", "--queries", "1000000000000"},
+        Words{"engines", "--rounds", "-1"}, Words{"engines", "--origin", "nan,0,0"},
+        Words{"engines", "--origin", "1e300,0,0"}, Words{"paper", "--triangles", "49k"},
+        Words{"paper", "--radius", "5"}, Words{"paper", "--split-radius", "nan"}, Words{"paper", "--memory", "8"},
+        Words{"paper", "--triangles", "1M", "--scene", "own.ply"}, Words{"scale", "--rounds", "0"},
+        Words{"scale", "--pager", "1"}, Words{"scale", "--speed", "1e-9"}}) {
+    const ProgramResult result = bench(words);
+    EXPECT_EQ(result.status, 2) << words[0] << " " << words[1] << " " << words[2] << ": " << result.err;
+    EXPECT_TRUE(says(result.err, words[1])) << result.err;
+  }
 }
 
 #endif
