@@ -55,7 +55,7 @@ Axis axis_of(const std::vector<BarGroup>& groups) {
     }
   }
   if (least > greatest) return {};
-  // A tenth less, so that the shortest bar can be seen.
+  // Half of it, so that the shortest bar can be seen.
   const int from = static_cast<int>(std::floor(std::log10(0.5 * least)));
   return {from, std::max(from + 1, static_cast<int>(std::ceil(std::log10(greatest))))};
 }

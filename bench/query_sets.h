@@ -2,12 +2,11 @@
 /// \file
 /// The four kinds of sweep that the benchmarks ask, made from the scene with a fixed seed.
 ///
-/// | set | body | motion | start |
-/// |---|---|---|---|
-/// | random | sphere, r 0.2-1 m | 0.05-2 m, any direction | within 3 m of a surface |
-/// | coherent | sphere, r 0.3-0.5 m, 100 walkers | 1.5-50 m/s at 60 Hz, turning where they hit | where the last step
-/// ended | | long | sphere, r 0.2-1 m | 50 m, any direction | within 3 m of a surface | | capsule | r 0.3 m, height 1.8
-/// m | 0.05-2 m, any direction | within 3 m of a surface |
+///     set       body                             motion                               start
+///     random    sphere, r 0.2-1 m                0.05-2 m, any direction              within 3 m of a surface
+///     coherent  sphere, r 0.3-0.5 m, 100 walkers 1.5-50 m/s at 60 Hz, turning at hits where the last step ended
+///     long      sphere, r 0.2-1 m                50 m, any direction                  within 3 m of a surface
+///     capsule   r 0.3 m, height 1.8 m            0.05-2 m, any direction              within 3 m of a surface
 ///
 /// All ranges are uniform. A start is a random point of a random triangle (each as likely as any other, so that the
 /// queries are where the detail is), moved by 0-3 m in a random direction, on either side of the surface; it is taken

@@ -19,7 +19,8 @@ struct RowResult {
 /// started, and roam::Cancelled after Ctrl-C: then the row has ended, too.
 [[nodiscard]] RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options);
 
-/// What the child does: walks all ways and writes the result to the descriptor `out`. `argv` as run_row passes it.
+/// What the child does: walks all ways and writes the result to the descriptor that run_row gave it. `argv` as run_row
+/// passes it.
 [[nodiscard]] int row_main(int argc, char** argv);
 /// The first argument of such a child.
 inline constexpr const char* row_verb = "--row-of-the-paper";
