@@ -14,6 +14,7 @@ constexpr double ways_ahead = 3.0;
 /// takes longer than it saves.
 constexpr double farthest_reach = 0.25;
 constexpr double longest_way = 0.2;
+static_assert(longest_way <= index::kShortMotion);
 
 /// Metres, beside the errors of the space: far above any rounding.
 constexpr double slack = 1e-2;
@@ -22,8 +23,7 @@ constexpr double slack = 1e-2;
 
 bool Vicinity::State::reach(const Question& q) {
   const bool thin = q.body.half_height == 0.0 && q.body.radius < index::kThinBody;
-  const double longest = largest(q.motion);
-  if (thin || longest > double(index::kShortMotion)) return false;
+  if (thin || q.reach > farthest_reach || largest(q.motion) > longest_way) return false;
   const double r = q.body.radius + q.reach + 2.0 * q.largest_error + slack;
   const Vec3 around(r, r, r + q.body.half_height);
   Box asked;
@@ -31,7 +31,6 @@ bool Vicinity::State::reach(const Question& q) {
   asked.include(q.from + q.motion);
   asked = asked.grown(around);
   if (box.holds(asked.lower) && box.holds(asked.upper)) return true;
-  if (q.reach > farthest_reach || longest > longest_way) return false;
   const Vec3 ahead = q.from + (1.0 + ways_ahead) * q.motion;
   box = asked;
   box.include(ahead - around);
