@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "pager_made.h"
 #include "roam/generate.h"
@@ -275,8 +276,19 @@ TEST(PagerVicinity, NeverAnswersFromAnotherStore) {
   };
   Stored low("low", shifted(0.0)), high("high", shifted(0.05));
   Pager one(low.store, {.memory = 64 << 20}), other(high.store, {.memory = 64 << 20});
-  ASSERT_NO_FATAL_FAILURE(made::load_all(one));
-  ASSERT_NO_FATAL_FAILURE(made::load_all(other));
+  // What it is known by that a store is another one, or has changed.
+  const auto revisions = [](Pager& pager) {
+    std::set<std::uint64_t> all{pager.revision()};
+    const auto tiles = pager.store().info().tiles;
+    EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, Vec3(0.0), [&] {
+      all.insert(pager.revision());
+      return pager.stats().tiles == tiles;
+    }));
+    return all;
+  };
+  const std::set<std::uint64_t> of_one = revisions(one);
+  EXPECT_GT(of_one.size(), 1U);
+  for (const std::uint64_t revision : revisions(other)) EXPECT_FALSE(of_one.contains(revision));
   judged::NearJudge judge_one(low.mesh), judge_other(high.mesh);
   Vicinity vicinity;
   long hits = 0;
