@@ -148,7 +148,7 @@ class Judged {
     for (int i = 0; i < kept.roots.count; ++i) {
       const roam::index::Root& root = kept.roots.root[static_cast<std::size_t>(i)];
       inner += root.node.inner_count;
-      pages = pages || root.index != kept.roots.root[0].index;
+      pages = pages || root.owner != kept.roots.root[0].owner;
     }
     tally.nodes += inner > 0 ? 1 : 0;
     tally.pages += pages ? 1 : 0;

@@ -168,6 +168,25 @@ TEST(WalkerVicinity, TwoThatAreToldTheSameGoTheSameWay) {
   EXPECT_GT(touched, 200);
 }
 
+TEST(WalkerVicinity, OneThatIsPutGoesAsOneThatIsNew) {
+  constexpr int steps = 600;
+  for (std::uint64_t seed = 21; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const World world = build(furnished(seed));
+    Random random(seed);
+    const Vec3 start(0.3, 0.2, 1.2);
+    Walker fresh(world, {}, Mode::walk, start), used(world, {}, Mode::walk, start + Vec3(0.35, -0.3, 0.0));
+    for (int i = 0; i < 7; ++i) (void)used.step({.velocity = {0.4, 0.3, 0.0}}, frame);
+    used.place(start);
+    fresh.place(start);
+    for (const WalkerInput& wish : wishes(random, steps)) {
+      fresh.step(wish, frame);
+      used.step(wish, frame);
+      ASSERT_NO_FATAL_FAILURE(expect_same(fresh, used));
+    }
+  }
+}
+
 /// Metres. What the last digits of single answers make of one step, unless they decide something: whether the body that
 /// hovers about a skin above the ground stays as it is, whether it comes over an edge.
 constexpr double apart_in_a_step = 1e-4;

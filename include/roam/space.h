@@ -132,16 +132,20 @@ class Space {
   /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
   /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
   /// Of what is not positive only the sign counts: where the axis meets something it may be minus the radius, no depth.
-  /// For authors of spaces: Walker makes no sweep along a way of which this is more than 0.05 mm. That the body passes
-  /// nothing rests on it then as it does on sweep().
+  /// For authors of spaces: Walker makes no sweep along a way of which this, or gap_in(), exceeds 0.05 mm. That the
+  /// body passes nothing rests on it then as it does on sweep().
   [[nodiscard]] virtual double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
     return clearance(body, from, motion, reach).distance;
   }
 
   /// sweep() and gap() of a body that asks again from near where it asked last and keeps what lies around it: the same
-  /// promises, and in a World or a Pager less to look at. Within what they leave open an answer may be another, in the
-  /// last digits of a time or by the part that a gap may be told too small: it depends on where a search begins. The
-  /// same questions in the same order, from an equal vicinity on, get the same bits.
+  /// promises, and in a World or a Pager less to look at. Within what they leave open an answer may be another, for it
+  /// depends on where a search begins: a hit by the 0.025 mm by which a body may arrive before it touches, along a
+  /// flat way by more, a gap by the part that it may be told too small. The same questions in the same order, from an
+  /// equal vicinity on and while revision() is the same, get the same bits.
+  ///
+  /// For authors of spaces: Walker asks these. Who wraps a space passes them on too, or, where it answers sweep() and
+  /// gap() otherwise than the space within does, overrides neither.
   [[nodiscard]] virtual Impact sweep_in([[maybe_unused]] Vicinity& vicinity, const Body& body, const Vec3& from,
                                         const Vec3& motion) const {
     return sweep(body, from, motion);

@@ -19,7 +19,7 @@ namespace roam {
 /// gathered anew; who looks or goes far at once is answered by the whole index, as by sweep() and gap(). So it is for
 /// one body that moves by a part of its size at a time: bodies that take turns want one each, and so do threads.
 ///
-/// Takes 2 kB when it is made and no more memory after that. A copy goes on as the original would have. One that was
+/// Takes 1.7 kB when it is made and no more memory after that. A copy goes on as the original would have. One that was
 /// moved from may be assigned to or destroyed, and is as good as none where it is asked in.
 class Vicinity {
  public:
@@ -29,6 +29,10 @@ class Vicinity {
   Vicinity(Vicinity&&) noexcept;
   Vicinity& operator=(const Vicinity& other);
   Vicinity& operator=(Vicinity&&) noexcept;
+
+  /// As when it was made. Answers never need it; who wants the same bits again does, for they depend on what was asked
+  /// before.
+  void forget();
 
   struct State;
   /// For the spaces of this library; null when it was moved from.

@@ -7,7 +7,7 @@
 ///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
-///   - the body only moves along straight pieces that the space has certified free, by Space::sweep or by Space::gap,
+///   - the body only moves along straight pieces that the space has certified free, by Space::sweep_in or gap_in,
 ///     asked of the piece or, in a space that tells its changes, before of what lies around it; so that at every
 ///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report,
 ///     each with its own certified bound;

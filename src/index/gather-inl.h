@@ -21,8 +21,8 @@ namespace roam::index::HWY_NAMESPACE {
 
 class Gathering {
  public:
-  Gathering(const Index& index, std::uint32_t number, const Box& box, Roots& out)
-      : index_(index), number_(number), from_(box.lower), reach_(box.size(), 0.0, 0.0), out_(out) {}
+  Gathering(const Index& index, std::uint32_t owner, const Box& box, Roots& out)
+      : index_(index), owner_(owner), from_(box.lower), reach_(box.size(), 0.0, 0.0), out_(out) {}
 
   bool run() {
     const float margin = round_up(margin_of(index_));
@@ -109,7 +109,7 @@ class Gathering {
   void make(Root& root, std::uint32_t tile, const std::array<Part, kWidth>& parts, int count) const {
     std::array<StepBox, kWidth> boxes;
     root.tile = tile;
-    root.index = number_;
+    root.owner = owner_;
     root.node = {};
     root.node.child_count = static_cast<std::uint8_t>(count);
     int at = 0;
@@ -125,7 +125,7 @@ class Gathering {
   }
 
   const Index& index_;
-  std::uint32_t number_;
+  std::uint32_t owner_;
   Vec3 from_;
   Reach reach_;
   Roots& out_;

@@ -15,7 +15,7 @@ struct Root {
   Node node;                                 ///< of which first_node and first_leaf mean nothing
   std::array<std::uint32_t, kWidth> number;  ///< of each child, as in the tile
   std::uint32_t tile;
-  std::uint32_t index;  ///< which of several it is of, as gather() was told
+  std::uint32_t owner;  ///< the index that the tile is of, by the number that gather() was told
 };
 
 /// All that lies in a box, that of each index together.

@@ -85,18 +85,22 @@ class SweepTraversal {
       leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
     };
     if (gathered == nullptr) return search(stack_, beyond, visit);
-    stack_.clear();
-    Children children;
-    look_at(gathered->node, frame, swept, grown, children);
-    push_children(*gathered, children, nodes, leaves, stack_);
+    begin(*gathered, frame, swept, grown, nodes, leaves);
     go_on(stack_, beyond, visit);
   }
 
-  /// Which children of a node that was gathered a short motion may meet.
-  HWY_INLINE void look_at(const Node& node, const Frame& frame, const Swept& swept, float grown, Children& out) const {
-    const std::uint32_t met = met_children(node, swept);
-    if ((met & (met - 1)) == 0) return out.take(met);
-    choose(node, frame, met, grown, out);
+  /// Begins with what was gathered of a tile.
+  HWY_INLINE void begin(const Root& root, const Frame& frame, const Swept& swept, float grown, const Block* nodes,
+                        const Block* leaves) {
+    Children children;
+    const std::uint32_t met = met_children(root.node, swept);
+    if ((met & (met - 1)) == 0) {
+      children.take(met);
+    } else {
+      choose(root.node, frame, met, grown, children);
+    }
+    stack_.clear();
+    push_children(root, children, nodes, leaves, stack_);
   }
 
   /// Of several children that a short motion may meet, which and when.

@@ -1,5 +1,9 @@
 #include "index/traverse.h"
 
+#include <cassert>
+
+#include "math/largest.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/traverse.cpp"
 #include <hwy/foreach_target.h>
@@ -12,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
 Impact FirstImpact(const Index& index, const Piece& piece, double until) {
-  const bool ray = piece.body.half_height == 0.0 && piece.body.radius < kThinBody;
-  return ray ? SweepTraversal<Ray>(index, piece, until).run() : SweepTraversal<NoRay>(index, piece, until).run();
+  return is_thin(piece.body) ? SweepTraversal<Ray>(index, piece, until).run()
+                             : SweepTraversal<NoRay>(index, piece, until).run();
 }
 
 double VisitNear(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
@@ -21,11 +25,12 @@ double VisitNear(const Index& index, const Piece& piece, double reach, double pa
                     : NearTraversal<Tight>(index, piece, reach, part, visit, context).run();
 }
 
-bool Gather(const Index& index, std::uint32_t number, const Box& box, Roots& out) {
-  return Gathering(index, number, box, out).run();
+bool Gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out) {
+  return Gathering(index, owner, box, out).run();
 }
 
 Impact FirstImpactFrom(const Index& index, std::span<const Root> roots, const Piece& piece, double until) {
+  assert(!is_thin(piece.body) && largest(piece.motion) <= double(kShortMotion));
   return SweepTraversal<NoRay>(index, piece, until).run(roots);
 }
 
@@ -55,8 +60,8 @@ double visit_near(const Index& index, const Piece& piece, double reach, double p
   return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, part, visit, context);
 }
 
-bool gather(const Index& index, std::uint32_t number, const Box& box, Roots& out) {
-  return HWY_DYNAMIC_DISPATCH(Gather)(index, number, box, out);
+bool gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out) {
+  return HWY_DYNAMIC_DISPATCH(Gather)(index, owner, box, out);
 }
 
 Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece, double until) {

@@ -11,6 +11,7 @@
 
 #include "index/block.h"
 #include "index/grid.h"
+#include "index/margin.h"
 #include "index/roots.h"
 #include "roam/sweep.h"
 #include "sweep/certified.h"
@@ -65,10 +66,13 @@ struct Impact {
 /// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
-/// Adds what of an index, by the number that the caller gives it, meets a box of a few metres, so that first_impact()
-/// and visit_near() of what stays in the box begin there. False where there are too many tiles or one is absent: then
-/// `out` means nothing.
-[[nodiscard]] bool gather(const Index& index, std::uint32_t number, const Box& box, Roots& out);
+/// Spheres so thin are asked about as rays are.
+[[nodiscard]] inline bool is_thin(const Body& body) { return body.half_height == 0.0 && body.radius < kThinBody; }
+
+/// Adds what of an index, which its caller calls by the number `owner`, meets a box of a few tens of metres at most, so
+/// that first_impact() and visit_near() of what stays in the box begin there. False where there are too many tiles or
+/// one is absent: then `out` means nothing.
+[[nodiscard]] bool gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out);
 
 /// The first impact as above, beginning at the roots of this index that were gathered for a box in which the body stays
 /// with all errors of tiles. The piece is at most kShortMotion long, the body not thin.

@@ -346,6 +346,7 @@ const StepReport& Walker::placed(const Vec3& at, double lift) {
   position_ = at + Vec3(0.0, 0.0, lift * height);
   take_size_here();
   stance_ = {};
+  vicinity_.forget();
   release();
   safe_.height = footing_.height = 0.0;
   looked_at_ = space_->revision();

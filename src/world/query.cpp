@@ -236,7 +236,8 @@ Clearance clearance_of(const Contact* nearest, double reach) {
 
 namespace {
 
-const index::Roots* roots_in(Vicinity& vicinity, const WorldData& world, const Body& body, const Vec3& from,
+/// Where the search in a world begins.
+const index::Roots* of_world(Vicinity& vicinity, const WorldData& world, const Body& body, const Vec3& from,
                              const Vec3& motion, double reach) {
   const Question question{body, from, motion, reach, world.stats.largest_error_m, world.revision};
   return roots_in(vicinity, question, [&](const Box& box, index::Roots& out) {
@@ -273,12 +274,13 @@ double World::gap(const Body& body, const Vec3& from, const Vec3& motion, double
 
 Impact World::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
   query::check(body, from, motion);
-  return query::first_impact(*data_, {body, from, motion}, roots_in(vicinity, *data_, body, from, motion, 0.0));
+  return query::first_impact(*data_, {body, from, motion},
+                             of_world(vicinity, *data_, body, from, motion, query::hit_reach));
 }
 
 double World::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, from, way}, 0, collector, roots_in(vicinity, *data_, body, from, way, reach));
+    query::collect(*data_, {body, from, way}, 0, collector, of_world(vicinity, *data_, body, from, way, reach));
   });
 }
 

@@ -28,6 +28,8 @@ struct Way {
 void check(const Body& body, const Vec3& from, const Vec3& motion);
 void check_reach(double reach);
 
+/// Metres. A hit is of something that is this near at most, and so is what is looked for to name the deepest.
+inline constexpr double hit_reach = 2e-3;
 /// Metres. How much less than the true gap Space::clearance may answer, the rounding of the arithmetic apart.
 inline constexpr double clearance_tolerance = 1.99e-3;
 /// The same in a lossless world or store.

@@ -1,6 +1,6 @@
 #include "world/vicinity.h"
 
-#include "index/margin.h"
+#include "index/traverse.h"
 #include "math/largest.h"
 
 namespace roam {
@@ -10,10 +10,11 @@ namespace {
 constexpr double spare = 0.25;
 constexpr double ways_ahead = 3.0;
 
-/// Metres. Who looks farther, or goes farther at a time, leaves the box so soon, or meets so much of it, that to gather
-/// takes longer than it saves.
+/// Metres. Who looks farther, goes farther at a time, or is wider or higher by half, leaves the box so soon, or meets
+/// so much of it, that to gather takes longer than it saves.
 constexpr double farthest_reach = 0.25;
 constexpr double longest_way = 0.2;
+constexpr double largest_body = 16.0;
 static_assert(longest_way <= index::kShortMotion);
 
 /// Metres, beside the errors of the space: far above any rounding.
@@ -21,9 +22,9 @@ constexpr double slack = 1e-2;
 
 }  // namespace
 
-bool Vicinity::State::reach(const Question& q) {
-  const bool thin = q.body.half_height == 0.0 && q.body.radius < index::kThinBody;
-  if (thin || q.reach > farthest_reach || largest(q.motion) > longest_way) return false;
+bool Vicinity::State::cover(const Question& q) {
+  const bool far = q.reach > farthest_reach || largest(q.motion) > longest_way;
+  if (far || index::is_thin(q.body) || q.body.radius + q.body.half_height > largest_body) return false;
   const double r = q.body.radius + q.reach + 2.0 * q.largest_error + slack;
   const Vec3 around(r, r, r + q.body.half_height);
   Box asked;
@@ -44,7 +45,17 @@ Vicinity::Vicinity() : state_(std::make_unique<State>()) {}
 Vicinity::~Vicinity() = default;
 Vicinity::Vicinity(const Vicinity& other) : state_(other.state_ ? std::make_unique<State>(*other.state_) : nullptr) {}
 Vicinity::Vicinity(Vicinity&&) noexcept = default;
-Vicinity& Vicinity::operator=(const Vicinity& other) { return *this = Vicinity(other); }
+Vicinity& Vicinity::operator=(const Vicinity& other) {
+  if (state_ && other.state_) {
+    *state_ = *other.state_;
+    return *this;
+  }
+  return *this = Vicinity(other);
+}
 Vicinity& Vicinity::operator=(Vicinity&&) noexcept = default;
+
+void Vicinity::forget() {
+  if (state_) *state_ = State();
+}
 
 }  // namespace roam

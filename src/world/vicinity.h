@@ -9,7 +9,7 @@
 
 namespace roam {
 
-/// What a body asks for: what is within `reach` (m) of it on its way.
+/// What a body asks for: what is within `reach` (m) of it on its way. Of a sweep that is hit_reach.
 struct Question {
   const Body& body;
   const Vec3& from;
@@ -25,8 +25,9 @@ struct Vicinity::State {
   bool complete = false;       ///< they hold all that meets the box
   index::Roots roots;
 
-  /// Whether the question can be answered within the box, which is moved there if that is worth while.
-  [[nodiscard]] bool reach(const Question& question);
+  /// Whether the question can be answered within the box, which is moved there where it is not. False for what is too
+  /// far or too wide for a vicinity.
+  [[nodiscard]] bool cover(const Question& question);
 };
 
 /// Where the search for an answer begins; null: with everything. gather(box, roots) adds what meets the box and returns
@@ -34,7 +35,7 @@ struct Vicinity::State {
 template <class Gather>
 [[nodiscard]] const index::Roots* roots_in(Vicinity& vicinity, const Question& question, const Gather& gather) {
   Vicinity::State* const kept = vicinity.state();
-  if (kept == nullptr || !kept->reach(question)) return nullptr;
+  if (kept == nullptr || !kept->cover(question)) return nullptr;
   if (kept->revision != question.revision) {
     kept->revision = question.revision;
     kept->roots.count = 0;

@@ -49,8 +49,8 @@ template <class Visit>
 void each_page(const index::Roots& roots, const Visit& visit) {
   const index::Root* const end = roots.root.data() + roots.count;
   for (const index::Root* begin = roots.root.data(); begin != end;) {
-    const std::uint32_t page = begin->index;
-    const index::Root* const last = std::find_if(begin, end, [page](const index::Root& r) { return r.index != page; });
+    const std::uint32_t page = begin->owner;
+    const index::Root* const last = std::find_if(begin, end, [page](const index::Root& r) { return r.owner != page; });
     visit(page, std::span(begin, last));
     begin = last;
   }

@@ -281,7 +281,7 @@ PagedScene Pager::State::scene_in(Vicinity& vicinity, const Body& body, const Ve
 
 Impact Pager::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
   query::check(body, from, motion);
-  PagedScene scene = state_->scene_in(vicinity, body, from, motion, 0.0);
+  PagedScene scene = state_->scene_in(vicinity, body, from, motion, query::hit_reach);
   return query::impact_of(scene, {body, from, motion});
 }
 

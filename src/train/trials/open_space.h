@@ -26,6 +26,14 @@ class OpenSpace final : public Space {
   [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
     return world_.gap(body, from, motion, reach);
   }
+  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
+                                const Vec3& motion) const override {
+    return world_.sweep_in(vicinity, body, from, motion);
+  }
+  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
+                              double reach) const override {
+    return world_.gap_in(vicinity, body, from, motion, reach);
+  }
   using Space::floor_clearance;
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
                                           const Floor& floor) const override {
