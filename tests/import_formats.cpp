@@ -58,13 +58,30 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
     EXPECT_TRUE(notes_contain(scene, "its unit is 0.0254 m"));
     EXPECT_EQ(notes_contain(scene, "axis is up"), up != "Z_UP");
     // Words for the command line and for a program.
-    EXPECT_TRUE(notes_contain(scene, "read it with its unit (--unit "));
+    EXPECT_TRUE(notes_contain(scene, "read it with its unit (--unit in)"));
     EXPECT_EQ(notes_contain(scene, "read it with up = y (--up y)"), up == "Y_UP");
   }
   const auto file = folder.write("floor.dae", collada("Y_UP", "0.0254"));
   const Scene told = import_scene(file, {.up = UpAxis::y, .unit = LengthUnit::in});
   EXPECT_TRUE(told.report.notes.empty());
   EXPECT_EQ(triangles_of(told)[0][0], Vec3(10 * 0.0254, -30 * 0.0254, 20 * 0.0254));
+}
+
+TEST(ImportFormats, NamesTheUnitThatAFileStatesAsTheCommandLineDoes) {
+  const TemporaryFolder folder;
+  const auto note = [&](const std::string& metres, LengthUnit read_as) {
+    const auto& notes =
+        import_scene(folder.write("floor.dae", collada("Z_UP", metres)), {.unit = read_as}).report.notes;
+    return notes.empty() ? std::string() : notes.front();
+  };
+  for (const auto& [metres, name] : {std::pair("0.01", "cm"), std::pair("0.001", "mm"), std::pair("0.3048", "ft"),
+                                     std::pair("0.02539999969", "in")}) {
+    EXPECT_NE(note(metres, LengthUnit::m).find(std::string("(--unit ") + name + ")"), std::string::npos) << metres;
+  }
+  EXPECT_NE(note("1", LengthUnit::ft).find("(--unit m)"), std::string::npos);
+  const std::string yards = note("0.9144", LengthUnit::m);
+  EXPECT_NE(yards.find("its unit is 0.9144 m"), std::string::npos) << yards;
+  EXPECT_EQ(yards.find("(--unit"), std::string::npos) << yards << ": there is no such unit to say";
 }
 
 TEST(ImportFormats, LeavesFbxAsItIsAndSaysWhatItStates) {

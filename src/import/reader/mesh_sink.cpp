@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "roam/world.h"
 
@@ -25,6 +26,22 @@ constexpr unsigned remembered_bits = 16;
 constexpr auto progress_interval = std::chrono::milliseconds(100);
 /// Sentences that report_note_once keeps apart.
 constexpr std::size_t said_limit = 100;
+
+bool same_unit(double stated, double metres) {
+  // Files round what they state: inches are 0.02539999969 m in some.
+  constexpr double stated_rounding = 1e-6;
+  return std::abs(stated - metres) <= stated_rounding * metres;
+}
+
+/// What the command line calls a unit of so many metres; empty where it has no name for it.
+std::string_view unit_of(double metres) {
+  constexpr std::pair<std::string_view, double> units[] = {
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}};
+  for (const auto& [name, length] : units) {
+    if (same_unit(metres, length)) return name;
+  }
+  return {};
+}
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
@@ -75,13 +92,13 @@ void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<doubl
                     file, axis, axis, axis));
   }
   const double read_as = settings_.metres_per_unit;
-  // Files round what they state: inches are 0.02539999969 m in some.
-  constexpr double stated_rounding = 1e-6;
-  if (metres_per_unit && std::abs(*metres_per_unit - read_as) > stated_rounding * read_as) {
+  if (metres_per_unit && !same_unit(*metres_per_unit, read_as)) {
+    const std::string_view unit = unit_of(*metres_per_unit);
     report_note(
-        fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. If the file "
-                    "is right, read it with its unit (--unit m, cm, mm, ft or in).",
-                    file, *metres_per_unit, read_as));
+        fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. If the file is right, {}.",
+                    file, *metres_per_unit, read_as,
+                    unit.empty() ? "scale it to metres first: none of m, cm, mm, ft and in is its unit"
+                                 : fmt::format("read it with its unit (--unit {})", unit)));
   }
 }
 
