@@ -179,7 +179,10 @@ TEST(WalkerVicinity, OneThatIsPutGoesAsOneThatIsNew) {
     for (int i = 0; i < 7; ++i) (void)used.step({.velocity = {0.4, 0.3, 0.0}}, frame);
     used.place(start);
     fresh.place(start);
+    ASSERT_NO_FATAL_FAILURE(expect_same(fresh, used));
+    int i = 0;
     for (const WalkerInput& wish : wishes(random, steps)) {
+      SCOPED_TRACE(i++);
       fresh.step(wish, frame);
       used.step(wish, frame);
       ASSERT_NO_FATAL_FAILURE(expect_same(fresh, used));

@@ -346,6 +346,7 @@ const StepReport& Walker::placed(const Vec3& at, double lift) {
   position_ = at + Vec3(0.0, 0.0, lift * height);
   take_size_here();
   stance_ = {};
+  known_ = {};
   vicinity_.forget();
   release();
   safe_.height = footing_.height = 0.0;
@@ -355,6 +356,7 @@ const StepReport& Walker::placed(const Vec3& at, double lift) {
   if (mode_ != Mode::ghost) fit_in();
   if (!held_ && space_->fits(body(), position_)) remember_safe();
   settle();
+  known_.forget_place();  // what is told is the clearance there, wherever the body came from
   finish();
   return report_;
 }
