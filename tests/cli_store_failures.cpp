@@ -223,4 +223,54 @@ TEST_F(StoreFailures, SweepsAreAnsweredWhereTheNamesOfTrianglesCannotBeRead) {
   EXPECT_TRUE(contains(told.err, "parts/")) << told.err;
 }
 
+TEST_F(StoreVerbs, WhatCannotBeVerifiedIsNamedBehindTheReportOfAWalkThatEnded) {
+  const TestFolder folder;
+  const std::string bad = copy(folder), start = folder.write("start.path", "-13739 253 182\n-13736 256.2 182\n");
+  const std::vector<std::string> walk{"walk", bad, "--path", start, "--mode", "fly", "--speed", "20"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), walk.begin(), walk.end());
+    return run(more);
+  };
+  // A tile beside the way, which is not met by the body but lies in the box of what is looked through.
+  const fs::path pack = only_pack(bad);
+  std::streamoff at = 0;
+  ProgramResult checked;
+  do {
+    flip(pack, at);
+    checked = with({"--verify", "--json", "--trace", folder.file("way.csv"), "--picture", folder.file("way.svg")});
+    if (checked.status == 1) break;
+    flip(pack, at);
+    at += 256;
+  } while (at < static_cast<std::streamoff>(fs::file_size(pack)));
+  ASSERT_EQ(checked.status, 1) << "nothing was damaged that lies along the way";
+  const auto report = nlohmann::json::parse(checked.out);
+  EXPECT_TRUE(report["violations"].is_null()) << report << ": that is not known";
+  ASSERT_EQ(report["verified"]["unread"].size(), 1U) << report;
+  const std::string unread = report["verified"]["unread"][0];
+  EXPECT_TRUE(contains(unread, "tile ")) << unread;
+  EXPECT_GT(folder.read("way.svg").size(), 5000U);
+  EXPECT_GT(folder.read("way.csv").size(), 100U);
+  EXPECT_TRUE(contains(checked.err, unread) && contains(checked.err, "--against SCENE")) << checked.err;
+  EXPECT_TRUE(contains(checked.err, "roam verify " + bad + " --repair SCENE")) << checked.err;
+  const ProgramResult told = with({"--verify"});
+  EXPECT_EQ(told.status, 1);
+  EXPECT_TRUE(contains(told.out, "0 violations in") && contains(told.out, "that can be read")) << told.out;
+  // What is advised is a way out.
+  const int went = with({}).status;
+  EXPECT_EQ(with({"--against", scene()}).status, went);
+  ASSERT_EQ(run({"verify", bad, "--repair", scene()}).status, 0);
+  EXPECT_EQ(with({"--verify"}).status, 0);
+}
+
+TEST_F(StoreVerbs, ASurveyOfADamagedStoreSaysWhatToDo) {
+  const TestFolder folder;
+  const std::string bad = copy(folder);
+  flip(only_pack(bad), static_cast<std::streamoff>(fs::file_size(only_pack(bad)) / 3));
+  const ProgramResult told =
+      run({"probe", bad, "--from", "-13739,253,182", "--to", "-13736,256.2,182", "--radius", "0.3", "--mode", "fly"});
+  EXPECT_EQ(told.status, 1);
+  EXPECT_TRUE(contains(told.err, "tile ") && contains(told.err, "the scene itself")) << told.err;
+  EXPECT_TRUE(contains(told.err, "roam verify " + bad + " --repair SCENE")) << told.err;
+}
+
 }  // namespace

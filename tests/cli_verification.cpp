@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "roam/error.h"
 #include "swept_distance.h"
@@ -290,6 +292,76 @@ TEST(Verification, IsTheSameOfASceneThatComesPieceByPiece) {
   EXPECT_EQ(pieces.least_gap, whole.least_gap);
   ASSERT_TRUE(pieces.worst && whole.worst);
   EXPECT_EQ(pieces.worst->distance, whole.worst->distance);
+}
+
+/// Whether it is asked if this is the scene, as it lies; otherwise it must be said that nothing was measured.
+bool asks(const roam::app::Verification& found) {
+  const std::vector<std::string> remarks = roam::app::remarks(found);
+  if (remarks.size() != 1) return false;
+  EXPECT_NE(remarks[0].find("no triangle came near") != std::string::npos,
+            remarks[0].find("nothing had to be measured") != std::string::npos);
+  return remarks[0].find("--up, --unit") != std::string::npos;
+}
+
+TEST(Verification, AsksWhetherItIsTheSceneOnlyWhereNothingElseExplainsThatNothingWasNear) {
+  // A hall of 20 m x 20 m, 60 m high.
+  const std::vector<roam::Mesh> floor{floor_mesh(20)};
+  roam::Mesh ceiling = floor_mesh(20);
+  for (Vec3& v : ceiling.vertices) v.z = 60.0;
+  const std::vector<roam::Mesh> hall{floor[0], ceiling};
+  const auto found = roam::app::verify(hall, walk_over(30.0, 0.3, 1.3, 100));
+  EXPECT_EQ(found.distances, 0U);
+  ASSERT_EQ(roam::app::remarks(found).size(), 1U) << "a check that measured nothing says so";
+  EXPECT_FALSE(asks(found)) << "through the middle of a hall";
+  EXPECT_TRUE(asks(roam::app::verify(hall, walk_over(30.0, 0.3, 0.301, 100)))) << "that stood on something";
+  EXPECT_FALSE(asks(roam::app::verify(hall, walk_over(30.0, 0.3, 0.0, 100)))) << "that was held";
+  EXPECT_FALSE(asks(roam::app::verify(floor, walk_over(9.9, 0.3, 1.3, 100)))) << "just above the scene";
+  EXPECT_TRUE(asks(roam::app::verify(floor, walk_over(10.1, 0.3, 1.3, 100)))) << "elsewhere";
+  EXPECT_TRUE(asks(roam::app::verify({}, walk_over(1.0, 0.3, 1.3, 100)))) << "in no scene";
+  EXPECT_TRUE(roam::app::remarks(roam::app::verify(floor, walk_over(0.31, 0.3, 0.301, 100))).empty());
+
+  // Who touches something now and then flies; who does so most of the time stands.
+  std::vector<Piece> mixed = walk_over(30.0, 0.3, 1.3, 100);
+  for (int i = 0; i < 50; ++i) mixed[static_cast<std::size_t>(i)].clearance = 0.301;
+  EXPECT_FALSE(asks(roam::app::verify(hall, mixed)));
+  mixed[50].clearance = 0.301;
+  EXPECT_TRUE(asks(roam::app::verify(hall, mixed)));
+}
+
+TEST(Verification, JoinsWhatWasFoundOfOtherSteps) {
+  const std::vector<roam::Mesh> floor{floor_mesh(20)};
+  auto all = roam::app::verify(floor, walk_over(9.9, 0.3, 1.3, 100));
+  auto standing = roam::app::verify({}, walk_over(99.0, 0.3, 0.301, 101));
+  standing.unread = {"tile 7", "tile 8"};
+  all.add(standing);
+  EXPECT_EQ(all.touching, 101U);
+  EXPECT_EQ(all.way.upper.z, 99.0);
+  EXPECT_EQ(all.way.lower.z, 9.9);
+  EXPECT_EQ(all.scene.upper, Vec3(20, 20, 0));
+  standing.unread = {"tile 8", "tile 9"};
+  all.add(standing);
+  EXPECT_EQ(all.unread, (std::vector<std::string>{"tile 7", "tile 8", "tile 9"})) << "each once";
+  EXPECT_TRUE(roam::app::remarks(all).empty()) << "what was not read may have been near";
+}
+
+TEST(Verification, OfWhatCannotBeReadSaysWhereAndWhatToDo) {
+  roam::app::Verification found;
+  EXPECT_NO_THROW(roam::app::demand_all_read(found, "dam.roam"));
+  EXPECT_TRUE(found.counted());
+  found.unread = {"dam.roam: tile 7 cannot be used", "dam.roam: tile 8 cannot be used"};
+  EXPECT_FALSE(found.counted()) << "there may be some where nothing was read";
+  found.violations = 1;
+  EXPECT_TRUE(found.counted());
+  EXPECT_NE(roam::app::summary(found).find("that can be read"), std::string::npos);
+  try {
+    roam::app::demand_all_read(found, "dam.roam", "look at it");
+    FAIL() << "it was not read";
+  } catch (const roam::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the way could not be verified everywhere: dam.roam: tile 7 cannot be used, nor could 1 more; look at "
+                 "it, or mend "
+                 "the store by `roam verify dam.roam --repair SCENE`");
+  }
 }
 
 TEST(Verification, CanBeCancelled) {

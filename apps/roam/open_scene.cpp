@@ -39,8 +39,8 @@ Box box_of(std::span<const Piece> pieces) {
   return box;
 }
 
-/// `missing` as of Store::for_each_triangle; empty: what cannot be read is an error.
-Mesh read_triangles(const Store& store, const Box& box, const std::function<void(const std::string&)>& missing = {}) {
+/// `missing` as of Store::for_each_triangle.
+Mesh read_triangles(const Store& store, const Box& box, const std::function<void(const std::string&)>& missing) {
   Mesh mesh;
   const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
     stop_if_interrupted();
@@ -175,11 +175,14 @@ Verification OpenScene::verified(std::span<const Piece> pieces,
                                  const std::function<bool(std::uint64_t)>& progress) const {
   if (!store_) return verify(loaded_.meshes, pieces, progress);
   Verification all;
+  all.scene = bounds();
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = end_of_stretch(pieces, begin);
     const auto part = pieces.subspan(begin, end - begin);
-    const Mesh mesh = read_triangles(*store_, box_of(part));
-    all.add(verify({&mesh, 1}, part));
+    Verification found;
+    const Mesh mesh = read_triangles(*store_, box_of(part), [&](const std::string& w) { found.unread.push_back(w); });
+    found.add(verify({&mesh, 1}, part));
+    all.add(found);
     begin = end;
     if (progress && !progress(begin)) throw Cancelled();
   }

@@ -57,7 +57,7 @@ class OpenScene {
   /// The triangles of the store, as stored, around these pieces. There must be a store. What cannot be read is left
   /// out, and told on standard error.
   [[nodiscard]] Mesh stored_triangles(std::span<const Piece> pieces, double reach) const;
-  /// Every piece against every triangle: of the scene as read, of the store as stored.
+  /// Every piece against every triangle: of the scene as read, of the store as stored, as far as that can be read.
   [[nodiscard]] Verification verified(std::span<const Piece> pieces,
                                       const std::function<bool(std::uint64_t)>& progress) const;
 

@@ -47,9 +47,14 @@ std::vector<Mesh> read_store(const Store& store) {
   mesh.vertices.reserve(3 * info.triangles);
   mesh.triangles.reserve(info.triangles);
   Progress progress("reading " + store.name(), "triangles");
-  store.for_each_triangle(info.bounds, [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
     append(mesh, triangles);
     progress.at(mesh.triangles.size(), info.triangles);
+  };
+  store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
+    // What is not known would be a hole, where a body falls, or a door that is not there.
+    throw Error(fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
+                            store.name()));
   });
   std::vector<Mesh> meshes;
   meshes.push_back(std::move(mesh));

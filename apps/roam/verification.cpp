@@ -1,5 +1,6 @@
 #include "verification.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -87,6 +88,12 @@ class Neighbourhood {
   double half_height_;
   double per_length_ = 0.0, per_level_ = 0.0;
 };
+
+/// Metres. Who is so far outside of a scene's box is not in that scene.
+constexpr double outside = 10.0;
+
+/// What is not free at all is a body that is held: that says nothing of what is around it.
+bool touches(const Piece& piece) { return std::abs(piece.clearance - piece.body.radius) <= beside; }
 
 bool meet(const Box& a, const Box& b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
@@ -189,12 +196,53 @@ void Verification::add(const Verification& other) {
   distances += other.distances;
   violations += other.violations;
   overstated += other.overstated;
+  touching += other.touching;
+  way.include(other.way);
+  scene.include(other.scene);
+  for (const std::string& what : other.unread) {
+    if (std::find(unread.begin(), unread.end(), what) == unread.end()) unread.push_back(what);
+  }
   if (other.least_gap) least_gap = std::min(least_gap.value_or(*other.least_gap), *other.least_gap);
   if (!other.worst) return;
   if (!worst || other.worst->radius - other.worst->distance > worst->radius - worst->distance) worst = other.worst;
 }
 
+std::string summary(const Verification& found) {
+  return fmt::format("{} violations in {} straight pieces against {}", found.violations, found.pieces,
+                     found.unread.empty() ? "all triangles" : "those triangles that can be read");
+}
+
+std::vector<std::string> remarks(const Verification& found) {
+  std::vector<std::string> lines;
+  if (found.pieces > 0 && found.distances == 0 && found.unread.empty()) {
+    const bool elsewhere = !meet(found.way, found.scene.grown(outside)) || 2 * found.touching > found.pieces;
+    lines.emplace_back(elsewhere ? "no triangle came near any of them: is it the scene, as it lies (--up, --unit)?"
+                                 : "nothing had to be measured: all triangles are farther away than is certified");
+  }
+  if (found.overstated > 0)
+    lines.push_back(fmt::format("{} steps claim more clearance than there is", found.overstated));
+  if (found.worst) {
+    lines.push_back(fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {:g} m", found.worst->step,
+                                found.worst->distance, found.worst->triangle, found.worst->radius));
+  }
+  return lines;
+}
+
+void demand_all_read(const Verification& found, const std::string& store, const std::string& besides) {
+  if (found.unread.empty()) return;
+  const std::size_t more = found.unread.size() - 1;
+  throw Error(
+      fmt::format("the way could not be verified everywhere: {}{}; {}mend the store by `roam verify {} --repair SCENE`",
+                  found.unread.front(), more > 0 ? fmt::format(", nor could {} more", more) : "",
+                  besides.empty() ? "" : besides + ", or ", store));
+}
+
 Verifier::Verifier(std::span<const Piece> pieces) : pieces_(pieces.size()) {
+  for (const Piece& piece : pieces) {
+    way_.include(piece.from);
+    way_.include(piece.to);
+    touching_ += touches(piece) ? 1 : 0;
+  }
   for (std::size_t begin = 0; begin < pieces.size(); begin += pieces_together) {
     runs_.emplace_back(pieces.subspan(begin, std::min(pieces_together, pieces.size() - begin)));
   }
@@ -209,6 +257,7 @@ void Verifier::check(std::span<const Mesh> meshes, TriangleId first,
     first_ids.push_back(first);
     first += meshes[m].triangles.size();
     for (const Vec3& vertex : meshes[m].vertices) boxes[m].include(vertex);
+    scene_.include(boxes[m]);
   }
   std::mutex mutex;
   std::uint64_t done = 0;
@@ -244,6 +293,9 @@ Verification Verifier::result() const {
   };
   Verification result;
   result.pieces = pieces_;
+  result.touching = touching_;
+  result.way = way_;
+  result.scene = scene_;
   result.violations = count_steps(&Run::violations);
   result.overstated = count_steps(&Run::overstated);
   for (const Run& run : runs_) {

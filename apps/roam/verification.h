@@ -6,8 +6,10 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/space.h"
 
@@ -43,10 +45,28 @@ struct Verification {
   /// The least distance of the axis less the radius, metres; none when no triangle came near.
   std::optional<double> least_gap;
   std::optional<Violation> worst;
+  std::uint64_t touching = 0;  ///< pieces that are certified to be next to something, as a body that stands is
+  Box way;                     ///< of the body's centre
+  Box scene;                   ///< of all triangles, those beyond reach too
+  /// Of a store, what lies along the way and cannot be read: sentences that name it. What is found is of the rest.
+  std::vector<std::string> unread;
 
+  /// Whether it is known how many violations there are: where nothing was found and not all was read, it is not.
+  [[nodiscard]] bool counted() const { return violations > 0 || unread.empty(); }
   /// Adds what was found of other steps.
   void add(const Verification& other);
 };
+
+/// Half a sentence with its numbers.
+[[nodiscard]] std::string summary(const Verification& found);
+/// What is to be said of it besides its numbers, line by line. Asks whether the scene lies as it did when it was walked
+/// only where nothing was near a way that is outside of it, or that touched something most of the time: who flies
+/// through the middle of a hall comes near to nothing.
+[[nodiscard]] std::vector<std::string> remarks(const Verification& found);
+
+/// Throws roam::Error where not all was read that lies along the way: it says where, and what to do about `store`.
+/// `besides`: what else can be done than to mend it.
+void demand_all_read(const Verification& found, const std::string& store, const std::string& besides = {});
 
 /// Checks pieces against triangles that come little by little, so that a way of any length is checked against a scene
 /// of any size while this is read once. A triangle is passed over only when its box is farther from the box of the
@@ -68,6 +88,8 @@ class Verifier {
  private:
   class Run;
   std::size_t pieces_;
+  std::uint64_t touching_ = 0;
+  Box way_, scene_;
   std::vector<Run> runs_;
 };
 

@@ -97,6 +97,7 @@ ExitStatus view(const ViewOptions& options) {
     print(text_report(report));
   }
   if (cancelled) throw Cancelled();
+  if (report.verified) demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
   return report.result && !reached ? answer_no : done;
 }

@@ -77,11 +77,12 @@ Json json_report(const ViewReport& report) {
     json["waypoints_reached"] = report.result->waypoints;
   }
   if (report.verified) {
-    json["violations"] = report.verified->violations;
+    if (report.verified->counted()) json["violations"] = report.verified->violations;
     json["verified"] = {{"pieces", report.verified->pieces},
                         {"distances", report.verified->distances},
                         {"least_gap_m", nullptr},
-                        {"overstated_clearances", report.verified->overstated}};
+                        {"overstated_clearances", report.verified->overstated},
+                        {"unread", report.verified->unread}};
     if (report.verified->least_gap) json["verified"]["least_gap_m"] = *report.verified->least_gap;
   }
   return json;
@@ -105,8 +106,7 @@ std::string text_report(const ViewReport& report) {
                         report.length, report.simulated);
   }
   if (report.verified) {
-    text += fmt::format("verified: {} violations in {} straight pieces against all triangles\n",
-                        report.verified->violations, report.verified->pieces);
+    text += fmt::format("verified: {}\n", summary(*report.verified));
   }
   for (const std::string& file : report.written) text += fmt::format("written: {}\n", file);
   return text;
