@@ -249,6 +249,9 @@ ExitStatus walk(WalkOptions options) {
   } else {
     print(text_report(report));
   }
+  if (report.verified) {
+    demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
+  }
   return report.result.outcome == Outcome::reached ? done : answer_no;
 }
 

@@ -146,11 +146,12 @@ Json json_report(const WalkReport& report) {
   if (report.paging) json["paging"] = json_report(*report.paging);
   if (report.verified) {
     const Verification& v = *report.verified;
-    json["violations"] = v.violations;
+    if (v.counted()) json["violations"] = v.violations;
     json["verified"] = {{"pieces", v.pieces},
                         {"distances", v.distances},
                         {"least_gap_m", nullptr},
                         {"overstated_clearances", v.overstated},
+                        {"unread", v.unread},
                         {"seconds", report.verify_seconds}};
     if (v.least_gap) json["verified"]["least_gap_m"] = *v.least_gap;
   }
@@ -189,16 +190,8 @@ std::string text_report(const WalkReport& report) {
   }
   if (report.verified) {
     const Verification& v = *report.verified;
-    line("verified", fmt::format("{} violations in {} straight pieces against all triangles, {}", v.violations,
-                                 v.pieces, short_time(report.verify_seconds)));
-    if (v.pieces > 0 && v.distances == 0) {
-      line("", "no triangle came near any of them: is it the scene, as it lies (--up, --unit)?");
-    }
-    if (v.overstated > 0) line("", fmt::format("{} steps claim more clearance than there is", v.overstated));
-    if (v.worst) {
-      line("", fmt::format("worst at step {}: {:.9f} m from triangle {}, radius {:g} m", v.worst->step,
-                           v.worst->distance, v.worst->triangle, v.worst->radius));
-    }
+    line("verified", summary(v) + ", " + short_time(report.verify_seconds));
+    for (const std::string& remark : remarks(v)) line("", remark);
   }
   return text;
 }
