@@ -246,6 +246,27 @@ TEST(Recovery, AGhostAtRestHasNotMoved) {
   EXPECT_EQ(w.step({{1.0, 0.0, 0.0}}, 0.1).corners.size(), 1U);
 }
 
+TEST(Recovery, ABodyThatIsHeldWhereItFitsIsToldItsClearance) {
+  // Beside the floor, over nothing, half a metre from a wall.
+  Mesh m = floor_mesh();
+  add_wall(m, 25.8, -10.0, 25.8, 10.0, 0.0, 3.0);
+  const World world = build(m);
+  const Judge judge(m);
+  Walker w(world, {}, Mode::walk, {25.0, 0.0, 1.0});
+  const double lowest = 0.3 + 0.5 * 7.0 / 8.0 - 2e-3;  // of what a look tells, space.h
+  for (int i = 0; i < 300 && !w.held(); ++i) {
+    EXPECT_GE(w.step({}, 1.0 / 60.0).least_clearance, lowest);
+  }
+  ASSERT_TRUE(w.held() && w.report().put_back);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GE(w.report().clearance, lowest);
+    EXPECT_LE(w.report().clearance, judge.distance(w.body(), w.position(), 2.0));
+    EXPECT_EQ(w.report().least_clearance, w.report().clearance);
+    EXPECT_NEAR(w.report().least_gap, w.report().clearance - 0.3, 1e-12);
+    w.step({{1.0, 0.0, 0.0}}, 1.0 / 60.0);
+  }
+}
+
 TEST(Recovery, AHeldBodyIsHeldInEveryModeThatCollides) {
   Mesh m = floor_mesh();
   add_wall(m, 2.0, -10.0, 2.0, 10.0, 0.0, 3.0);

@@ -227,6 +227,25 @@ TEST(Route, RefusesAStepAfterItsEnd) {
 TEST(Route, IsHeldWhereItNeverFindsGround) {
   const RouteResult r = follow(floor_mesh(), {}, Mode::walk, {{25.0, 0.0, 0.95}, {30.0, 0.0, 0.95}});
   EXPECT_EQ(r.outcome, Outcome::held);
+  EXPECT_GE(r.least_gap, 0.75);  // nothing came near: three quarters at least of how far clearances are told
+  EXPECT_NEAR(r.least_clearance, r.least_gap + 0.3, 1e-12);
+}
+
+TEST(Route, TellsTheClearanceOfItsMovesWhereSomethingComesUponTheBody) {
+  Mesh m = floor_mesh();
+  World world = scenes::build(m);
+  Walker walker(world, {}, Mode::fly, {0.0, 0.0, 1.5});
+  roam::Route route(walker, std::vector<Vec3>{{0.0, 0.0, 1.5}, {10.0, 0.0, 1.5}});
+  for (int i = 0; i < 60; ++i) route.advance();
+  const double least = route.result().least_clearance;
+  EXPECT_GT(least, 0.3);
+  const double x = walker.position().x;
+  scenes::add_wall(m, x, -10.0, x, 10.0, 0.0, 3.0);
+  world = scenes::build(m);
+  while (!route.done()) route.advance();
+  EXPECT_EQ(route.result().outcome, Outcome::held);
+  EXPECT_EQ(route.result().least_clearance, least);
+  EXPECT_NEAR(route.result().least_gap, least - 0.3, 1e-12);
 }
 
 TEST(Route, AWaypointOnTheGroundOrAtEyeHeightCountsAsReachedOnFoot) {

@@ -62,6 +62,14 @@ bool waits_for_space(const Vec3& way, const StepReport& report) {
          (c == nullptr || glm::dot(c->normal, way) >= -progress_part * glm::length(way));
 }
 
+/// Takes the least of what is certified. A body that does not fit where it is has no clearance, and makes no move.
+void take_clearance(RouteResult& result, const StepReport& report) {
+  if (!(report.least_clearance > 0.0)) return;
+  const bool first = !(result.least_clearance > 0.0);
+  if (first || report.least_clearance < result.least_clearance) result.least_clearance = report.least_clearance;
+  if (first || report.least_gap < result.least_gap) result.least_gap = report.least_gap;
+}
+
 bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
   const Body body = walker.body();
   const Vec3 way = waypoint - walker.position();
@@ -176,8 +184,7 @@ const StepReport& Route::advance() {
     at = c.position;
   }
   if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
-  result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
-  result_.least_gap = std::min(result_.least_gap, report.least_gap);
+  take_clearance(result_, report);
   result_.end = walker_->position();
   note_events(report);
   judge(report, distance);

@@ -104,10 +104,11 @@ void Walker::finish() {
   report_.radius = settings_.radius;
   report_.grounded = stance_.grounded;
   report_.carried = stance_.carried;
-  if (mode_ == Mode::ghost || held_) {
+  if (mode_ == Mode::ghost) {
     known_.forget_place();
   } else if (!known_.fresh || (known_.over_way && position_ == report_.from)) {
-    // Who rests is told the clearance of the place once, and no more that of the way there.
+    // Who rests is told the clearance of the place once, and no more that of the way there. Who is held has one, too,
+    // where it fits: over nothing to stand on.
     walking::Move m = under_way();
     m.measure();
     come_to(m);
@@ -282,6 +283,7 @@ walking::Sizes Walker::sizes() { return {given_, outside_, regions_, inside_, se
 
 /// The size that is wanted where the body is, as if it had been put there.
 void Walker::take_size_here() {
+  known_.forget_place();
   std::fill(inside_.begin(), inside_.end(), char{0});
   settings_ = walking::sized(given_, outside_);
   const Vec3 lowest = position_ - Vec3(0.0, 0.0, 0.5 * settings_.height);
