@@ -229,6 +229,18 @@ TEST_F(StoreVerbs, AWalkIsCheckedAgainstTheSceneAsTheStoreWasReadOfIt) {
   EXPECT_FALSE(contains(run(besides).out, "no triangle came near")) << "and what is not is the store's";
 }
 
+TEST_F(StoreVerbs, AFlightFarFromAllTilesIsInTheSceneAllTheSame) {
+  const TestFolder folder;
+  folder.write("floor.obj", "v 0 -2 0\nv 20 -2 0\nv 20 2 0\nv 0 2 0\nf 1 2 3 4\n");
+  const std::string stored = folder.file("floor.roam"), above = folder.write("above.path", "9 0 9\n10 0 9\n");
+  const std::string far = folder.write("far.path", "9 0 19\n10 0 19\n");
+  ASSERT_EQ(run({"build", folder.file("floor.obj"), "-o", stored}).status, 0);
+  const ProgramResult flown = run({"walk", stored, "--path", above, "--mode", "fly", "--verify"});
+  EXPECT_TRUE(contains(flown.out, "nothing had to be measured")) << flown.out << flown.err;
+  EXPECT_FALSE(contains(flown.out, "--up")) << flown.out;
+  EXPECT_TRUE(contains(run({"walk", stored, "--path", far, "--mode", "fly", "--verify"}).out, "--up"));
+}
+
 TEST_F(StoreVerbs, WhatIsNotThereOrNotCompleteIsSaidSo) {
   const TestFolder folder;
   const std::string missing = folder.file("nothing.ply");
