@@ -24,6 +24,18 @@ struct Walk {
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(result.out, nullptr, false); }
 };
 
+/// Two floors 0.5 m apart that end nowhere near, the upper one at z = 0.5.
+std::string slot_obj() {
+  return "v -90 -90 0\nv 90 -90 0\nv 90 90 0\nv -90 90 0\nv -90 -90 0.5\nv 90 -90 0.5\nv 90 90 0.5\nv -90 90 0.5\n"
+         "o lower\nf 1 2 3 4\no upper\nf 5 6 7 8\n";
+}
+
+/// Two floors 4 m wide at z = 0, 10 m apart: from x = 0 to 2 and from 12 to 14.
+std::string ledge_obj() {
+  return "v 0 -2 0\nv 2 -2 0\nv 2 2 0\nv 0 2 0\nv 12 -2 0\nv 14 -2 0\nv 14 2 0\nv 12 2 0\n"
+         "o near\nf 1 2 3 4\no far\nf 5 6 7 8\n";
+}
+
 TEST(WalkVerb, ReportsAPathThatWasWalkedToItsEnd) {
   const Walk walk(room_obj(), "2 0 0.9\n18 0 0.9\n", {"--height", "1.8", "--json", "--verify"});
   EXPECT_EQ(walk.result.status, 0) << walk.result.err;
@@ -117,11 +129,7 @@ TEST(WalkVerb, SaysThatAPathLeadsOutOfTheScene) {
 }
 
 TEST(WalkVerb, SaysWhatToDoAboutAStartInsideAWall) {
-  // Between two floors 0.5 m apart that end nowhere near.
-  const std::string slot =
-      "v -90 -90 0\nv 90 -90 0\nv 90 90 0\nv -90 90 0\nv -90 -90 0.5\nv 90 -90 0.5\nv 90 90 0.5\nv -90 90 0.5\n"
-      "o lower\nf 1 2 3 4\no upper\nf 5 6 7 8\n";
-  const Walk walk(slot, "0 0 0.25\n5 0 0.25\n", {"--radius", "0.3", "--json"});
+  const Walk walk(slot_obj(), "0 0 0.25\n5 0 0.25\n", {"--radius", "0.3", "--json"});
   EXPECT_EQ(walk.result.status, 3) << walk.result.out;
   const nlohmann::json report = walk.json();
   EXPECT_EQ(report["outcome"], "held");
@@ -177,13 +185,102 @@ TEST(WalkVerb, WandersFromWhereItIsTold) {
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"walk", scene, "--path", "p.path", "--from", "3,1,0.5"}).status, 2);
 }
 
-TEST(WalkVerb, IsCancelledInGoodOrder) {
+TEST(WalkVerb, IsCancelledInGoodOrderAndSaysHowFarItCame) {
   const TestFolder folder;
-  const ProgramResult result = run_program(
-      ROAM_PROGRAM, {"walk", folder.write("room.obj", room_obj()), "--wander", "1e9"}, {.interrupt_after = 1});
+  const std::string trace = folder.file("t.csv");
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"walk", folder.write("room.obj", room_obj()), "--wander", "1e9", "--trace", trace},
+                  {.interrupt_after = 1});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_EQ(result.err, "roam: cancelled\n");
+  double length = 0.0, seconds = 0.0;
+  long long steps = 0;
+  ASSERT_EQ(std::sscanf(result.err.c_str(), "roam: note: came %lf m in %lf s, %lld steps", &length, &seconds, &steps),
+            3)
+      << result.err;
+  EXPECT_TRUE(contains(result.err, "; " + trace + " has its trace\nroam: cancelled\n")) << result.err;
+  EXPECT_GT(length, 0.0);
+  EXPECT_LE(length, 1.4 * seconds + 0.1);
+  // The last row is that of the last step.
+  const std::string rows = folder.read("t.csv");
+  const std::string last = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+  EXPECT_EQ(std::stoll(last), steps) << last;
+}
+
+TEST(WalkVerb, IsHeldWhereItsTimeEndsWhileItIsHeld) {
+  // Between two floors: it falls out of the scene, and is put back over nothing.
+  for (const char* seconds : {"2", "5"}) {
+    const TestFolder folder;
+    const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", folder.write("ledge.obj", ledge_obj()), "--wander",
+                                                            seconds, "--from", "7,0,1", "--json", "--verify"});
+    EXPECT_EQ(result.status, 3) << result.out;
+    const auto report = nlohmann::json::parse(result.out, nullptr, false);
+    EXPECT_EQ(report["outcome"], "held") << seconds;
+    EXPECT_TRUE(contains(report["why"], "no ground below to stand on; start elsewhere (--from)")) << report["why"];
+    EXPECT_EQ(report["events"].back()["kind"], "held");
+    // It fits where it is held, and was never near anything.
+    EXPECT_GE(report["least_gap_m"].get<double>(), 0.75);
+    EXPECT_EQ(report["violations"], 0);
+    EXPECT_EQ(report["verified"]["overstated_clearances"], 0);
+  }
+}
+
+TEST(WalkVerb, KnowsNoClearanceOfABodyThatFitsNowhere) {
+  const TestFolder folder;
+  const std::vector<std::string> arguments{
+      "walk", folder.write("slot.obj", slot_obj()), "--wander", "5", "--from", "0,0,0.25", "--radius", "0.3"};
+  const ProgramResult told = run_program(ROAM_PROGRAM, arguments);
+  EXPECT_EQ(told.status, 3) << told.out;
+  EXPECT_TRUE(contains(told.out, "does not fit where it starts")) << told.out;
+  EXPECT_TRUE(contains(told.out, "start elsewhere (--from) or take a smaller radius")) << told.out;
+  EXPECT_TRUE(contains(told.out, "least clearance  not known")) << told.out;
+  EXPECT_FALSE(contains(told.out, "certified")) << told.out;
+  std::vector<std::string> in_json = arguments;
+  in_json.insert(in_json.end(), {"--json", "--verify"});
+  const auto report = nlohmann::json::parse(run_program(ROAM_PROGRAM, in_json).out, nullptr, false);
+  EXPECT_TRUE(report["least_clearance_m"].is_null());
+  EXPECT_TRUE(report["least_gap_m"].is_null());
+  EXPECT_EQ(report["violations"], 0);  // it has not moved
+}
+
+TEST(WalkVerb, SaysThatALeastClearanceIsABoundAndHowFarWasLooked) {
+  const auto clearance = [](const std::string& z, const std::string& speed) {
+    const Walk walk(slot_obj(), "3 0 " + z + "\n6 0 " + z + "\n", {"--mode", "fly", "--speed", speed});
+    EXPECT_EQ(walk.result.status, 0) << walk.result.err;
+    const std::size_t begin = walk.result.out.find("least clearance  ");
+    return walk.result.out.substr(begin, walk.result.out.find('\n', begin) - begin);
+  };
+  EXPECT_EQ(clearance("3", "200"),
+            "least clearance  at least 1.300000 m from its axis, 1.000000 m from its surface (certified; it was looked "
+            "for no farther than 1 m from the surface)");
+  EXPECT_TRUE(contains(clearance("3", "1.4"), "no farther than 1 m"));
+  const std::string near = clearance("1.3", "1.4");  // half a metre above the upper floor
+  EXPECT_TRUE(contains(near, "at least 0.")) << near;
+  EXPECT_TRUE(contains(near, "from its surface (certified)")) << near;
+  EXPECT_EQ(Walk(slot_obj(), "3 0 3\n4 0 3\n", {"--mode", "fly", "--json"}).json()["clearance_reach_m"], 1.0);
+}
+
+TEST(WalkVerb, SaysWhereTheSceneIsWhenItStartsOutside) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", room_obj());
+  const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "3", "--from", "900,0,0"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_TRUE(contains(result.out,
+                       "left_scene: where it starts, (900.000, 0.000, 0.000) (--from), is outside the scene, which "
+                       "spans (0.000, -2.000, 0.000) to (20.000, 2.000, 3.000)\n"))
+      << result.out;
+}
+
+TEST(WalkVerb, NotesThatTheBodyIsLargerThanTheScene) {
+  const auto notes = [](const std::string& radius, const std::string& height) {
+    return Walk(room_obj(), "2 0 50\n3 0 50\n", {"--mode", "fly", "--radius", radius, "--height", height}).result.err;
+  };
+  EXPECT_TRUE(contains(notes("10.1", "20.2"),
+                       "roam: note: the body, 20.2 m across and 20.2 m high, is larger than the "
+                       "scene, 20 x 4 x 3 m"))
+      << notes("10.1", "20.2");
+  EXPECT_TRUE(contains(notes("0.3", "20.1"), "larger than the scene"));
+  EXPECT_EQ(notes("0.3", "19.9"), "");
 }
 
 TEST(WalkVerb, SaysWhenTheBodyFitsNowhere) {

@@ -25,13 +25,24 @@
 namespace roam::app {
 namespace {
 
+/// Metres that the centre moved, placements left out.
+double length_of(const StepReport& report) {
+  double sum = 0.0;
+  Vec3 last = report.from;
+  for (const Corner& corner : report.corners) {
+    if (!corner.teleport) sum += glm::distance(last, corner.position);
+    last = corner.position;
+  }
+  return sum;
+}
+
 /// Takes down every step while a walk goes on.
 class Recorder {
  public:
   Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
       : options_(options),
         scene_(scene),
-        progress_(name(options.walker_mode()) + std::string("ing"), "steps"),
+        progress_(std::in_place, name(options.walker_mode()) + std::string("ing"), "steps"),
         expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
     if (!options.trace.empty()) trace_.emplace(options.trace);
   }
@@ -51,12 +62,20 @@ class Recorder {
     take(report);
     time_ += report.elapsed;
     scene_.follow(walker);
-    progress_.at(steps_, std::max(steps_, expected_steps_));
+    progress_->at(steps_, std::max(steps_, expected_steps_));
     return report;
   }
 
   void finish() {
     if (trace_) trace_->close();
+  }
+  /// Of a walk that is cancelled: writes what is left of its trace, and says how far it came.
+  void cancel(const Walker& walker) {
+    finish();
+    progress_.reset();  // its line on the terminal goes away before
+    const Vec3 end = walker.position();
+    fmt::print(stderr, "roam: note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}\n", length_,
+               time_, steps_, end.x, end.y, end.z, trace_ ? "; " + options_.trace.string() + " has its trace" : "");
   }
   [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -64,6 +83,7 @@ class Recorder {
 
  private:
   void take(const StepReport& report) {
+    if (steps_ > 0) length_ += length_of(report);
     if (trace_) trace_->add(steps_, time_, report);
     if (options_.checks() || !options_.picture.empty()) append_pieces(pieces_, steps_, report);
     if (!options_.picture.empty()) append(record_, report, steps_ == 0);
@@ -71,7 +91,7 @@ class Recorder {
 
   const WalkOptions& options_;
   OpenScene& scene_;
-  Progress progress_;
+  std::optional<Progress> progress_;
   std::uint64_t expected_steps_;
   std::optional<TraceFile> trace_;
   std::vector<std::uint32_t> nanoseconds_;
@@ -79,6 +99,7 @@ class Recorder {
   picture::Record record_;
   std::uint64_t steps_ = 0;
   double time_ = 0.0;
+  double length_ = 0.0;
 };
 
 double path_length(std::span<const Vec3> points) {
@@ -114,6 +135,25 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
   recorder.start(walker.report());
   while (!route.done()) recorder.step(walker, [&]() -> const StepReport& { return route.advance(); });
   return route.result();
+}
+
+RouteResult roam_about(Walker& walker, const RouteOptions& options, double seconds, Recorder& recorder) {
+  Wander wander(walker, options, seconds);
+  recorder.start(walker.report());
+  while (!wander.done()) {
+    wander.look();
+    if (wander.done()) break;
+    recorder.step(walker, [&]() -> const StepReport& { return wander.advance(); });
+  }
+  return wander.result();
+}
+
+/// The whole walk. Throws roam::Cancelled after Ctrl-C.
+RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3> path, Recorder& recorder) {
+  if (options.wander) return roam_about(walker, options.route, *options.wander, recorder);
+  if (walker.mode() != Mode::ghost) return follow(walker, path, options.route, recorder);
+  recorder.start(walker.report());
+  return haunt(walker, path, options.route, recorder);
 }
 
 /// What a picture is called.
@@ -182,6 +222,8 @@ ExitStatus walk(WalkOptions options) {
                    options.scene.names());
     fmt::print(stderr, "roam: {}\n", describe(*options.profile));
   }
+  const std::string size = note_on_size(options.settings, scene.bounds());
+  if (!size.empty()) fmt::print(stderr, "roam: note: {}\n", size);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, scene, seconds / options.route.dt);
@@ -192,20 +234,11 @@ ExitStatus walk(WalkOptions options) {
   Walker walker(scene.space(), options.settings, mode, start);
   if (options.profile) walker.set_regions(options.profile->profile.regions);
   WalkReport report;
-  if (options.wander) {
-    Wander wander(walker, options.route, *options.wander);
-    recorder.start(walker.report());
-    while (!wander.done()) {
-      wander.look();
-      if (wander.done()) break;
-      recorder.step(walker, [&]() -> const StepReport& { return wander.advance(); });
-    }
-    report.result = wander.result();
-  } else if (mode == Mode::ghost) {
-    recorder.start(walker.report());
-    report.result = haunt(walker, path, options.route, recorder);
-  } else {
-    report.result = follow(walker, path, options.route, recorder);
+  try {
+    report.result = go(options, walker, path, recorder);
+  } catch (const Cancelled&) {
+    recorder.cancel(walker);
+    throw;
   }
   recorder.finish();
 
@@ -214,6 +247,7 @@ ExitStatus walk(WalkOptions options) {
   report.mode = mode;
   report.settings = options.settings;
   report.body = walker.body();
+  report.bounds = scene.bounds();
   if (options.profile) report.profile = options.profile->file.string();
   report.waypoints = path.size();
   report.eye = walker.eye();

@@ -71,7 +71,7 @@ void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepRep
     pieces.push_back({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
     from = corner.position;
   }
-  if (step == 0 && report.held) return;
+  if (report.held && !(report.clearance > 0.0)) return;
   pieces.push_back({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
 }
 

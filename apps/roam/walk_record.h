@@ -33,9 +33,8 @@ class TraceFile {
 };
 
 /// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
-/// place at the end. Of the start, step
-/// 0, only the place where the body was put, if it fits there: the way out of a wall into which a path begins is no
-/// step.
+/// place at the end, unless it is held there because it does not fit. Of the start, step 0, only the place where the
+/// body was put: the way out of a wall into which a path begins is no step.
 void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report);
 
 /// The times of steps in nanoseconds.

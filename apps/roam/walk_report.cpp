@@ -50,7 +50,75 @@ std::string explain_wait(const WalkReport& report) {
                      at(result.blocked_at->point), report.object.empty() ? "not loaded yet" : report.object);
 }
 
+std::string spans(const Box& box) { return fmt::format("{} to {}", at(box.lower), at(box.upper)); }
+
+/// Whether the body has been held since it was put where it starts.
+bool held_since_start(const RouteResult& result) {
+  if (result.steps == 0) return true;
+  const auto last = std::find_if(result.events.rbegin(), result.events.rend(),
+                                 [](const RouteEvent& e) { return e.event.kind == EventKind::held; });
+  return last != result.events.rend() && last->step == 0;
+}
+
+std::string explain_left(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  const std::string scene = report.bounds.empty() ? "" : ", which spans " + spans(report.bounds);
+  if (report.waypoints > 0) {
+    return fmt::format("nothing of the scene{} lies ahead any more at {}; is the path in the scene's frame?",
+                       scene.empty() ? "" : scene + ",", at(result.end));
+  }
+  if (result.steps == 0) {
+    return fmt::format("where it starts, {} (--from), is outside the scene{}", at(result.end), scene);
+  }
+  return fmt::format("at {} it has wandered out of the scene{}", at(result.end), scene);
+}
+
+std::string explain_held(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  const bool wanders = report.waypoints == 0;
+  if (held_since_start(result) && first(result, EventKind::met_unknown)) {
+    return fmt::format("where it starts, {}, what is there cannot be read, or has not been in time", at(result.end));
+  }
+  if (held_since_start(result)) {
+    return fmt::format(
+        "it does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close "
+        "by; {} or take a smaller radius",
+        at(result.end), wanders ? "start elsewhere (--from)" : "move the first waypoint");
+  }
+  if (!first(result, EventKind::put_back)) return explain_wait(report);
+  return fmt::format("at {} there is no ground below to stand on; {}, or fly", at(result.end),
+                     wanders ? "start elsewhere (--from)" : "move the waypoint onto the ground");
+}
+
+/// A bound: clearances may be told a quarter of the gap, two skins and 2 mm less than they are, and are capped.
+std::string clearance_line(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  if (!knows_clearance(report)) return "not known: the body fitted nowhere";
+  const double reach = report.settings.clearance_reach;
+  constexpr double near_cap = 0.7;  // of the reach: from here on nothing need have been there
+  const std::string cap = result.least_gap < near_cap * reach
+                              ? ""
+                              : fmt::format("; it was looked for no farther than {:g} m from the surface", reach);
+  return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})", result.least_clearance,
+                     result.least_gap, cap);
+}
+
 }  // namespace
+
+bool knows_clearance(const WalkReport& report) {
+  return report.mode != Mode::ghost && report.result.least_clearance > 0.0;
+}
+
+std::string note_on_size(const WalkerSettings& body, const Box& scene) {
+  if (scene.empty()) return {};
+  const Vec3 size = scene.size();
+  const double across = 2.0 * body.radius;
+  if (std::max(across, body.height) <= std::max({size.x, size.y, size.z})) return {};
+  return fmt::format(
+      "the body, {:g} m across and {:g} m high, is larger than the scene, {:.3g} x {:.3g} x {:.3g} m: are --radius, "
+      "--height and --unit right?",
+      across, body.height, size.x, size.y, size.z);
+}
 
 std::string explain(const WalkReport& report) {
   const RouteResult& result = report.result;
@@ -61,8 +129,7 @@ std::string explain(const WalkReport& report) {
     case Outcome::blocked:
       return explain_blocked(report);
     case Outcome::left_scene:
-      return fmt::format("nothing of the scene lies ahead any more at {}; is the path in the scene's frame?",
-                         at(result.end));
+      return explain_left(report);
     case Outcome::fell: {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       const WalkerSettings& s = report.settings;
@@ -71,19 +138,7 @@ std::string explain(const WalkReport& report) {
                          at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
     }
     case Outcome::held:
-      if (result.steps == 0 && first(result, EventKind::met_unknown)) {
-        return fmt::format("where it starts, {}, what is there cannot be read, or has not been in time",
-                           at(result.end));
-      }
-      if (result.steps == 0) {
-        return fmt::format(
-            "it does not fit where it starts, {}: it is inside a wall or too near to one, and no free place is close "
-            "by; move the first waypoint or take a smaller radius",
-            at(result.end));
-      }
-      if (!first(result, EventKind::put_back)) return explain_wait(report);
-      return fmt::format("at {} there is no ground below to stand on; move the waypoint onto the ground, or fly",
-                         at(result.end));
+      return explain_held(report);
   }
   return {};
 }
@@ -133,8 +188,9 @@ Json json_report(const WalkReport& report) {
                {"steps", result.steps},
                {"simulated_s", result.simulated},
                {"step_ns", {{"median", report.times.median}, {"p99", report.times.p99}, {"max", report.times.max}}},
-               {"least_clearance_m", result.least_clearance},
-               {"least_gap_m", result.least_gap},
+               {"least_clearance_m", nullptr},
+               {"least_gap_m", nullptr},
+               {"clearance_reach_m", report.settings.clearance_reach},
                {"violations", nullptr},
                {"throttled", result.throttled},
                {"blocked_at", blocked},
@@ -142,17 +198,18 @@ Json json_report(const WalkReport& report) {
                {"end", {{"position", to_json(result.end)}, {"eye", to_json(report.eye)}}},
                {"verified", nullptr},
                {"events", events}};
+  if (knows_clearance(report)) {
+    json["least_clearance_m"] = result.least_clearance;
+    json["least_gap_m"] = result.least_gap;
+  }
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   if (report.paging) json["paging"] = json_report(*report.paging);
   if (report.verified) {
     const Verification& v = *report.verified;
     if (v.counted()) json["violations"] = v.violations;
-    json["verified"] = {{"pieces", v.pieces},
-                        {"distances", v.distances},
-                        {"least_gap_m", nullptr},
-                        {"overstated_clearances", v.overstated},
-                        {"unread", v.unread},
-                        {"seconds", report.verify_seconds}};
+    json["verified"] = {{"pieces", v.pieces},     {"distances", v.distances},
+                        {"least_gap_m", nullptr}, {"overstated_clearances", v.overstated},
+                        {"unread", v.unread},     {"seconds", report.verify_seconds}};
     if (v.least_gap) json["verified"]["least_gap_m"] = *v.least_gap;
   }
   return json;
@@ -176,8 +233,7 @@ std::string text_report(const WalkReport& report) {
   if (!report.profile.empty()) line("profile", report.profile);
   line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
   if (report.mode != Mode::ghost) {
-    line("least clearance", fmt::format("{:.6f} m from its axis, {:.6f} m from its surface (certified)",
-                                        result.least_clearance, result.least_gap));
+    line("least clearance", clearance_line(report));
   }
   line("time of a step", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us at most", report.times.median * 1e-3,
                                      report.times.p99 * 1e-3, report.times.max * 1e-3));

@@ -28,11 +28,17 @@ struct WalkReport {
   std::optional<Verification> verified;
   double verify_seconds = 0.0;
   std::optional<PagerStats> paging;  ///< where the scene is a store
+  Box bounds;                        ///< of the scene; empty: not known here
   std::optional<Body> body;          ///< at the end, where it may be other than `settings`: in a region, crouched
 };
 
 /// What a pager held and did, as every report says it.
 [[nodiscard]] Json json_report(const PagerStats& paging);
+
+/// Whether anything is certified of how near the body came: not of a ghost, nor of one that fitted nowhere.
+[[nodiscard]] bool knows_clearance(const WalkReport& report);
+/// Says so where the body is larger than all of the scene, which is seldom meant; else nothing.
+[[nodiscard]] std::string note_on_size(const WalkerSettings& body, const Box& scene);
 
 /// One sentence or two that say how the walk ended, and what can be done where it did not reach its end.
 [[nodiscard]] std::string explain(const WalkReport& report);

@@ -155,8 +155,6 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
 
 Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
     : walker_(&walker), options_(options), seconds_(seconds) {
-  result_.least_clearance = walker.report().clearance;
-  result_.least_gap = walker.report().least_gap;
   result_.end = walker.position();
   note(walker.report());
 }
@@ -242,14 +240,21 @@ const StepReport& Wander::advance() {
     window_length_ = window_seconds_ = 0.0;
   }
   note(report);
-  if (result_.simulated >= seconds_) done_ = true;
+  if (!done_ && result_.simulated >= seconds_) {
+    if (report.held) result_.outcome = Outcome::held;
+    done_ = true;
+  }
   return report;
 }
 
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
-  result_.least_clearance = std::min(result_.least_clearance, report.least_clearance);
-  result_.least_gap = std::min(result_.least_gap, report.least_gap);
+  if (report.least_clearance > 0.0) {  // else it does not fit where it is, and none is certified
+    const bool first = !(result_.least_clearance > 0.0);
+    result_.least_clearance =
+        first ? report.least_clearance : std::min(result_.least_clearance, report.least_clearance);
+    result_.least_gap = first ? report.least_gap : std::min(result_.least_gap, report.least_gap);
+  }
   if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
   std::uint32_t kinds = 0;
   for (const Event& event : report.events) {

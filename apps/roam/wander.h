@@ -35,7 +35,8 @@ class Wander {
   void look();
   /// One step. Must not be called when done().
   const StepReport& advance();
-  /// `reached` when the time is over; `held` when the body cannot move at all; `left_scene` as for a route.
+  /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before; `left_scene` as for
+  /// a route.
   [[nodiscard]] const RouteResult& result() const { return result_; }
 
  private:

@@ -68,8 +68,8 @@ class Composer {
     const char* mode = r.mode == Mode::walk ? "on foot" : r.mode == Mode::fly ? "flying" : "as a ghost, through walls";
     std::string text = fmt::format("{}, radius {:g} m, height {:g} m  ·  way {} in {:.1f} s", mode, r.settings.radius,
                                    r.settings.height, length_text(r.result.length), r.result.simulated);
-    if (r.mode != Mode::ghost) {
-      text += fmt::format("  ·  least clearance {:.3f} m from the axis, certified", r.result.least_clearance);
+    if (knows_clearance(r)) {
+      text += fmt::format("  ·  its axis at least {:.3f} m from everything, certified", r.result.least_clearance);
     }
     const auto falls = count_falls();
     if (falls > 1) text += fmt::format("  ·  fell {} times", falls);
