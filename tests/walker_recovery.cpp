@@ -267,6 +267,25 @@ TEST(Recovery, ABodyThatIsHeldWhereItFitsIsToldItsClearance) {
   }
 }
 
+TEST(Recovery, AHeldBodyThatBecomesSlimIsToldTheClearanceOfTheSlimOne) {
+  // Over a slope that nobody stands on, its head 5 cm under a slab: the axis of a slim body reaches farther up.
+  Mesh m;
+  add_quad(m, {-1.0, -1.0, -1.0}, {1.0, -1.0, -5.0}, {1.0, 1.0, -5.0}, {-1.0, 1.0, -1.0});
+  add_quad(m, {-1.0, -1.0, 0.95}, {1.0, -1.0, 0.95}, {1.0, 1.0, 0.95}, {-1.0, 1.0, 0.95});
+  const World world = build(m);
+  const Judge judge(m);
+  Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.0});
+  for (int i = 0; i < 1200 && !w.held(); ++i) w.step({}, 1.0 / 60.0);
+  ASSERT_TRUE(w.held());
+  EXPECT_NEAR(w.report().clearance, 0.35, 0.01);
+  w.resize(0.1, 0.0);
+  w.step({}, 0.0);
+  ASSERT_FALSE(w.held());
+  ASSERT_EQ(w.report().radius, 0.1);
+  EXPECT_LE(w.report().clearance, judge.distance(w.body(), w.position(), 2.0));
+  EXPECT_GE(w.report().clearance, 0.1 - 1e-6);
+}
+
 TEST(Recovery, AHeldBodyIsHeldInEveryModeThatCollides) {
   Mesh m = floor_mesh();
   add_wall(m, 2.0, -10.0, 2.0, 10.0, 0.0, 3.0);
