@@ -1,6 +1,7 @@
 // Ways that training plans are ways that a walker goes: where a lattice is wrong, the walker is right.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <string>
 
 #include "roam/train.h"
@@ -61,7 +62,14 @@ Mesh groove() {
 TEST(TrainedWays, ThatNoWalkerGoesAreTold) {
   const Training t = roam::train(survey_of({groove()}), {.height = 1.8});
   EXPECT_TRUE(t.contradictions.empty()) << t.answer;
-  EXPECT_NE(t.answer.find("cannot be walked to"), std::string::npos) << t.answer;
+  const std::size_t told = t.answer.find("cannot be walked to"),
+                    walker = t.answer.find("a walker is stopped at (", told);
+  ASSERT_NE(told, std::string::npos) << t.answer;
+  ASSERT_NE(walker, std::string::npos) << t.answer;
+  double x = 0.0, y = 0.0, z = 0.0;
+  ASSERT_EQ(std::sscanf(t.answer.c_str() + t.answer.find('(', walker), "(%lf, %lf, %lf)", &x, &y, &z), 3) << t.answer;
+  EXPECT_LT(z, 0.3) << t.answer << ": of the feet, as the ends are";
+  EXPECT_GT(z, -0.01) << t.answer;
 }
 
 }  // namespace

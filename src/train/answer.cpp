@@ -226,7 +226,7 @@ std::string interval_answer(const Layout& layout, const Training& training, cons
                                  ? "1 end that was drawn cannot be walked to, and does not count"
                                  : fmt::format("{} ends that were drawn cannot be walked to, and do not count", count);
     text += fmt::format(" {}: from {} to {} a walker {} at {}.", ends, at(first.from), at(first.to),
-                        judged(first.last.outcome) == Judgement::flies_off ? "falls" : "is stopped", at(first.last.at));
+                        judged(first.last.outcome) == Judgement::flies_off ? "falls" : "is stopped", at(first.end));
   }
   for (std::size_t i = 0; i < std::min(contradictions.size(), most_told); ++i) text += " " + contradictions[i];
   if (contradictions.size() > most_told)

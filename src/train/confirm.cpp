@@ -285,7 +285,8 @@ class Confirmation {
     for (std::size_t i = 0; i < tries.size(); ++i) {
       if (tries[i].gone) {
         const Passage& p = layout_.paths[i].passage;
-        layout_.unwalked.push_back({layout_.paths[i].ends, p.way.front(), p.way.back(), tries[i].stop->trial});
+        const Trial& last = tries[i].stop->trial;
+        layout_.unwalked.push_back({layout_.paths[i].ends, p.way.front(), p.way.back(), last, feet(last)});
         continue;
       }
       if (kept != i) {

@@ -29,6 +29,7 @@ struct Unwalked {
   Ends ends;
   Vec3 from{0.0}, to{0.0};  ///< of the feet
   Trial last;               ///< that was made of it
+  Vec3 end{0.0};            ///< of that, of the feet
 };
 
 struct Layout {
