@@ -25,6 +25,15 @@ HWY_INLINE std::uint32_t nearest_of(const Children& children) {
   return nearest;
 }
 
+/// Leaves out the children that are `beyond` what matters.
+template <class Beyond>
+HWY_INLINE void leave_out(Children& children, const Beyond& beyond) {
+  for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    if (beyond(children.key[i])) children.mask &= ~(1U << i);
+  }
+}
+
 /// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink. For a
 /// gap (`Bounds` is Slack, else Tight) that may be told less closely, and is for less.
 template <class Bounds>
@@ -209,10 +218,7 @@ class NearTraversal {
     if (Bounds::kLoose && nearest >= root.node.inner_count) {
       children.mask &= ~(1U << nearest);
       look_at_leaf(root.number[nearest]);
-      for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-        if (beyond(children.key[i])) children.mask &= ~(1U << i);
-      }
+      leave_out(children, beyond);
     }
     push_children(root, children, nodes, leaves, stack_);
   }
@@ -245,10 +251,7 @@ class NearTraversal {
     }
     while (depth > 0) {
       Children& children = beside[--depth];
-      for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-        if (beyond(children.key[i])) children.mask &= ~(1U << i);
-      }
+      leave_out(children, beyond);
       push_children(*of[depth], children, nodes, leaves, stack_);
     }
   }
