@@ -1,0 +1,132 @@
+#include "import/reader/sandbox/sandbox.h"
+
+#ifdef __linux__
+
+#include <fcntl.h>
+#include <seccomp.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <initializer_list>
+#include <memory>
+#include <type_traits>
+
+namespace roam::reader {
+namespace {
+
+using Filter = std::unique_ptr<std::remove_pointer_t<scmp_filter_ctx>, void (*)(scmp_filter_ctx)>;
+
+/// What reading files and computing needs. Each name is looked up when the program runs: no processor has all of them.
+constexpr std::initializer_list<const char*> harmless{
+    // files that are open, or are opened by the rules below
+    "read", "pread64", "readv", "preadv", "preadv2", "write", "pwrite64", "writev", "close", "lseek", "_llseek",
+    "fstat", "fstat64", "newfstatat", "fstatat64", "stat", "stat64", "lstat", "lstat64", "statx", "statfs", "fstatfs",
+    "readlink", "readlinkat", "access", "faccessat", "faccessat2", "getdents", "getdents64", "getcwd", "fcntl",
+    "fcntl64", "fadvise64", "fadvise64_64", "poll", "ppoll", "ppoll_time64", "select", "pselect6", "dup",
+    // memory; mmap and mprotect are ruled below
+    "brk", "munmap", "mremap", "madvise", "mincore", "membarrier",
+    // time, signals to itself, itself
+    "clock_gettime", "clock_gettime64", "clock_getres", "clock_nanosleep", "clock_nanosleep_time64", "nanosleep",
+    "gettimeofday", "time", "rt_sigaction", "rt_sigprocmask", "rt_sigreturn", "sigreturn", "sigaltstack",
+    "restart_syscall", "exit", "exit_group", "futex", "futex_time64", "set_robust_list", "get_robust_list", "rseq",
+    "sched_yield", "sched_getaffinity", "getpid", "gettid", "getppid", "getuid", "geteuid", "getgid", "getegid",
+    "getrusage", "times", "sysinfo", "uname", "getrandom", "getrlimit", "ugetrlimit", "getpriority", "arch_prctl",
+    "set_tid_address"};
+
+/// No scene needs them. Whoever tries is up to something, and ends there.
+constexpr std::initializer_list<const char*> hostile{
+    // programs and processes
+    "execve", "execveat", "fork", "vfork", "clone", "clone3", "ptrace", "process_vm_readv", "process_vm_writev", "kill",
+    "tkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo", "pidfd_open", "pidfd_getfd", "pidfd_send_signal", "setuid",
+    "setgid", "setreuid", "setregid", "setresuid", "setresgid", "capset", "unshare", "setns", "chroot", "pivot_root",
+    "mount", "umount2", "open_by_handle_at", "bpf", "perf_event_open", "userfaultfd", "keyctl", "add_key",
+    "request_key", "init_module", "finit_module", "kexec_load", "reboot", "io_uring_setup", "memfd_create",
+    "memfd_secret",
+    // networks and other programs
+    "socket", "socketpair", "socketcall", "connect", "bind", "listen", "accept", "accept4", "sendto", "sendmsg",
+    "sendmmsg", "recvfrom", "recvmsg", "recvmmsg", "shmget", "shmat", "semget", "msgget", "mq_open",
+    // changing files
+    "creat", "truncate", "truncate64", "unlink", "unlinkat", "rename", "renameat", "renameat2", "link", "linkat",
+    "symlink", "symlinkat", "mkdir", "mkdirat", "rmdir", "mknod", "mknodat", "chmod", "fchmod", "fchmodat", "fchmodat2",
+    "chown", "fchown", "lchown", "fchownat", "utime", "utimes", "utimensat", "futimesat", "setxattr", "lsetxattr",
+    "fsetxattr", "removexattr", "lremovexattr", "fremovexattr", "openat2", "name_to_handle_at"};
+
+class Rules {
+ public:
+  explicit Rules(scmp_filter_ctx filter) : filter_(filter) {}
+
+  void add(std::uint32_t action, const char* name, std::initializer_list<scmp_arg_cmp> conditions = {}) {
+    const int number = seccomp_syscall_resolve_name(name);
+    // One that this processor does not have cannot be called.
+    if (number == __NR_SCMP_ERROR || number < 0) return;
+    whole_ = whole_ && seccomp_rule_add_array(filter_, action, number, static_cast<unsigned>(conditions.size()),
+                                              conditions.begin()) == 0;
+  }
+  [[nodiscard]] bool whole() const { return whole_; }
+
+ private:
+  scmp_filter_ctx filter_;
+  bool whole_ = true;
+};
+
+scmp_arg_cmp masked(unsigned argument, scmp_datum_t mask, scmp_datum_t value) {
+  return {argument, SCMP_CMP_MASKED_EQ, mask, value};
+}
+
+/// Files are opened for reading alone. `flags`: which argument of the call has the flags.
+void rule_opening(Rules& rules, const char* name, unsigned flags) {
+  // O_TMPFILE is O_DIRECTORY and one bit more.
+  constexpr scmp_datum_t unnamed_file = O_TMPFILE & ~O_DIRECTORY;
+  constexpr scmp_datum_t changing = O_ACCMODE | O_CREAT | O_TRUNC | unnamed_file;
+  rules.add(SCMP_ACT_ALLOW, name, {masked(flags, changing, O_RDONLY)});
+  for (const scmp_datum_t bit :
+       {scmp_datum_t{O_WRONLY}, scmp_datum_t{O_RDWR}, scmp_datum_t{O_CREAT}, scmp_datum_t{O_TRUNC}, unnamed_file}) {
+    rules.add(SCMP_ACT_KILL_PROCESS, name, {masked(flags, bit, bit)});
+  }
+}
+
+/// Memory is either written or run: no code comes in after this.
+void rule_memory(Rules& rules) {
+  constexpr unsigned protection = 2;
+  for (const char* name : {"mmap", "mmap2", "mprotect"}) {
+    rules.add(SCMP_ACT_ALLOW, name, {masked(protection, PROT_EXEC, 0)});
+    rules.add(SCMP_ACT_KILL_PROCESS, name, {masked(protection, PROT_EXEC, PROT_EXEC)});
+  }
+}
+
+}  // namespace
+
+bool restrict_system_calls() {
+  // A call of a newer system library that is not listed is answered as by an older kernel; libraries know what to do.
+  const Filter filter(seccomp_init(SCMP_ACT_ERRNO(ENOSYS)), seccomp_release);
+  if (filter == nullptr) return false;
+  // The process set no_new_privs itself.
+  seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
+  Rules rules(filter.get());
+  for (const char* name : harmless) rules.add(SCMP_ACT_ALLOW, name);
+  for (const char* name : hostile) rules.add(SCMP_ACT_KILL_PROCESS, name);
+  rule_opening(rules, "open", 1);
+  rule_opening(rules, "openat", 2);
+  rule_memory(rules);
+  // abort() and assert() signal the own thread.
+  rules.add(SCMP_ACT_ALLOW, "tgkill", {{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()), 0}});
+  // Limits are looked at and not set; malloc names its memory.
+  rules.add(SCMP_ACT_ALLOW, "prlimit64", {{2, SCMP_CMP_EQ, 0, 0}});
+#ifdef PR_SET_VMA
+  rules.add(SCMP_ACT_ALLOW, "prctl", {{0, SCMP_CMP_EQ, PR_SET_VMA, 0}});
+#endif
+  return rules.whole() && seccomp_load(filter.get()) == 0;
+}
+
+}  // namespace roam::reader
+
+#else
+
+namespace roam::reader {
+bool restrict_system_calls() { return false; }
+}  // namespace roam::reader
+
+#endif
