@@ -252,7 +252,7 @@ TEST(ImportDisplay, RefusesADamagedStream) {
     const FrameHeader header{frame_magic, kind, 0, number, static_cast<std::uint32_t>(payload.bytes().size())};
     return bytes_of(header) + std::string(reinterpret_cast<const char*>(payload.bytes().data()), header.bytes);
   };
-  const std::string hello = frame(0, FrameKind::hello, PayloadWriter().add(stream_version));
+  const std::string hello = frame(0, FrameKind::hello, PayloadWriter().add(Greeting{}));
   const auto error_of = [&](const std::string& stream) {
     const auto data = folder.write("stream", stream);
     ImportOptions options;

@@ -18,8 +18,10 @@ class ImportDisplayRealScenes : public testing::TestWithParam<const char*> {};
 TEST_P(ImportDisplayRealScenes, AreShownAsTheyAreWalkedOn) {
   ROAM_NEEDS_TEST_DATA();
   const fs::path file = test_data() / GetParam();
-  const Shown shown = show({file});
-  const Scene scene = import_scene(file);
+  // Some keep their images beside the folder of the file.
+  const ImportOptions options{.allow = {test_data()}};
+  const Shown shown = show({file}, options);
+  const Scene scene = import_scene(file, options);
   EXPECT_EQ(not_shown(scene, shown, tolerance), 0u);
   EXPECT_EQ(shown.report.import.notes, scene.report.notes);
   EXPECT_EQ(shown.report.import.files, scene.report.files);

@@ -39,7 +39,7 @@ class Stream {
   Stream& frame(FrameKind kind, const PayloadWriter& payload) {
     return frame(kind, std::string(reinterpret_cast<const char*>(payload.bytes().data()), payload.bytes().size()));
   }
-  Stream& hello() { return frame(FrameKind::hello, PayloadWriter().add(reader::stream_version)); }
+  Stream& hello() { return frame(FrameKind::hello, PayloadWriter().add(reader::Greeting{})); }
   Stream& object() { return frame(FrameKind::object, PayloadWriter().add_text("wall").add(std::uint8_t{0})); }
   Stream& vertices(const std::vector<double>& coordinates) {
     PayloadWriter payload;

@@ -97,7 +97,7 @@ TEST_F(ImportStreamFailures, TellAReaderThatIsKilledInTheMiddle) {
 /// A stream that a reader might send.
 class Stream {
  public:
-  Stream() { frame(FrameKind::hello, PayloadWriter().add(reader::stream_version)); }
+  Stream() { frame(FrameKind::hello, PayloadWriter().add(reader::Greeting{})); }
   Stream& frame(FrameKind kind, const PayloadWriter& payload) {
     FrameHeader header;
     header.kind = kind;

@@ -189,7 +189,8 @@ TEST(ImportStreamMemory, IsBoundedForFoldersOfTiles) {
     triangles += piece.triangles.size();
     if (pieces++ % 16 == 0) watch.look();
   };
-  const ImportReport report = stream_scene(std::span(&folder.path(), 1), {.memory_limit = least_limit}, sink);
+  const ImportReport report =
+      stream_scene(std::span(&folder.path(), 1), {.memory_limit = least_limit, .allow = {real}}, sink);
   EXPECT_EQ(triangles, tiles * 177'950u);
   EXPECT_EQ(report.missing_pages, 0u);
   expect_bound_kept(watch);

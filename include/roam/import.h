@@ -64,8 +64,11 @@ struct ImportOptions {
   /// extension ("dungeon" of dungeon.ply).
   std::vector<std::string> ignore{};
   std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= 64 MiB: of the reader's memory, and of the meshes it sends
-  double silence_limit = 120.0;    ///< seconds, > 0: a reader that reports nothing for so long, plus 1 s for each 4 MB
-                                   ///< of its file, has hung and is ended
+  double silence_limit = 120.0;  ///< seconds, > 0: a reader that reports nothing for so long, plus 1 s for each 4 MB
+                                 ///< of its file, has hung and is ended
+  /// Folders that files of the scene may refer to, besides the one that the scene's file lies in, or that is the scene.
+  /// References that lead elsewhere are left out and counted (ImportReport::outside_references).
+  std::vector<std::filesystem::path> allow{};
   std::filesystem::path reader{};  ///< the program roam-reader; empty: looked for as told above
   /// Called from the calling thread at least twice a second. Returning false ends the reader and throws Cancelled.
   std::function<bool(const ImportProgress&)> progress{};
@@ -85,20 +88,33 @@ struct Georeference {
   Vec3 origin{0.0};
 };
 
+/// The walls around the process that reads files, as far as the kernel has them. docs/importing.md says what each one
+/// stops.
+struct Confinement {
+  int landlock = 0;                ///< version of Landlock that keeps it to the scene's files; 0: the kernel has none
+  bool system_calls = false;       ///< seccomp: no program, process, network or change of a file; no code comes in
+  bool no_new_privileges = false;  ///< no_new_privs
+  bool limits = false;             ///< memory, file size, descriptors
+  bool empty_folder = false;       ///< its current folder is empty and stays so
+};
+
 /// What was read and what was not. Lists of names stop at name_limit entries; counts do not.
 struct ImportReport {
   static constexpr std::size_t name_limit = 100;
 
-  std::uint64_t files = 0;              ///< that were opened and read, pages and external references included
-  std::uint64_t vertices = 0;           ///< of all meshes
-  std::uint64_t triangles = 0;          ///< of all meshes
-  std::uint64_t bad_vertices = 0;       ///< left out: not finite, or beyond 1e9 m
-  std::uint64_t bad_triangles = 0;      ///< left out: they have a bad vertex, or an index beyond the vertices
-  std::uint64_t ignored_triangles = 0;  ///< left out by ImportOptions::ignore
-  std::uint64_t missing_pages = 0;      ///< files that a scene refers to and that are absent or unreadable
+  std::uint64_t files = 0;                 ///< that were opened and read, pages and external references included
+  std::uint64_t vertices = 0;              ///< of all meshes
+  std::uint64_t triangles = 0;             ///< of all meshes
+  std::uint64_t bad_vertices = 0;          ///< left out: not finite, or beyond 1e9 m
+  std::uint64_t bad_triangles = 0;         ///< left out: they have a bad vertex, or an index beyond the vertices
+  std::uint64_t ignored_triangles = 0;     ///< left out by ImportOptions::ignore
+  std::uint64_t missing_pages = 0;         ///< files that a scene refers to and that are absent or unreadable
+  std::uint64_t outside_references = 0;    ///< left out: they lead out of the scene's folder; see ImportOptions::allow
+  std::optional<Confinement> confinement;  ///< of the reader; of several readers the parts that all of them had
   std::vector<LeftOutObject> bad_objects;
   std::vector<LeftOutObject> ignored_objects;
   std::vector<std::string> missing_page_files;
+  std::vector<std::string> outside_files;
   std::optional<Georeference> georeference;
   /// Whole sentences for the user: everything above that is not as it should be, an up axis or unit that the file
   /// states and that was not applied, patterns of `ignore` that matched nothing. Empty when all is well.
@@ -169,6 +185,9 @@ struct ScenePart {
 /// error; the report counts the missing page. Of a tile it is not said which patterns of ImportOptions::ignore match
 /// nothing.
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink);
+
+/// The walls that hold on this machine, as a reader says that reads nothing. Throws roam::Error when it cannot be run.
+[[nodiscard]] Confinement reader_confinement(const ImportOptions& options = {});
 
 /// Tells the library where the package that the program was built with keeps its reader. Called by this header itself
 /// in programs that find_package(roam) built; nothing to call by hand.

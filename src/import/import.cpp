@@ -6,6 +6,7 @@
 #include <array>
 
 #include "import/assembler.h"
+#include "import/find_reader.h"
 #include "import/read_all.h"
 
 namespace roam {
@@ -44,6 +45,10 @@ LengthUnit parse_length_unit(std::string_view text) {
 }
 
 double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)].metres; }
+
+Confinement reader_confinement(const ImportOptions& options) {
+  return reader::confinement_of(reader::find_reader(options.reader));
+}
 
 Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
   Scene scene;

@@ -6,18 +6,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
 #include "import/stream.h"
 #include "roam/error.h"
-
-// POSIX asks programs to declare it themselves.
-extern char** environ;
 
 namespace roam::reader {
 namespace {
@@ -79,6 +78,41 @@ struct SpawnSettings {
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 };
 
+/// The absolute ones of a list of folders. Others would lie wherever the program was started.
+std::string absolute_folders(const std::string& list) {
+  std::string kept;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(':', begin), list.size());
+    const std::string folder = list.substr(begin, end - begin);
+    if (folder.starts_with('/')) kept += (kept.empty() ? "" : ":") + folder;
+    begin = end + 1;
+  }
+  return kept;
+}
+
+/// "NAME=value" of what a reader needs of this process's environment. Variables also say which libraries and files are
+/// opened, so that no other is handed on.
+std::vector<std::string> clean_environment() {
+  std::vector<std::string> variables{"PATH=/usr/bin:/bin"};
+  for (const char* name : {"LD_LIBRARY_PATH", "TMPDIR"}) {
+    const char* value = std::getenv(name);
+    const std::string folders = value == nullptr ? "" : absolute_folders(value);
+    if (!folders.empty()) variables.push_back(std::string(name) + "=" + folders);
+  }
+  // Where the sanitizers that both are built with are told what to do.
+  for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) variables.push_back(std::string(name) + "=" + value);
+  }
+  return variables;
+}
+
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 /// A descriptor above those that the child's own standard descriptors and stream replace.
 int moved_out_of_the_way(int descriptor) {
   const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, stream_fd + 1);
@@ -114,13 +148,17 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::ve
   posix_spawnattr_setsigmask(&settings.attributes, &none);
   posix_spawnattr_setflags(&settings.attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
 
-  const std::string name = program.string();
-  std::vector<char*> argv{const_cast<char*>(name.c_str())};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+#if defined(__GLIBC__) || defined(__APPLE__)
+  posix_spawn_file_actions_addchdir_np(&settings.files, "/");
+#endif
 
+  const std::string name = std::filesystem::absolute(program).string();
+  std::vector<std::string> command{name};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const std::vector<std::string> environment = clean_environment();
   pid_t pid = -1;
-  const int failure = posix_spawn(&pid, name.c_str(), &settings.files, &settings.attributes, argv.data(), environ);
+  const int failure = posix_spawn(&pid, name.c_str(), &settings.files, &settings.attributes,
+                                  pointers_to(command).data(), pointers_to(environment).data());
   if (failure != 0) {
     throw Error("cannot run the scene reader " + name + ": " + std::strerror(failure) +
                 ". Install roam anew, or name the program by the environment variable ROAM_READER.");

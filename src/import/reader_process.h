@@ -20,7 +20,9 @@ struct Ending {
 /// Owns one child. Destruction kills it, collects it and closes the pipes: no zombie, no open descriptor is left.
 class ReaderProcess {
  public:
-  /// Starts `program` with `arguments` (without the program's own name). Throws roam::Error when it cannot run.
+  /// Starts `program` with `arguments` (without the program's own name) in the folder "/", so that paths among them
+  /// must be absolute, and with an environment that holds nothing but folders of libraries and temporary files. Throws
+  /// roam::Error when it cannot run.
   ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
@@ -33,6 +35,8 @@ class ReaderProcess {
   /// Waits at most `milliseconds` for the child to end by itself, kills it if it does not, and collects it.
   Ending finish(int milliseconds);
 
+  /// The child's number; -1 once it has been collected.
+  [[nodiscard]] int id() const { return pid_; }
   /// The end of what the child wrote to its standard output and error.
   [[nodiscard]] const std::string& complaints() const { return complaints_; }
 

@@ -8,12 +8,15 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <system_error>
 
+#include "import/processor_budget.h"
 #include "import/reader_process.h"
 
 namespace roam::reader {
 namespace {
 
+namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// How long to wait for bytes before the progress callback is served.
@@ -23,10 +26,45 @@ constexpr int ending_milliseconds = 2000;
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
 
-std::vector<std::string> arguments_of(const Reading& reading) {
+/// A path as its reader gets it: absolute, and the folders above it without links.
+fs::path readers_path(const fs::path& path) {
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  std::error_code none;
+  const fs::path real = fs::canonical(fs::is_directory(whole, none) ? whole : whole.parent_path(), none);
+  if (none) return whole;
+  return fs::is_directory(whole, none) ? real : real / whole.filename();
+}
+
+/// What the reader of a path may read, as arguments.
+void add_rights(const fs::path& path, const std::vector<fs::path>& allowed, std::vector<std::string>& arguments) {
+  const auto add = [&](const char* name, const fs::path& real) {
+    arguments.insert(arguments.end(), {name, real.string()});
+  };
+  std::error_code none;
+  if (fs::is_directory(path, none)) {
+    add("--folder", path);
+    // It lies beside the folder of the tiles and says where they are.
+    if (path.filename() == "Data") add("--file", path.parent_path() / "metadata.xml");
+  } else {
+    add("--folder", path.parent_path());
+    // The user named the file, wherever a link leads.
+    if (const fs::path real = fs::canonical(path, none); !none) add("--file", real);
+  }
+  for (const fs::path& folder : allowed) {
+    const fs::path real = fs::canonical(folder, none);
+    if (none || !fs::is_directory(real, none)) {
+      throw Error(fmt::format("{}: there is no such folder to allow. Check the spelling.", folder.string()));
+    }
+    add("--folder", real);
+  }
+}
+
+std::vector<std::string> arguments_of(const Reading& reading, const fs::path& path) {
   const ImportOptions& options = *reading.options;
   std::vector<std::string> arguments{"--unit", fmt::format("{}", metres_per(options.unit)), "--memory",
                                      fmt::format("{}", options.memory_limit)};
+  add_rights(path, options.allow, arguments);
   if (options.up) {
     constexpr const char* names[] = {"x", "y", "z"};
     arguments.insert(arguments.end(), {"--up", names[static_cast<int>(*options.up)]});
@@ -46,7 +84,7 @@ std::vector<std::string> arguments_of(const Reading& reading) {
                      {"--origin", fmt::format("{}", o->x), fmt::format("{}", o->y), fmt::format("{}", o->z)});
   }
   // A path that begins with a dash must not be taken for an option.
-  arguments.insert(arguments.end(), {"--", reading.path.string()});
+  arguments.insert(arguments.end(), {"--", path.string()});
   return arguments;
 }
 
@@ -69,9 +107,20 @@ std::string last_words(const std::string& complaints) {
   return text.empty() ? "" : " (its last words: " + text + ")";
 }
 
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
 /// Why a reader ended before it was done.
 std::string cause_of_death(const Ending& ending, const std::string& complaints, const ImportOptions& options) {
   if (mentions(complaints, "bad_alloc") || mentions(complaints, "out of memory")) return too_much_memory(options);
+#ifdef SIGSYS
+  if (ending.signal == SIGSYS) {
+    return "made its reader try something that no scene needs, such as starting a program, reaching a network or "
+           "changing a file, and the reader was ended. Do not trust this file";
+  }
+#endif
   if (ending.signal != 0) {
     return fmt::format(
         "made its reader crash with signal {} ({}){}. The file is damaged, or of a kind that this "
@@ -86,7 +135,36 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
                      ending.exit_code, last_words(complaints));
 }
 
+/// Waits for the answer of a reader that is given nothing to read.
+class WallsReceiver : public StreamReceiver {
+ public:
+  explicit WallsReceiver(ImportReport& report) : StreamReceiver(report, 0, 0) {}
+  [[nodiscard]] std::uint64_t triangles() const override { return 0; }
+
+ private:
+  void take_content(FrameKind, std::span<const std::byte>) override { throw StreamDamaged{"a frame of unknown kind"}; }
+  void finish_content(const Totals&) override {}
+};
+
 }  // namespace
+
+Confinement confinement_of(const fs::path& program) {
+  ReaderProcess process(program, {"--only-walls", "--memory", "67108864", "--", "/"});
+  ImportReport report;
+  WallsReceiver greeting(report);
+  try {
+    for (int waited = 0; !report.confinement && waited < ending_milliseconds; waited += wait_milliseconds) {
+      std::size_t received = 0;
+      const auto arrival = process.receive(greeting.room(), wait_milliseconds, received);
+      if (arrival == ReaderProcess::Arrival::end) break;
+      greeting.take(received);
+    }
+  } catch (const StreamReceiver::StreamDamaged&) {
+    report.confinement.reset();
+  }
+  if (report.confinement) return *report.confinement;
+  throw Error(program.string() + " is not the roam-reader of this version, or cannot run here. Install roam anew.");
+}
 
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
   const ImportOptions& options = *reading.options;
@@ -95,7 +173,10 @@ void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
-  ReaderProcess process(reading.program, arguments_of(reading));
+  const fs::path readers_name = readers_path(reading.path);
+  receiver.spell(readers_name.string(), without_slash(path));
+  ReaderProcess process(reading.program, arguments_of(reading, readers_name));
+  ProcessorBudget budget(process.id());
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
   try {
@@ -108,6 +189,17 @@ void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
         receiver.take(received);
+        for (const std::string& file : receiver.take_opened()) budget.add_file(file);
+      }
+      // What is still in the pipe may say that more files were read.
+      const double grace = arrival == ReaderProcess::Arrival::bytes ? ProcessorBudget::least_seconds : 0.0;
+      if (const double used = budget.used(); used > ProcessorBudget::least_seconds) {
+        if (const double allowed = budget.allowed(); used > allowed + grace) {
+          throw fail(fmt::format(
+              "its reader computed for more than {:.0f} s on {} bytes and was ended. The file is damaged, or refers to "
+              "itself over and over",
+              allowed, budget.bytes()));
+        }
       }
       // A taker may be slow, which is not the reader's fault.
       const Clock::time_point now = Clock::now();

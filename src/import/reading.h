@@ -30,6 +30,9 @@ struct Reading {
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };
 
+/// The walls around a reader, as one says that reads nothing. Throws roam::Error when it cannot be run.
+[[nodiscard]] Confinement confinement_of(const std::filesystem::path& program);
+
 /// Gives what the reader says of the path to `receiver`, and sets matched[i] where ignore pattern i matched. Throws
 /// roam::Error, and whatever report_progress and the receiver throw; the reader is gone either way.
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched);

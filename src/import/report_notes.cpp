@@ -41,6 +41,13 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
                     "there is one: {}.",
                     report.missing_pages, listed(report.missing_page_files)));
   }
+  if (report.outside_references > 0) {
+    const bool one = report.outside_references == 1;
+    notes.push_back(fmt::format(
+        "{} {} out of the scene's folder and {} left out: {}. Allow the folder (--allow) if you trust the scene.",
+        report.outside_references, one ? "reference leads" : "references lead", one ? "was" : "were",
+        listed(report.outside_files)));
+  }
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (!matched[i])
       notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", options.ignore[i]));

@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "import/find_reader.h"
-#include "import/gltf_buffers.h"
 #include "import/read_all.h"
 #include "roam/import.h"
 
@@ -22,31 +21,37 @@ struct Tile {
   bool present = false;
 };
 
-/// Takes the names of a folder's tiles.
-class TileList : public reader::StreamReceiver {
+/// Takes the names of a folder's tiles, and of the files that a file is read from besides.
+class PartList : public reader::StreamReceiver {
  public:
-  TileList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
+  PartList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
 
   [[nodiscard]] std::uint64_t triangles() const override { return 0; }
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
+  [[nodiscard]] const std::vector<fs::path>& files() const { return files_; }
 
  private:
   /// Names of millions of tiles.
   static constexpr std::uint64_t text_bytes = 1ull << 30;
 
   void take_content(reader::FrameKind kind, std::span<const std::byte> payload) override {
-    if (kind != reader::FrameKind::tile) throw StreamDamaged{"a frame of unknown kind"};
+    const bool is_tile = kind == reader::FrameKind::tile;
+    if (!is_tile && kind != reader::FrameKind::file) throw StreamDamaged{"a frame of unknown kind"};
     count_bytes(payload.size());
     reader::PayloadReader fields(payload);
-    Tile tile;
-    tile.root = fields.take_text();
-    tile.present = fields.take<std::uint8_t>() != 0;
+    fs::path file = fields.take_text();
+    const bool present = !is_tile || fields.take<std::uint8_t>() != 0;
     if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
-    tiles_.push_back(std::move(tile));
+    if (is_tile) {
+      tiles_.push_back({std::move(file), present});
+    } else {
+      files_.push_back(std::move(file));
+    }
   }
   void finish_content(const reader::Totals&) override {}
 
   std::vector<Tile> tiles_;
+  std::vector<fs::path> files_;
 };
 
 fs::path normal(const fs::path& path) {
@@ -163,7 +168,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
       if (options.progress && !options.progress({})) throw Cancelled();
     };
     const std::optional<Georeference> frame = report.georeference;
-    TileList list(report, options.ignore.size());
+    PartList list(report, options.ignore.size());
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
     std::error_code none;
@@ -174,7 +179,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     ScenePart part;
     part.name = names.unique(normal(path).filename().string());
     part.path = path;
-    part.files = reader::gltf_buffers(normal(path));
+    part.files = list.files();
     part.files.insert(part.files.begin(), normal(path));
     count_bytes(part);
     parts.push_back(std::move(part));

@@ -6,7 +6,11 @@
 /// Frames are numbered from 0 without a gap. Payloads are the fields below in this order; text is a 32-bit length and
 /// that many bytes.
 ///
-///     hello         u32 stream_version                                       first, once
+///     hello         Greeting                                                 first, once
+///     opened        text file                                                at any time, of each file once
+///     outside       text file                                                a reference that was left out
+///     file          text file                                                where files are only to be listed: one
+///                                                                            that the file names
 ///     progress      u64 bytes read so far                                    at any time
 ///     georeference  f64 x, y, z; text srs                                    folders of tiles, at most once
 ///     tile          text root file; u8 whether it is there                   of folders that are only to be listed
@@ -41,7 +45,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 3;
+inline constexpr std::uint32_t stream_version = 4;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -50,6 +54,9 @@ inline constexpr std::uint32_t text_limit = 64u << 10;
 
 enum class FrameKind : std::uint16_t {
   hello,
+  opened,
+  outside,
+  file,
   progress,
   georeference,
   tile,
@@ -76,6 +83,13 @@ struct FrameHeader {
 static_assert(sizeof(FrameHeader) == 16);
 
 enum class LeftOutReason : std::uint8_t { bad_vertices, ignored };
+
+/// Which version of this stream the sender speaks, and which walls stand around it: see Confinement.
+struct Greeting {
+  std::uint32_t version = stream_version;
+  std::int32_t landlock = 0;
+  std::uint8_t system_calls = 0, no_new_privileges = 0, limits = 0, empty_folder = 0;
+};
 
 struct Totals {
   std::uint64_t files = 0, vertices = 0, triangles = 0;

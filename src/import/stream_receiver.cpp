@@ -1,5 +1,6 @@
 #include "import/stream_receiver.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -67,8 +68,18 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
   PayloadReader fields(payload);
   switch (header.kind) {
     case FrameKind::hello:
-      if (fields.take<std::uint32_t>() != stream_version) throw StreamDamaged{"another version of the stream"};
+      take_hello(fields);
       break;
+    case FrameKind::opened:
+      opened_.push_back(fields.take_text());
+      break;
+    case FrameKind::outside: {
+      std::string file = fields.take_text();
+      ++report_.outside_references;
+      auto& files = report_.outside_files;
+      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+      break;
+    }
     case FrameKind::progress:
       bytes_read_ = fields.take<std::uint64_t>();
       break;
@@ -89,12 +100,12 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       break;
     }
     case FrameKind::note: {
-      std::string sentence = fields.take_text();
+      std::string sentence = spelt(fields.take_text());
       if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
       break;
     }
     case FrameKind::failure: {
-      Failure failure{fields.take_text()};
+      Failure failure{spelt(fields.take_text())};
       if (!fields.complete()) break;
       throw failure;
     }
@@ -110,6 +121,29 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
 void StreamReceiver::count_bytes(std::size_t bytes) {
   if (bytes > content_bytes_left_) throw ContentTooLarge{};
   content_bytes_left_ -= bytes;
+}
+
+void StreamReceiver::take_hello(PayloadReader& fields) {
+  const auto greeting = fields.take<Greeting>();
+  if (!fields.complete() || greeting.version != stream_version) throw StreamDamaged{"another version of the stream"};
+  const Confinement before = report_.confinement.value_or(Confinement{greeting.landlock, true, true, true, true});
+  report_.confinement =
+      Confinement{std::min(greeting.landlock, before.landlock), greeting.system_calls != 0 && before.system_calls,
+                  greeting.no_new_privileges != 0 && before.no_new_privileges, greeting.limits != 0 && before.limits,
+                  greeting.empty_folder != 0 && before.empty_folder};
+}
+
+void StreamReceiver::spell(std::string readers_name, std::string users_name) {
+  readers_name_ = std::move(readers_name);
+  users_name_ = std::move(users_name);
+}
+
+std::string StreamReceiver::spelt(std::string sentence) const {
+  if (readers_name_.empty() || readers_name_ == users_name_) return sentence;
+  for (std::size_t at = 0; (at = sentence.find(readers_name_, at)) != std::string::npos; at += users_name_.size()) {
+    sentence.replace(at, readers_name_.size(), users_name_);
+  }
+  return sentence;
 }
 
 void StreamReceiver::take_left_out(PayloadReader& fields) {

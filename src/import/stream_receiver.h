@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "import/stream.h"
@@ -23,6 +24,9 @@ class StreamReceiver {
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;
 
+  /// From now on sentences that name the path as the reader knows it name it as the user does.
+  void spell(std::string readers_name, std::string users_name);
+
   /// Where the next bytes of the stream are to be put.
   [[nodiscard]] std::span<std::byte> room();
   /// Takes the first `count` bytes of the room. Throws StreamDamaged, ContentTooLarge, Failure, or what a taker throws.
@@ -31,6 +35,8 @@ class StreamReceiver {
   /// Whether the reader has said that it is done; nothing may follow.
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] std::uint64_t bytes_read() const { return bytes_read_; }
+  /// The files that the reader has opened since the last call.
+  [[nodiscard]] std::vector<std::string> take_opened() { return std::exchange(opened_, {}); }
   /// For each pattern of ImportOptions::ignore whether an object's name matched it; known once ended.
   [[nodiscard]] const std::vector<bool>& matched() const { return matched_; }
   /// Triangles that arrived so far.
@@ -58,8 +64,10 @@ class StreamReceiver {
 
  private:
   void handle(const FrameHeader& header, std::span<const std::byte> payload);
+  void take_hello(PayloadReader& fields);
   void take_left_out(PayloadReader& fields);
   void take_end(PayloadReader& fields);
+  [[nodiscard]] std::string spelt(std::string sentence) const;
 
   std::size_t ignore_patterns_;
   std::uint64_t content_bytes_left_;
@@ -70,6 +78,8 @@ class StreamReceiver {
   bool ended_ = false;
   std::uint64_t bytes_read_ = 0;
   std::vector<bool> matched_;
+  std::vector<std::string> opened_;
+  std::string readers_name_, users_name_;
 };
 
 }  // namespace roam::reader

@@ -1,3 +1,5 @@
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -116,6 +118,42 @@ class AssimpWalk {
   std::vector<std::uint32_t> index_;  ///< in the sink's object, of each vertex of the mesh
 };
 
+/// Opens the scene's files for assimp, and no others. assimp writes nothing here.
+class AssimpFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit AssimpFiles(SceneFiles& files) : files_(files) {}
+
+  bool Exists(const char* name) const override { return !files_.find(name).empty(); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (!files_.resolve(name)) files_.leave_out(name);
+    const std::filesystem::path file = files_.open(name);
+    return file.empty() || mode == nullptr || *mode != 'r' ? nullptr : DefaultIOSystem::Open(file.c_str(), "rb");
+  }
+
+ private:
+  SceneFiles& files_;
+};
+
+/// Whether a list of words separated by blanks has that word.
+bool lists(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const auto end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
+/// Leaves assimp the readers of this format alone. It would else guess a format from what is in the file.
+void keep_format(Assimp::Importer& importer, const std::string& extension) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (lists(importer.GetImporterInfo(i)->mFileExtensions, extension)) continue;
+    Assimp::BaseImporter* other = importer.GetImporter(i);
+    importer.UnregisterLoader(other);
+    delete other;
+  }
+}
+
 /// The integer or real number that the file's metadata has under `key`.
 std::optional<double> stated_number(const aiScene& scene, const char* key) {
   if (scene.mMetaData == nullptr) return std::nullopt;
@@ -150,12 +188,14 @@ void compare_fbx(const aiScene& scene, const std::string& file, MeshSink& sink) 
 
 }  // namespace
 
-void read_assimp(const std::filesystem::path& path, const std::string& extension, MeshSink& sink) {
+void read_assimp(const std::filesystem::path& path, const std::string& extension, SceneFiles& files, MeshSink& sink) {
   const std::string file = path.string();
   const bool ifc = extension == "ifc";
   if (extension == "glb" || extension == "gltf") sink.set_format_up(UpAxis::y);
 
   Assimp::Importer importer;
+  keep_format(importer, extension);
+  importer.SetIOHandler(new AssimpFiles(files));
   // Else Collada's nodes are called by their ids.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   // IFC's faces are concave as often as not; in other formats polygons are fanned as everywhere in roam.

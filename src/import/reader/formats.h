@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "import/reader/mesh_sink.h"
+#include "import/reader/scene_files.h"
 
 namespace roam::reader {
 
@@ -17,11 +18,16 @@ void read_stl(const std::filesystem::path& path, MeshSink& sink);
 void read_ply(const std::filesystem::path& path, MeshSink& sink);
 
 /// What OpenSceneGraph reads: ive, osg, osgb, osgt, 3ds, flt, dae, ac and what else its plugins know.
-void read_osg(const std::filesystem::path& path, MeshSink& sink);
+void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink);
 /// A folder of photogrammetry tiles.
-void read_tiles(const std::filesystem::path& folder, MeshSink& sink, const ReadingSettings& settings);
+void read_tiles(const std::filesystem::path& folder, SceneFiles& files, MeshSink& sink,
+                const ReadingSettings& settings);
 
 /// What assimp reads and the others do not: glb, gltf, fbx, ifc and others. `extension` is lower case without the dot.
-void read_assimp(const std::filesystem::path& path, const std::string& extension, MeshSink& sink);
+void read_assimp(const std::filesystem::path& path, const std::string& extension, SceneFiles& files, MeshSink& sink);
+
+/// Reports the files that a .gltf file names as its buffers, in the order of their names. Reads the text once and keeps
+/// nothing of it.
+void list_gltf_buffers(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink);
 
 }  // namespace roam::reader

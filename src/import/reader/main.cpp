@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,68 +15,32 @@
 #include <system_error>
 #include <vector>
 
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
-
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
 #include "import/reader/piece_cutter.h"
 #include "import/reader/read_path.h"
+#include "import/reader/sandbox/sandbox.h"
+#include "import/reader/scene_files.h"
 #include "import/stream.h"
 #include "roam/error.h"
-
-// Sanitizers reserve terabytes of address space; a limit on it would end the reader before it begins.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ROAM_SHADOW_MEMORY 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define ROAM_SHADOW_MEMORY 1
-#endif
-#endif
 
 namespace roam::reader {
 namespace {
 
 /// Address space that the program's own code, its libraries and their plugins take before a file is opened.
-[[maybe_unused]] constexpr rlim_t own_address_space = rlim_t{1} << 30;
+constexpr std::uint64_t own_address_space = std::uint64_t{1} << 30;
 
 /// Of the memory for reading in pieces, what is not data of this process: its code and that of its libraries, and the
 /// receiver's window and piece.
-[[maybe_unused]] constexpr std::uint64_t memory_beside_data = 28u << 20;
-
-void limit(int resource, rlim_t value, rlim_t soft) {
-  const struct rlimit both { soft, value };
-  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
-}
-void limit(int resource, rlim_t value) { limit(resource, value, value); }
+constexpr std::uint64_t memory_beside_data = 28u << 20;
 
 /// Bytes that vertices may take outside the memory. The shortest vertex of a file has three bytes, and is kept as three
 /// doubles; foreign readers pack more tightly, but hold in memory what they read, in floats at least.
-rlim_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
+std::uint64_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
   std::error_code none;
   const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
-  return 8 * static_cast<rlim_t>(none ? 0 : bytes) + 2 * static_cast<rlim_t>(memory_limit);
-}
-
-/// What a file must not be able to do: take more memory, leave a core, write a file, or outlive the program.
-void confine([[maybe_unused]] std::uint64_t memory_limit, [[maybe_unused]] bool pieces, rlim_t temporary_bytes) {
-#ifndef ROAM_SHADOW_MEMORY
-  limit(RLIMIT_AS, static_cast<rlim_t>(memory_limit) + own_address_space);
-  // Foreign readers hold a whole file; where that must fit, all that can be written counts.
-  if (pieces) limit(RLIMIT_DATA, static_cast<rlim_t>(memory_limit - std::min(memory_limit, memory_beside_data)));
-#endif
-  limit(RLIMIT_CORE, 0);
-  // PagedVertices lifts it for its own file.
-  limit(RLIMIT_FSIZE, temporary_bytes, 0);
-#ifdef __linux__
-  const pid_t parent = getppid();
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(EXIT_FAILURE);
-  // Descriptors that the program holds open and did not mark are no business of a reader.
-  close_range(stream_fd + 1, ~0u, 0);
-#endif
+  return 8 * (none ? 0 : bytes) + 2 * memory_limit;
 }
 
 struct Request {
@@ -86,6 +48,9 @@ struct Request {
   bool display = false;
   bool pieces = false;
   std::optional<Vec3> origin;
+  std::vector<std::filesystem::path> folders, files;  ///< that may be read; absolute, without links
+  int highest_landlock = any_landlock;
+  bool only_walls = false;  ///< nothing is read: which walls hold is all that is wanted
   std::string path;
 };
 
@@ -115,6 +80,14 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       settings.frame = frame;
     } else if (name == "--tile" && left() > 0) {
       settings.tile = arguments[i++];
+    } else if (name == "--folder" && left() > 0) {
+      request.folders.emplace_back(arguments[i++]);
+    } else if (name == "--file" && left() > 0) {
+      request.files.emplace_back(arguments[i++]);
+    } else if (name == "--highest-landlock" && left() > 0) {
+      request.highest_landlock = std::stoi(arguments[i++]);
+    } else if (name == "--only-walls") {
+      request.only_walls = true;
     } else if (name == "--only-list") {
       settings.only_list = true;
     } else if (name == "--pieces") {
@@ -131,6 +104,13 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
   return false;
 }
 
+void greet(FrameWriter& frames, const Confinement& walls) {
+  const auto flag = [](bool holds) { return static_cast<std::uint8_t>(holds); };
+  frames.send(FrameKind::hello, PayloadWriter().add(Greeting{stream_version, walls.landlock, flag(walls.system_calls),
+                                                             flag(walls.no_new_privileges), flag(walls.limits),
+                                                             flag(walls.empty_folder)}));
+}
+
 int run(const std::vector<std::string>& arguments) {
   Request request;
   bool understood = false;
@@ -143,22 +123,42 @@ int run(const std::vector<std::string>& arguments) {
     std::fputs("roam-reader opens scene files for roam, which starts it; there is nothing to run by hand.\n", stderr);
     return 2;
   }
-  confine(request.settings.memory_limit, request.pieces,
-          request.pieces ? temporary_bytes(request.path, request.settings.memory_limit) : 0);
+  const std::uint64_t memory = request.settings.memory_limit;
+  Rights rights;
+  rights.folders = request.folders;
+  rights.files = request.files;
+  rights.address_space = memory + own_address_space;
+  rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
+  rights.file_size = request.pieces ? temporary_bytes(request.path, memory) : 0;
+  limit_process(rights, stream_fd);
+  const bool empty_folder = enter_empty_folder();
+  if (!request.only_walls) load_libraries(request.path, request.display);
 
   FrameWriter frames(stream_fd);
-  frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
-  PartPool parts(frames, request.origin);
+  SceneFiles files(request.folders, request.files, frames);
+  PartPool parts(frames, files, request.origin);
   std::optional<PieceCutter> pieces;
-  if (request.pieces) pieces.emplace(frames, request.settings.memory_limit);
+  if (request.pieces) pieces.emplace(frames, memory);
   MeshSink sink(frames, request.settings, request.display ? &parts : nullptr, pieces ? &*pieces : nullptr);
-  const auto fail = [&](const std::string& sentence) {
+
+  Confinement walls = enter(rights, request.highest_landlock);
+  walls.empty_folder = empty_folder;
+  greet(frames, walls);
+  if (request.only_walls) {
+    frames.flush();
+    return EXIT_SUCCESS;
+  }
+  const auto fail = [&](std::string sentence) {
+    if (files.left_any_out()) {
+      sentence += fmt::format(" It refers to {}, which lies outside of its folder; --allow lets a folder in.",
+                              files.first_left_out());
+    }
     frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
     frames.flush();
     return EXIT_FAILURE;
   };
   try {
-    read_path(request.path, sink, request.settings);
+    read_path(request.path, files, sink, request.settings);
     sink.end();
     return EXIT_SUCCESS;
   } catch (const Error& error) {

@@ -87,6 +87,8 @@ class MeshSink {
 
   void count_file() { ++totals_.files; }
   void report_tile(std::string_view root, bool present);
+  /// A file that is to be listed.
+  void report_file(std::string_view file);
   void report_missing_page(std::string_view file);
   void report_note(std::string_view sentence);
   /// The same sentence, said once however often it is found.

@@ -1,20 +1,28 @@
 #include "import/reader/osg_files.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <osg/Notify>
 #include <osgDB/Options>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
-#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
+
+#include "import/reader/file_extension.h"
+#include "osg_plugins/plugins.h"
 
 namespace roam::reader {
 namespace {
 
+namespace fs = std::filesystem;
 using Result = osgDB::ReaderWriter::ReadResult;
 
-/// Files that read files that read files: more than this is a circle.
-constexpr int nesting_limit = 64;
+/// Files that name files that name files.
+constexpr std::size_t nesting_limit = 64;
 
 /// Answers for every kind of image inside other files before osgDB loads a decoder for it: what is walked on has no
 /// colour, and image files are a favourite of attackers.
@@ -32,47 +40,129 @@ class NoImages : public osgDB::ReaderWriter {
   Result readImage(std::istream&, const osgDB::Options*) const override { return Result::FILE_NOT_FOUND; }
 };
 
+/// Formats whose files may name files of any of these formats. The others name images alone.
+constexpr std::array<std::string_view, 5> naming{"ive", "osg", "osgb", "osgt", "osgx"};
+
+/// A format that OpenSceneGraph reads, and its plugin. "osg" is the plugin of four formats.
+struct Format {
+  std::string_view extension;
+  std::string_view plugin;
+};
+constexpr std::array<Format, 12> formats{{{"ive", "ive"},
+                                          {"osg", "osg"},
+                                          {"osgb", "osg"},
+                                          {"osgt", "osg"},
+                                          {"osgx", "osg"},
+                                          {"3ds", "3ds"},
+                                          {"flt", "openflight"},
+                                          {"ac", "ac"},
+                                          {"dxf", "dxf"},
+                                          {"lwo", "lwo"},
+                                          {"x", "x"},
+                                          {"iv", "iv"}}};
+
+/// Classes that a file of the plugin "osg" may name, by the library that they belong to.
+constexpr std::array<std::string_view, 10> class_libraries{"osg",          "osgsim",    "osgtext",    "osgfx",
+                                                           "osgparticle",  "osgshadow", "osgterrain", "osgvolume",
+                                                           "osganimation", "osgutil"};
+
+constexpr std::array<std::string_view, 10> image_plugins{"jpeg", "png", "tiff", "dds", "gif",
+                                                         "bmp",  "rgb", "tga",  "pnm", "hdr"};
+
+bool names_files(std::string_view extension) {
+  return std::find(naming.begin(), naming.end(), extension) != naming.end();
+}
+
+/// Where a name leads that another file has: as it stands, or by its last part alone, in the folders of the files that
+/// name it. The first that is there; else where it would lie.
+fs::path place_of(const std::string& name, const osgDB::Options* options, const SceneFiles& files) {
+  std::string spelling = name;
+  std::replace(spelling.begin(), spelling.end(), '\\', '/');
+  const fs::path path(spelling);
+  if (path.is_absolute()) return path;
+  fs::path first;
+  for (const fs::path& wanted : {path, path.filename()}) {
+    for (const std::string& folder : options == nullptr ? osgDB::FilePathList() : options->getDatabasePathList()) {
+      const fs::path place = fs::path(folder) / wanted;
+      if (first.empty()) first = place;
+      if (!files.find(place).empty()) return place;
+    }
+  }
+  return first;
+}
+
 class GuardedReading : public osgDB::ReadFileCallback {
  public:
-  explicit GuardedReading(MeshSink& sink) : sink_(sink) {}
+  GuardedReading(MeshSink& sink, SceneFiles& files) : sink_(sink), files_(files) {}
 
-  Result readNode(const std::string& file, const osgDB::Options* options) override {
-    if (file.find("://") != std::string::npos || nesting_ >= nesting_limit) return missing(file);
-    ++nesting_;
+  Result readNode(const std::string& name, const osgDB::Options* options) override {
     const bool main = std::exchange(next_is_main_, false);
-    Result result = osgDB::ReadFileCallback::readNode(file, options);
-    --nesting_;
-    if (!result.validNode()) return main ? result : missing(file);
+    const fs::path place = place_of(name, options, files_);
+    osgDB::ReaderWriter* reader = reader_for(place);
+    if (name.find("://") != std::string::npos || reader == nullptr || place.empty()) return missing(name);
+    if (!files_.resolve(place)) {
+      files_.leave_out(place);
+      return Result::FILE_NOT_FOUND;
+    }
+    const fs::path file = files_.open(place);
+    // A file that is named while it is read is a circle.
+    const bool circle = std::find(reading_.begin(), reading_.end(), file) != reading_.end();
+    if (file.empty() || circle || reading_.size() >= nesting_limit) return missing(name);
+    reading_.push_back(file);
+    const osg::ref_ptr<osgDB::Options> own = options == nullptr ? new osgDB::Options : options->cloneOptions();
+    own->getDatabasePathList().push_front(file.parent_path().string());
+    Result result = reader->readNode(file.string(), own);
+    reading_.pop_back();
+    if (!result.validNode()) return main ? result : missing(name);
     if (quiet_) return result;
     sink_.count_file();
     std::error_code unseen;
-    const auto bytes = std::filesystem::file_size(file, unseen);
+    const auto bytes = fs::file_size(file, unseen);
     sink_.report_more_progress(unseen ? 0 : bytes);
     return result;
   }
   Result readObject(const std::string& file, const osgDB::Options* options) override { return readNode(file, options); }
   Result readImage(const std::string& file, const osgDB::Options* options) override {
     if (!images_) return Result::FILE_NOT_FOUND;
-    std::filesystem::path folder;
+    fs::path folder;
     if (options != nullptr && !options->getDatabasePathList().empty()) folder = options->getDatabasePathList().front();
     osg::ref_ptr<osg::Image> image = sink_.parts()->textures().find(folder, file);
     return image == nullptr ? Result(Result::FILE_NOT_FOUND) : Result(image.get());
   }
+  Result openArchive(const std::string&, osgDB::ReaderWriter::ArchiveStatus, unsigned, const osgDB::Options*) override {
+    return Result::FILE_NOT_FOUND;
+  }
+  Result readHeightField(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
   Result readShader(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
   Result readScript(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+
+  /// A file that a plugin opens by itself.
+  std::string find(const std::string& name, const osgDB::Options* options) {
+    const fs::path place = place_of(name, options, files_);
+    if (!place.empty() && !files_.resolve(place)) files_.leave_out(place);
+    return place.empty() ? "" : files_.open(place).string();
+  }
 
   void expect_main() { next_is_main_ = true; }
   void set_images(bool wanted) { images_ = wanted; }
   void set_quiet(bool quiet) { quiet_ = quiet; }
 
  private:
+  /// The loaded plugin for a file, by its extension; null for all other formats.
+  static osgDB::ReaderWriter* reader_for(const fs::path& file) {
+    const std::string extension = extension_of(file);
+    const bool known = std::any_of(formats.begin(), formats.end(),
+                                   [&](const Format& format) { return format.extension == extension; });
+    return known ? osgDB::Registry::instance()->getReaderWriterForExtension(extension) : nullptr;
+  }
   Result missing(const std::string& file) {
     if (!quiet_) sink_.report_missing_page(file);
     return Result::FILE_NOT_FOUND;
   }
 
   MeshSink& sink_;
-  int nesting_ = 0;
+  SceneFiles& files_;
+  std::vector<fs::path> reading_;  ///< the files that are being read, each named by the one before
   bool next_is_main_ = false;
   bool images_ = false;
   bool quiet_ = false;
@@ -104,29 +194,53 @@ void set_images(bool wanted) {
 
 }  // namespace
 
-void prepare_osg(MeshSink& sink, bool images) {
+void load_osg_plugins(const std::string& extension) {
+  const bool all = extension.empty() || names_files(extension);
+  for (const Format& format : formats) {
+    // Inventor's library is large, and no other format names its files.
+    if (format.extension == extension || (all && format.extension != "iv")) osg_plugins::load(format.plugin);
+  }
+  if (!all) return;
+  for (const std::string_view library : class_libraries) {
+    osg_plugins::load("serializers_" + std::string(library));
+    osg_plugins::load("deprecated_" + std::string(library));
+  }
+}
+
+void load_image_plugins() {
+  for (const std::string_view plugin : image_plugins) osg_plugins::load(plugin);
+}
+
+void close_osg_door() {
+  osg_plugins::close_door([](const std::string& name, const osgDB::Options* options) {
+    return guard == nullptr ? std::string() : guard->find(name, options);
+  });
+}
+
+void prepare_osg(MeshSink& sink, SceneFiles& files, bool images) {
   complaints = new Complaints;
   osg::setNotifyLevel(osg::WARN);
   osg::setNotifyHandler(complaints);
   osgDB::Registry* registry = osgDB::Registry::instance();
   no_images = new NoImages;
-  guard = new GuardedReading(sink);
+  guard = new GuardedReading(sink, files);
   registry->setReadFileCallback(guard);
   set_images(images);
   // Readers of other formats optimise with it; it would reorder triangles.
   registry->setBuildKdTreesHint(osgDB::Options::DO_NOT_BUILD_KDTREES);
 }
 
-osg::ref_ptr<osg::Node> read_osg_file(const std::filesystem::path& path, bool main) {
-  const std::string file = path.string();
+osg::ref_ptr<osg::Node> read_osg_file(const fs::path& path, bool main) {
   osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
   options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
   options->setDatabasePath(path.parent_path().string());
   if (main) guard->expect_main();
-  return osgDB::readRefNodeFile(file, options.get());
+  Result result = guard->readNode(path.string(), options);
+  if (!result.validNode() && !result.message().empty()) OSG_WARN << result.message() << std::endl;
+  return result.getNode();
 }
 
-osg::ref_ptr<osg::Node> read_again_with_images(const std::filesystem::path& path) {
+osg::ref_ptr<osg::Node> read_again_with_images(const fs::path& path) {
   set_images(true);
   guard->set_quiet(true);
   osg::ref_ptr<osg::Node> node = read_osg_file(path, false);

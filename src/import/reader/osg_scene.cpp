@@ -11,10 +11,9 @@
 
 namespace roam::reader {
 
-void read_osg(const std::filesystem::path& path, MeshSink& sink) {
-  prepare_osg(sink, sink.parts() != nullptr);
-  const std::filesystem::path file = std::filesystem::absolute(path);
-  const osg::ref_ptr<osg::Node> root = read_osg_file(file, true);
+void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink) {
+  prepare_osg(sink, files, sink.parts() != nullptr);
+  const osg::ref_ptr<osg::Node> root = read_osg_file(path, true);
   if (root == nullptr) {
     const std::string complaint = last_osg_complaint();
     throw Error(
@@ -22,12 +21,12 @@ void read_osg(const std::filesystem::path& path, MeshSink& sink) {
                     "name says.",
                     path.string(), complaint.empty() ? "" : " (" + complaint + ")"));
   }
-  if (sink.parts() != nullptr && refers_to_pages(*root, file)) {
+  if (sink.parts() != nullptr && refers_to_pages(*root, path)) {
     Pages pages(sink);
-    if (pages.add(*root, file)) return pages.send();
+    if (pages.add(*root, path)) return pages.send();
   }
   SceneGraphWalk walk(sink);
-  walk.walk(*root, file);
+  walk.walk(*root, path);
 }
 
 }  // namespace roam::reader

@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,37 +23,31 @@ std::string temporary_folder() {
   return named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
-Error refused(const char* verb) {
+Error refused(const char* verb, int reason) {
   return Error(fmt::format(
       "{}: the vertices of a large scene cannot be {} there: {}. Free some space, or name a folder that has some by "
       "the environment variable TMPDIR, or allow more memory.",
-      temporary_folder(), verb, std::strerror(errno)));
+      temporary_folder(), verb, std::strerror(reason)));
 }
 
-/// A file that has no name, and is gone when it is closed.
+/// A file that has no name, and is gone when it is closed; -1 when there can be none.
 int open_unnamed_file() {
-  // The reader may write no file but this one.
-  struct rlimit size {};
-  getrlimit(RLIMIT_FSIZE, &size);
-  size.rlim_cur = size.rlim_max;
-  setrlimit(RLIMIT_FSIZE, &size);
-  // Beyond that, writing fails and is told, instead of ending the process.
-  signal(SIGXFSZ, SIG_IGN);
   const std::string folder = temporary_folder();
 #ifdef O_TMPFILE
   if (const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;
 #endif
   std::string name = folder + "/roam-vertices-XXXXXX";
   const int file = mkstemp(name.data());
-  if (file < 0) throw refused("kept");
-  unlink(name.c_str());
+  if (file >= 0) unlink(name.c_str());
   return file;
 }
 
 }  // namespace
 
 PagedVertices::PagedVertices(std::uint64_t memory)
-    : slot_limit_(static_cast<std::size_t>(std::clamp<std::uint64_t>(memory / sizeof(Block), least_slots, none))) {}
+    : slot_limit_(static_cast<std::size_t>(std::clamp<std::uint64_t>(memory / sizeof(Block), least_slots, none))),
+      file_(open_unnamed_file()),
+      why_no_file_(errno) {}
 
 PagedVertices::~PagedVertices() {
   if (file_ >= 0) close(file_);
@@ -99,13 +91,13 @@ std::uint32_t PagedVertices::free_slot() {
 }
 
 void PagedVertices::write(std::uint64_t block, const Block& vertices) {
-  if (file_ < 0) file_ = open_unnamed_file();
+  if (file_ < 0) throw refused("kept", why_no_file_);
   const char* bytes = reinterpret_cast<const char*>(vertices.data());
   for (std::size_t done = 0; done < sizeof(Block);) {
     const ssize_t n =
         pwrite(file_, bytes + done, sizeof(Block) - done, static_cast<off_t>(block * sizeof(Block) + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw refused("kept");
+    if (n <= 0) throw refused("kept", errno);
     done += static_cast<std::size_t>(n);
   }
   written_[block] = true;
@@ -118,7 +110,7 @@ std::uint32_t PagedVertices::load(std::uint64_t block) {
     const ssize_t n =
         pread(file_, bytes + done, sizeof(Block) - done, static_cast<off_t>(block * sizeof(Block) + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw refused("read");
+    if (n <= 0) throw refused("read", errno);
     done += static_cast<std::size_t>(n);
   }
   slots_[slot].block = block;

@@ -13,7 +13,7 @@
 namespace roam::reader {
 
 /// A list of vertices that keeps some blocks of it in memory and the others in an unnamed file in the folder for
-/// temporary files (TMPDIR, else /tmp), which is made when it is first needed.
+/// temporary files (TMPDIR, else /tmp). The file is made at once: the sandbox allows none later.
 class PagedVertices {
  public:
   /// `memory`: most bytes of vertices to hold; no less than a few blocks are.
@@ -66,7 +66,8 @@ class PagedVertices {
   std::size_t filled_slots_ = 0;
   std::size_t hand_ = 0;  ///< of the clock that finds the slot to use again
   Block* last_ = nullptr;
-  int file_ = -1;
+  int file_;         ///< -1 when there can be none, for the reason
+  int why_no_file_;  ///< an error number
 };
 
 }  // namespace roam::reader

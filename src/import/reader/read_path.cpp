@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "import/reader/file_bytes.h"
+#include "import/reader/file_extension.h"
 #include "import/reader/formats.h"
+#include "import/reader/osg_files.h"
 #include "roam/error.h"
 
 namespace roam::reader {
@@ -52,18 +53,17 @@ constexpr std::array<Unsupported, 12> unsupported{
      {"rvt", "Revit's own format is closed; export IFC or FBX from it"},
      {"dwg", "AutoCAD's own format is closed; export DXF or FBX from it"}}};
 
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 std::string known_extensions() {
   std::string list;
   for (const Format& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.extension);
   return list;
+}
+
+const Format* format_of(const std::string& extension) {
+  for (const Format& format : formats) {
+    if (format.extension == extension) return &format;
+  }
+  return nullptr;
 }
 
 /// Files that no format's reader needs to see.
@@ -81,15 +81,31 @@ void refuse_stand_ins(const fs::path& path) {
 
 }  // namespace
 
-void read_path(const std::string& name, MeshSink& sink, const ReadingSettings& settings) {
+void load_libraries(const std::string& name, bool images) {
   const fs::path path(name);
-  if (fs::is_directory(path)) return read_tiles(path, sink, settings);
+  std::error_code none;
+  const bool folder = fs::is_directory(path, none);
+  const Format* format = folder ? nullptr : format_of(extension_of(path));
+  const bool osg = folder || (format != nullptr && format->family == Family::osg);
+  if (osg || images) load_osg_plugins(osg && !folder ? extension_of(path) : "");
+  if (images) load_image_plugins();
+  if (osg || images) close_osg_door();
+}
+
+void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
+  const fs::path path(name);
+  if (fs::is_directory(path)) return read_tiles(path, files, sink, settings);
+  if (files.open(path).empty()) {
+    throw Error(fmt::format("{}: this is not a file that can be read; a scene is a file or a folder.", name));
+  }
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
-  for (const Format& format : formats) {
-    if (format.extension != extension) continue;
-    if (settings.only_list) return;
-    switch (format.family) {
+  if (const Format* format = format_of(extension)) {
+    if (settings.only_list) {
+      if (extension == "gltf") list_gltf_buffers(path, files, sink);
+      return;
+    }
+    switch (format->family) {
       case Family::obj:
         return read_obj(path, sink);
       case Family::stl:
@@ -97,9 +113,9 @@ void read_path(const std::string& name, MeshSink& sink, const ReadingSettings& s
       case Family::ply:
         return read_ply(path, sink);
       case Family::osg:
-        return read_osg(path, sink);
+        return read_osg(path, files, sink);
       case Family::assimp:
-        return read_assimp(path, extension, sink);
+        return read_assimp(path, extension, files, sink);
     }
   }
   for (const Unsupported& format : unsupported) {

@@ -41,9 +41,8 @@ std::optional<Vec3> three_numbers(std::string_view text) {
   return v;
 }
 
-std::optional<Georeference> georeference_in(const fs::path& file, MeshSink& sink) {
-  std::error_code none;
-  if (!fs::exists(file, none)) return std::nullopt;
+std::optional<Georeference> georeference_in(const fs::path& file, SceneFiles& files, MeshSink& sink) {
+  if (files.open(file).empty()) return std::nullopt;
   tinyxml2::XMLDocument document;
   if (document.LoadFile(file.string().c_str()) == tinyxml2::XML_SUCCESS) {
     if (const tinyxml2::XMLElement* root = document.FirstChildElement("ModelMetadata")) {
@@ -113,7 +112,7 @@ void place(const Georeference& georeference, const std::string& folder, const Re
 
 }  // namespace
 
-void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& settings) {
+void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
   fs::path folder = fs::absolute(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();
   std::error_code none;
@@ -127,7 +126,7 @@ void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& set
                     "scene's file.",
                     path.string()));
   }
-  if (const auto georeference = georeference_in(metadata, sink)) {
+  if (const auto georeference = georeference_in(metadata, files, sink)) {
     place(*georeference, path.string(), settings, sink);
   } else if (settings.frame) {
     sink.report_note(
@@ -143,7 +142,7 @@ void read_tiles(const fs::path& path, MeshSink& sink, const ReadingSettings& set
   for (std::size_t i = 0; i < missing; ++i) sink.report_missing_page(roots[i].string());
   roots.erase(roots.begin(), roots.begin() + static_cast<std::ptrdiff_t>(missing));
   // A tile that is paged is not opened here but for its place, which needs no image.
-  prepare_osg(sink, false);
+  prepare_osg(sink, files, false);
   Pages pages(sink);
   for (const fs::path& root : roots) {
     osg::ref_ptr<osg::Node> node = read_osg_file(root, false);

@@ -1,16 +1,19 @@
 #include "import/reader/display/image_file.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <osgDB/FileUtils>
 #include <osgDB/Options>
 #include <osgDB/Registry>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "import/reader/file_extension.h"
 
 namespace roam::reader {
 namespace {
@@ -37,13 +40,6 @@ constexpr std::array<Signature, 8> signatures{{{"\xff\xd8\xff", "jpeg"},
 constexpr std::array<std::string_view, 12> by_name{"tga",  "rgb", "rgba", "sgi", "bw",  "int",
                                                    "inta", "pnm", "ppm",  "pgm", "pbm", "hdr"};
 
-std::string extension_of(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 std::string plugin_for(const std::string& bytes, const std::string& name) {
   for (const Signature& signature : signatures) {
     if (std::string_view(bytes).starts_with(signature.start)) return signature.plugin;
@@ -67,46 +63,77 @@ std::string unescaped(const std::string& name) {
   return text;
 }
 
-fs::path existing(const fs::path& folder, const fs::path& name) {
-  const std::string found =
-      osgDB::findFileInPath(name.string(), osgDB::FilePathList{folder.string()}, osgDB::CASE_INSENSITIVE);
+/// The entry of a folder that has this name in any case of letters; empty when there is none.
+fs::path entry_named(const fs::path& folder, const std::string& name) {
   std::error_code none;
-  return !found.empty() && fs::is_regular_file(found, none) ? fs::path(found) : fs::path();
+  if (fs::exists(fs::symlink_status(folder / name, none))) return folder / name;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (strcasecmp(entry.path().filename().c_str(), name.c_str()) == 0) return entry.path();
+  }
+  return {};
+}
+
+/// The scene's file at `name`, seen from a folder, in any case of letters.
+fs::path existing(const SceneFiles& files, const fs::path& folder, const fs::path& name) {
+  fs::path place = (folder / name).lexically_normal();
+  if (!files.resolve(place)) return {};
+  if (fs::path file = files.find(place); !file.empty()) return file;
+  // What lies above the name is not the scene's to spell.
+  const fs::path inside = place.lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..") return {};
+  place = folder;
+  for (const fs::path& part : inside) {
+    if (!files.resolve(place)) return {};
+    place = entry_named(place, part.string());
+    if (place.empty()) return {};
+  }
+  return files.find(place);
+}
+
+/// Where exporters leave images: inside, and beside the folder of the scene's file.
+constexpr std::array<const char*, 9> usual_places{
+    "",         "textures", "texture", "images", "maps", "materials/textures", "../textures", "../materials/textures",
+    "../images"};
+
+/// Says of a name that led to no file of the scene whether it means one that lies outside. Only the places beside the
+/// scene's folder are looked at: what the name itself says may be anywhere.
+void report_outside(SceneFiles& files, const fs::path& folder, const fs::path& name) {
+  if (!files.resolve(folder / name)) return files.leave_out(folder / name);
+  for (const char* place : usual_places) {
+    const fs::path file = (folder / place / name.filename()).lexically_normal();
+    std::error_code none;
+    if (!files.resolve(file) && fs::is_regular_file(file, none)) return files.leave_out(file);
+  }
 }
 
 }  // namespace
 
-fs::path find_image_file(const fs::path& folder, const std::string& written) {
+fs::path find_image_file(SceneFiles& files, const fs::path& folder, const std::string& written) {
   std::string name = written;
   std::replace(name.begin(), name.end(), '\\', '/');
   if (name.starts_with("file://")) name.erase(0, 7);
   // What remains of an address is on a network.
   if (name.empty() || name.find("://") != std::string::npos) return {};
-  std::error_code none;
   std::vector<std::string> spellings{name};
   if (const std::string plain = unescaped(name); plain != name) spellings.push_back(plain);
   for (const std::string& spelling : spellings) {
-    if (fs::path(spelling).is_absolute()) {
-      if (fs::is_regular_file(spelling, none)) return spelling;
-    } else if (fs::path file = existing(folder, spelling); !file.empty()) {
-      return file;
-    }
+    if (fs::path file = existing(files, folder, spelling); !file.empty()) return file;
     const fs::path last = fs::path(spelling).filename();
-    for (const char* place : {"", "textures", "texture", "images", "maps", "materials/textures", "../textures",
-                              "../materials/textures", "../images"}) {
-      if (fs::path file = existing(folder / place, last); !file.empty()) return file;
+    for (const fs::path place : usual_places) {
+      if (fs::path file = existing(files, folder, place / last); !file.empty()) return file;
     }
   }
+  report_outside(files, folder, spellings.back());
   return {};
 }
 
-std::string image_bytes(const fs::path& file) {
+std::string image_bytes(SceneFiles& files, const fs::path& file) {
+  const fs::path opened = files.open(file);
   std::error_code none;
-  if (!fs::is_regular_file(file, none)) return {};
-  const auto size = fs::file_size(file, none);
+  const auto size = opened.empty() ? 0 : fs::file_size(opened, none);
   if (none || size > image_bytes_limit) return {};
   std::string bytes(size, '\0');
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(opened, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
   return bytes;

@@ -7,14 +7,19 @@
 #include <osg/ref_ptr>
 #include <string>
 
+#include "import/reader/scene_files.h"
+
 namespace roam::reader {
 
 /// The file that a scene in `folder` means by `name`: names of other machines and systems are tried in the folders
-/// that exporters use. Empty when there is none.
-[[nodiscard]] std::filesystem::path find_image_file(const std::filesystem::path& folder, const std::string& name);
+/// that exporters use. Empty when there is none among the scene's files; one that lies outside is left out and
+/// reported.
+[[nodiscard]] std::filesystem::path find_image_file(SceneFiles& files, const std::filesystem::path& folder,
+                                                    const std::string& name);
 
-/// The content of a regular file; empty when it cannot be read or is larger than any image that means well.
-[[nodiscard]] std::string image_bytes(const std::filesystem::path& file);
+/// The content of a file that find_image_file found; empty when it cannot be read or is larger than any image that
+/// means well.
+[[nodiscard]] std::string image_bytes(SceneFiles& files, const std::filesystem::path& file);
 
 /// The image that `bytes` encode, its first row the lowest; null when they encode none. `name` says the format where
 /// the bytes do not. DDS images have their first row on top; `turn_dds` turns them, which OpenSceneGraph itself does

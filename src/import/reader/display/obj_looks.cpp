@@ -77,12 +77,13 @@ VertexLook ObjLooks::of(std::uint64_t vertex, std::string_view corner) const {
 
 void ObjLooks::read_materials(const std::string& name) {
   // Found like an image: by its name, and where it lies if the name is another machine's.
-  const std::filesystem::path file = find_image_file(folder_, name);
+  SceneFiles& files = sink_.parts()->textures().files();
+  const std::filesystem::path file = find_image_file(files, folder_, name);
   if (file.empty()) {
     return sink_.report_note_once(fmt::format("{}: this file of materials is not there; what uses it is shown white.",
                                               (folder_ / name).string()));
   }
-  std::istringstream stream(image_bytes(file));
+  std::istringstream stream(image_bytes(files, file));
   std::map<std::string, int> numbers;
   std::vector<tinyobj::material_t> read;
   std::string warning, error;

@@ -20,7 +20,8 @@ namespace roam::reader {
 class PartPool {
  public:
   /// `origin`: that of the paths before; unset, the first geometry decides it.
-  PartPool(FrameWriter& frames, std::optional<Vec3> origin) : frames_(frames), textures_(frames), origin_(origin) {}
+  PartPool(FrameWriter& frames, SceneFiles& files, std::optional<Vec3> origin)
+      : frames_(frames), textures_(frames, files), origin_(origin) {}
 
   [[nodiscard]] Textures& textures() { return textures_; }
 

@@ -25,9 +25,9 @@ TextureId Textures::add(const std::string& key, Source&& source) {
 }
 
 TextureId Textures::add_file(const fs::path& folder, const std::string& name, Wrapping wrapping) {
-  const auto decode = [folder, name]() -> osg::ref_ptr<osg::Image> {
-    const fs::path file = find_image_file(folder, name);
-    return file.empty() ? nullptr : decode_image(image_bytes(file), file.string(), true);
+  const auto decode = [this, folder, name]() -> osg::ref_ptr<osg::Image> {
+    const fs::path file = find_image_file(files_, folder, name);
+    return file.empty() ? nullptr : decode_image(image_bytes(files_, file), file.string(), true);
   };
   return add(key_of("file", (folder / name).string(), wrapping), {name, decode, nullptr, wrapping});
 }
@@ -75,8 +75,8 @@ void Textures::forget_images() {
 osg::ref_ptr<osg::Image> Textures::find(const fs::path& folder, const std::string& name) {
   const auto [at, is_new] = found_.try_emplace((folder / name).string());
   if (is_new) {
-    const fs::path file = find_image_file(folder, name);
-    if (!file.empty()) at->second = decode_image(image_bytes(file), file.string(), false);
+    const fs::path file = find_image_file(files_, folder, name);
+    if (!file.empty()) at->second = decode_image(image_bytes(files_, file), file.string(), false);
   }
   if (at->second == nullptr) report_missing(name);
   return at->second;

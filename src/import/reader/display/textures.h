@@ -17,6 +17,7 @@
 
 #include "import/reader/display/look.h"
 #include "import/reader/frame_writer.h"
+#include "import/reader/scene_files.h"
 
 namespace roam::reader {
 
@@ -28,7 +29,10 @@ struct Wrapping {
 
 class Textures {
  public:
-  explicit Textures(FrameWriter& frames) : frames_(frames) {}
+  Textures(FrameWriter& frames, SceneFiles& files) : frames_(frames), files_(files) {}
+
+  /// The files that images may be read from.
+  [[nodiscard]] SceneFiles& files() { return files_; }
 
   /// The image that a file in `folder` calls `name`. It is looked for when it is needed.
   TextureId add_file(const std::filesystem::path& folder, const std::string& name, Wrapping wrapping);
@@ -61,6 +65,7 @@ class Textures {
   void report_missing(const std::string& name);
 
   FrameWriter& frames_;
+  SceneFiles& files_;
   std::vector<Source> sources_;
   std::map<std::string, TextureId> known_;
   std::map<std::string, osg::ref_ptr<osg::Image>> found_;

@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// How much processor time a reader may take.
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace roam::reader {
+
+/// Compares what a reader's process computes with what it reads. The kernel counts both: a reader that was taken over
+/// by a file can grant itself nothing.
+class ProcessorBudget {
+ public:
+  static constexpr double least_seconds = 10.0;
+  static constexpr double seconds_per_byte = 3e-6;
+
+  /// `process`: a child that was just started.
+  explicit ProcessorBudget(int process);
+
+  /// A file that the reader says it opened. Each counts once, by what it is on the disk.
+  void add_file(const std::filesystem::path& file);
+
+  /// Seconds that the process may have used by now.
+  [[nodiscard]] double allowed() const;
+  /// Seconds that it has used; 0 where the system does not say.
+  [[nodiscard]] double used() const;
+  /// Bytes of files that `allowed` is for.
+  [[nodiscard]] std::uint64_t bytes() const;
+
+ private:
+  int process_;
+  std::uint64_t file_bytes_ = 0;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and number
+};
+
+}  // namespace roam::reader

@@ -1,0 +1,81 @@
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "import/reader/formats.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "a%20room.bin" -> "a room.bin".
+std::string decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned char byte = 0;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(&uri[i + 1], &uri[i + 1] + 2, byte, 16).ptr == &uri[i + 1] + 2) {
+      text += static_cast<char>(byte);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+/// Takes buffers[i].uri as the text goes by. Nothing else is kept, so that neither size nor depth of the text matters.
+class BufferNames : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool string(string_t& text) override {
+    if (depth_ == depth_of_uri && in_buffers_ && is_uri_ && !text.starts_with("data:")) names_.push_back(text);
+    return true;
+  }
+  bool start_object(std::size_t) override { return ++depth_ > 0; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(std::size_t) override { return ++depth_ > 0; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool key(string_t& name) override {
+    if (depth_ == 1) in_buffers_ = name == "buffers";
+    if (depth_ == depth_of_uri) is_uri_ = name == "uri";
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+ private:
+  /// { "buffers": [ { "uri": ...
+  static constexpr long depth_of_uri = 3;
+
+  long depth_ = 0;
+  bool in_buffers_ = false;
+  bool is_uri_ = false;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+void list_gltf_buffers(const fs::path& path, SceneFiles& files, MeshSink& sink) {
+  std::ifstream in(files.open(path), std::ios::binary);
+  BufferNames buffers;
+  // A text that is damaged further on is refused when it is read.
+  nlohmann::json::sax_parse(in, &buffers);
+  std::set<fs::path> found;
+  for (const std::string& name : buffers.names()) {
+    if (fs::path file = files.find(path.parent_path() / decoded(name)); !file.empty()) found.insert(std::move(file));
+  }
+  for (const fs::path& file : found) sink.report_file(file.string());
+}
+
+}  // namespace roam::reader
