@@ -39,6 +39,7 @@ std::vector<std::string> arguments_of(const Reading& reading) {
   }
   if (!reading.tile.empty()) arguments.insert(arguments.end(), {"--tile", reading.tile});
   if (reading.wanted == Reading::Wanted::display) arguments.emplace_back("--display");
+  if (reading.wanted == Reading::Wanted::pages) arguments.emplace_back("--pages");
   if (reading.wanted == Reading::Wanted::pieces) arguments.emplace_back("--pieces");
   if (reading.wanted == Reading::Wanted::list) arguments.emplace_back("--only-list");
   if (const auto& o = reading.origin) {
@@ -88,14 +89,18 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
 
 }  // namespace
 
-void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
+std::unique_ptr<ReaderProcess> start(const Reading& reading) {
+  return std::make_unique<ReaderProcess>(reading.program, arguments_of(reading),
+                                         reading.wanted == Reading::Wanted::pages);
+}
+
+void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
   const auto fail = [&](const std::string& what) -> Error { return Error(path + ": " + what + "."); };
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
-  ReaderProcess process(reading.program, arguments_of(reading));
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
   try {
@@ -134,6 +139,10 @@ void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool
                     "anew",
                     damage.how));
   }
+}
+
+void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
+  receive(reading, *start(reading), receiver);
   for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || receiver.matched()[i];
 }
 

@@ -24,6 +24,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/page_requests.h"
 #include "import/reader/piece_cutter.h"
 #include "import/reader/read_path.h"
 #include "import/stream.h"
@@ -85,6 +86,7 @@ struct Request {
   ReadingSettings settings;
   bool display = false;
   bool pieces = false;
+  bool pages = false;
   std::optional<Vec3> origin;
   std::string path;
 };
@@ -121,6 +123,8 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       request.pieces = true;
     } else if (name == "--display") {
       request.display = true;
+    } else if (name == "--pages") {
+      request.pages = true;
     } else if (name == "--origin" && left() > 2) {
       request.origin = Vec3(0.0);
       for (int k = 0; k < 3; ++k) (*request.origin)[k] = std::stod(arguments[i++]);
@@ -146,6 +150,7 @@ int run(const std::vector<std::string>& arguments) {
   confine(request.settings.memory_limit, request.pieces,
           request.pieces ? temporary_bytes(request.path, request.settings.memory_limit) : 0);
 
+  if (request.pages) return serve_pages(request.settings, request.origin);
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
   PartPool parts(frames, request.origin);
