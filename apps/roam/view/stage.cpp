@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
 #include "roam/error.h"
 
@@ -24,6 +25,7 @@ void load_plugins() {
     const std::filesystem::path file(name);
     return file.is_absolute() && std::filesystem::is_regular_file(file, none) ? name : std::string();
   });
+  graphics::load_fonts();
 }
 
 graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {

@@ -150,9 +150,10 @@ int run(const std::vector<std::string>& arguments) {
   confine(request.settings.memory_limit, request.pieces,
           request.pieces ? temporary_bytes(request.path, request.settings.memory_limit) : 0);
 
-  if (request.pages) return serve_pages(request.settings, request.origin);
   FrameWriter frames(stream_fd);
-  frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
+  const auto greet = [&] { frames.send(FrameKind::hello, PayloadWriter().add(stream_version)); };
+  if (request.pages) return serve_pages(frames, request.settings, request.origin, greet);
+  greet();
   PartPool parts(frames, request.origin);
   std::optional<PieceCutter> pieces;
   if (request.pieces) pieces.emplace(frames, request.settings.memory_limit);

@@ -15,7 +15,6 @@
 #include "import/display_part.h"
 #include "import/reader/display/pages.h"
 #include "import/reader/display/part_pool.h"
-#include "import/reader/frame_writer.h"
 #include "import/reader/osg_files.h"
 #include "import/stream.h"
 #include "roam/error.h"
@@ -64,12 +63,13 @@ void read_page(const std::string& token, MeshSink& sink, PageStates& states) {
 
 }  // namespace
 
-int serve_pages(const ReadingSettings& settings, const std::optional<Vec3>& origin) {
+int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
+                const std::function<void()>& greet) {
   PageStates states;
   std::string token;
   while (take_request(token)) {
-    FrameWriter frames(stream_fd);
-    frames.send(FrameKind::hello, PayloadWriter().add(stream_version));
+    frames.begin_stream();
+    greet();
     PartPool parts(frames, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
     const auto fail = [&](const std::string& sentence) {
