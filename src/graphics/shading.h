@@ -2,7 +2,7 @@
 /// \file
 /// How surfaces and sky look.
 ///
-/// One program draws every scene: colour = material x vertex colour x texture, on both sides of every face. The light
+/// One program draws every scene: colour = vertex colour x texture, on both sides of every face. The light
 /// is made for being inside: a soft lamp at the eye, a sky that is brighter than the ground, and a weak sun, so that
 /// floor, walls and ceiling of one colour differ and nothing is black. Photogrammetry (textured, without normals) is
 /// shown as it is: its pictures have their light already. Of a wall that is in the model twice, with opposite normals,
