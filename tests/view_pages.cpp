@@ -3,10 +3,16 @@
 
 #include <filesystem>
 #include <map>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/Texture2D>
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "graphics/shading.h"
+#include "view/page_source.h"
 #include "view_scenes.h"
 
 namespace {
@@ -66,6 +72,79 @@ std::vector<Call> calls_in(const std::string& trace) {
     all.push_back(call);
   }
   return all;
+}
+
+/// A part with a textured triangle, and a node with one level that is there and one that is a page.
+roam::DisplayPart small_part() {
+  roam::DisplayPart part;
+  part.textures.push_back(
+      {1, 1, roam::DisplayTexels::rgb, roam::DisplayWrap::repeat, roam::DisplayWrap::clamp, 1, {9, 8, 7}});
+  part.looks = {{0, roam::DisplayCover::cut, 0.25f}, {}};
+  roam::DisplayGeometry geometry;
+  geometry.cell = {256, 0, 0};
+  geometry.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  geometry.colours.assign(3, {1, 2, 3, 4});
+  geometry.coordinates.assign(3, {0.5f, 0.25f});
+  geometry.indices = {0, 1, 2};
+  part.geometries = {geometry};
+  part.groups = 2;
+  part.pages.push_back({0, {1, 2, 3}, 5.0f, true, {{0, 100, 1, {}}, {100, 1e30f, 0, "/secret/file.osgb"}}});
+  return part;
+}
+
+TEST(ViewPages, AreNodesAsThePictureWantsThem) {
+  const osg::ref_ptr<osg::Group> node =
+      roam::app::make_node(small_part(), {4.0f}, [](const std::string&) { return std::string("page-1"); });
+  ASSERT_EQ(node->getNumChildren(), 2u);
+  const auto* cell = dynamic_cast<osg::MatrixTransform*>(node->getChild(0));
+  ASSERT_TRUE(cell && cell->getNumChildren() == 1);
+  EXPECT_EQ(cell->getMatrix().getTrans(), osg::Vec3d(256, 0, 0));
+  const osg::Geometry* geometry = cell->getChild(0)->asGeometry();
+  ASSERT_TRUE(geometry && geometry->getStateSet());
+  EXPECT_TRUE(geometry->getUseVertexBufferObjects());
+  EXPECT_FALSE(geometry->getUseDisplayList());
+  EXPECT_TRUE(geometry->getColorArray()->getNormalize());
+  EXPECT_EQ(geometry->getNormalArray()->getBinding(), osg::Array::BIND_OVERALL);
+  const osg::StateSet& state = *geometry->getStateSet();
+  EXPECT_TRUE(state.getDefinePair(roam::graphics::textured_define));
+  EXPECT_TRUE(state.getAttribute(osg::StateAttribute::ALPHAFUNC));
+  const auto* texture = dynamic_cast<const osg::Texture2D*>(state.getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+  ASSERT_TRUE(texture);
+  EXPECT_EQ(texture->getMaxAnisotropy(), 4.0f);
+  EXPECT_EQ(texture->getWrap(osg::Texture::WRAP_T), osg::Texture::CLAMP_TO_EDGE);
+  EXPECT_EQ(texture->getImage()->data()[2], 7);
+  const auto* pages = dynamic_cast<osg::PagedLOD*>(node->getChild(1));
+  ASSERT_TRUE(pages && pages->getNumChildren() == 1 && pages->getNumFileNames() == 2);
+  EXPECT_EQ(pages->getFileName(1), "page-1");
+  EXPECT_EQ(pages->getMinRange(1), 100.0f);
+  EXPECT_EQ(pages->getRangeMode(), osg::LOD::PIXEL_SIZE_ON_SCREEN);
+  EXPECT_EQ(pages->getCenter(), osg::LOD::vec_type(1, 2, 3));
+}
+
+TEST(ViewPages, AreReadByMadeUpNamesAndNothingElseIs) {
+  const TestFolder folder;
+  const std::string image = folder.write("a.png", "");
+  const osg::ref_ptr<roam::app::PageSource> source = new roam::app::PageSource({folder.file("gone.osg")}, {}, {});
+  const osg::ref_ptr<osg::Group> node = source->make(small_part());
+  const std::string name = dynamic_cast<osg::PagedLOD&>(*node->getChild(1)).getFileName(1);
+  EXPECT_FALSE(contains(name, "secret"));
+  EXPECT_EQ(name.find_first_of("./"), std::string::npos);
+  EXPECT_EQ(dynamic_cast<osg::PagedLOD&>(*source->make(small_part())->getChild(1)).getFileName(1), name);
+
+  for (const std::string& other : {image, std::string("/secret/file.osgb"), std::string("page-99"), std::string()}) {
+    EXPECT_FALSE(source->readNode(other, nullptr).success()) << other;
+    EXPECT_FALSE(source->readObject(other, nullptr).success());
+    EXPECT_FALSE(source->readImage(other, nullptr).success());
+    EXPECT_FALSE(source->readShader(other, nullptr).success());
+    EXPECT_FALSE(source->readScript(other, nullptr).success());
+    EXPECT_FALSE(source->readHeightField(other, nullptr).success());
+  }
+  EXPECT_EQ(source->events(), 0u);
+  EXPECT_EQ(source->missing(), 0u);
+  // A page that cannot be read is missing once, and is not asked for again.
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(source->readNode(name, nullptr).success());
+  EXPECT_EQ(source->missing(), 1u);
+  EXPECT_EQ(source->events(), 2u);
 }
 
 TEST(ViewPages, ThatAreHostileReachNothingInTheProcessThatDraws) {
