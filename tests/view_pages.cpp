@@ -142,7 +142,7 @@ TEST(ViewPages, AreReadByMadeUpNamesAndNothingElseIs) {
   EXPECT_EQ(source->events(), 0u);
   EXPECT_EQ(source->missing(), 0u);
   // A page that cannot be read is missing once, and is not asked for again.
-  for (int i = 0; i < 3; ++i) EXPECT_FALSE(source->readNode(name, nullptr).success());
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(source->readNode(name, nullptr).validNode());
   EXPECT_EQ(source->missing(), 1u);
   EXPECT_EQ(source->events(), 2u);
 }
@@ -217,6 +217,8 @@ TEST(ViewPages, WhoseReaderCrashesAreMissing) {
   const nlohmann::json report = nlohmann::json::parse(result.out, nullptr, false);
   EXPECT_EQ(report["missing_pages"], 1) << result.out;
   EXPECT_TRUE(contains(all(report["notes"]), "1 page of the scene could not be read")) << result.out;
+  EXPECT_TRUE(contains(all(report["notes"]), "crash with signal 11")) << result.out;
+  EXPECT_FALSE(contains(result.err, "page-1")) << result.err;
 }
 
 }  // namespace

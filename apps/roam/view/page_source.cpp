@@ -52,6 +52,11 @@ std::uint64_t PageSource::missing() const {
   return missing_;
 }
 
+std::string PageSource::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
 osg::ref_ptr<osg::Group> PageSource::make(const DisplayPart& part, int depth) {
   return make_node(part, quality_, [&](const std::string& token) { return name_of(part, token, depth); });
 }
@@ -70,16 +75,12 @@ std::string PageSource::name_of(const DisplayPart& part, const std::string& toke
 }
 
 osg::ref_ptr<osg::Node> PageSource::read(const Page& page) {
-  try {
-    if (page.depth >= depth_limit || *memory_ > memory_limit_) return nullptr;
-    const DisplayPart part = reader_.read(page.source, page.origin, page.token);
-    osg::ref_ptr<osg::Group> node = make(part, page.depth + 1);
-    node->setUserData(new Counted(memory_, bytes_of(part)));
-    return node;
-  } catch (const std::exception&) {
-    // Counted as missing: the coarser page stays.
-    return nullptr;
-  }
+  if (page.depth >= depth_limit) throw Error("pages are nested without end; the scene is damaged.");
+  if (*memory_ > memory_limit_) throw Error("the pages that are shown fill the memory that importing may use.");
+  const DisplayPart part = reader_.read(page.source, page.origin, page.token);
+  osg::ref_ptr<osg::Group> node = make(part, page.depth + 1);
+  node->setUserData(new Counted(memory_, bytes_of(part)));
+  return node;
 }
 
 PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Options*) {
@@ -87,20 +88,26 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
   {
     const std::lock_guard lock(mutex_);
     const auto at = pages_.find(name);
-    if (at == pages_.end() || at->second.missing) return Result::FILE_NOT_FOUND;
+    if (at == pages_.end()) return Result::FILE_NOT_FOUND;
     page = at->second;
   }
+  // Nothing was read, and OpenSceneGraph need not complain: who shows the scene says it.
+  const Result nothing(Result::FILE_LOADED);
+  if (page.missing) return nothing;
   ++events_;
   ++under_way_;
-  const osg::ref_ptr<osg::Node> node = read(page);
-  if (node == nullptr) {
+  osg::ref_ptr<osg::Node> node;
+  try {
+    node = read(page);
+  } catch (const std::exception& problem) {
+    // The coarser page stays.
     const std::lock_guard lock(mutex_);
     pages_[name].missing = true;
-    ++missing_;
+    if (missing_++ == 0) problem_ = problem.what();
   }
   --under_way_;
   ++events_;
-  return node == nullptr ? Result(Result::FILE_NOT_FOUND) : Result(node.get());
+  return node == nullptr ? nothing : Result(node.get());
 }
 
 }  // namespace roam::app

@@ -32,6 +32,8 @@ class PageSource : public osgDB::ReadFileCallback {
 
   /// Pages that could not be read while they were wanted.
   [[nodiscard]] std::uint64_t missing() const;
+  /// Why the first of them could not; empty where there is none.
+  [[nodiscard]] std::string problem() const;
   /// Changes whenever a reading begins or ends.
   [[nodiscard]] std::uint64_t events() const { return events_; }
   [[nodiscard]] bool is_reading() const { return under_way_ > 0; }
@@ -58,6 +60,7 @@ class PageSource : public osgDB::ReadFileCallback {
 
   osg::ref_ptr<osg::Group> make(const DisplayPart& part, int depth);
   std::string name_of(const DisplayPart& part, const std::string& token, int depth);
+  /// Throws roam::Error, or roam::Cancelled.
   osg::ref_ptr<osg::Node> read(const Page& page);
 
   PageReader reader_;
@@ -69,6 +72,7 @@ class PageSource : public osgDB::ReadFileCallback {
   std::map<std::string, Page> pages_;                                   ///< by name
   std::uint64_t token_bytes_ = 0;
   std::uint64_t missing_ = 0;
+  std::string problem_;
   std::atomic<std::uint64_t> events_ = 0;
   std::atomic<int> under_way_ = 0;
 };

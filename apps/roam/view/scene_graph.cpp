@@ -70,4 +70,6 @@ bool SceneGraph::is_complete() {
 
 std::uint64_t SceneGraph::missing_pages() const { return loader_->pages().missing(); }
 
+std::string SceneGraph::page_problem() const { return loader_->pages().problem(); }
+
 }  // namespace roam::app

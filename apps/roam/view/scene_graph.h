@@ -8,6 +8,7 @@
 #include <osg/ref_ptr>
 #include <osgUtil/IncrementalCompileOperation>
 #include <osgViewer/Viewer>
+#include <string>
 
 #include "view/display_loader.h"
 
@@ -46,6 +47,8 @@ class SceneGraph {
   [[nodiscard]] const std::optional<DisplayReport>& report() const { return report_; }
   /// Pages that could not be read while they were wanted.
   [[nodiscard]] std::uint64_t missing_pages() const;
+  /// Why the first of them could not.
+  [[nodiscard]] std::string page_problem() const;
 
  private:
   void attach(DisplayNode&& piece);
