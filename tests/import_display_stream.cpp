@@ -238,14 +238,35 @@ TEST(ImportDisplayStream, SurvivesRecordedStreamsThatAreDamaged) {
   EXPECT_GT(refused, 10'000u);
 }
 
+std::string frame(std::uint32_t number, FrameKind kind, std::span<const std::byte> payload) {
+  const FrameHeader header{frame_magic, kind, 0, number, static_cast<std::uint32_t>(payload.size())};
+  return bytes_of(header) + std::string(reinterpret_cast<const char*>(payload.data()), payload.size());
+}
+
+const std::string hello = frame(0, FrameKind::hello, PayloadWriter().add(stream_version).bytes());
+
+TEST(ImportDisplayStream, CountsWhatSmallThingsTakeWhereTheyAreDrawn) {
+  DisplayPart part = full_part();
+  part.pages.clear();
+  part.groups = 1;
+  part.geometries.resize(1);
+  part.geometries.resize(1000, part.geometries[0]);
+  part.triangles = 2000;
+  const std::vector<std::byte> bytes = encode(part);
+  ASSERT_LT(bytes.size(), 200'000u);
+  Totals totals;
+  totals.triangles = part.triangles;
+  const PartHeader header{{1000, 0, 0}, {0, 0, 0}, {1, 1, 1}, part.triangles, bytes.size()};
+  const std::string stream = hello + frame(1, FrameKind::part, PayloadWriter().add(header).bytes()) +
+                             frame(2, FrameKind::part_bytes, bytes) +
+                             frame(3, FrameKind::end, PayloadWriter().add(totals).add(std::uint32_t{0}).bytes());
+  EXPECT_TRUE(is_taken(stream, 4u << 20));
+  EXPECT_FALSE(is_taken(stream, 1u << 20));
+}
+
 TEST(ImportDisplayStream, RefusesADamagedOrder) {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-  const auto frame = [](std::uint32_t number, FrameKind kind, std::span<const std::byte> payload) {
-    const FrameHeader header{frame_magic, kind, 0, number, static_cast<std::uint32_t>(payload.size())};
-    return bytes_of(header) + std::string(reinterpret_cast<const char*>(payload.data()), payload.size());
-  };
-  const std::string hello = frame(0, FrameKind::hello, PayloadWriter().add(stream_version).bytes());
   const auto error_of = [&](const std::string& stream) {
     const auto data = folder.write("stream", stream);
     ImportOptions options;

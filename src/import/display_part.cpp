@@ -23,4 +23,22 @@ std::uint32_t DisplayTexture::all_levels(std::uint32_t width, std::uint32_t heig
   return static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
 }
 
+std::uint64_t DisplayPart::node_bytes() const {
+  // A geometry of OpenSceneGraph with its arrays and buffers; others take less.
+  constexpr std::uint64_t most = 2048;
+  std::uint64_t nodes = textures.size() + looks.size() + geometries.size() + groups;
+  for (const DisplayPages& node : pages) nodes += 1 + node.levels.size();
+  return most * nodes;
+}
+
+std::uint64_t DisplayPart::bytes() const {
+  std::uint64_t sum = node_bytes();
+  for (const DisplayTexture& texture : textures) sum += texture.bytes.size();
+  for (const DisplayGeometry& g : geometries) {
+    sum += g.positions.size() * (sizeof(glm::vec3) + 4) + g.normals.size() * sizeof(glm::vec3) +
+           g.coordinates.size() * sizeof(glm::vec2) + g.indices.size() * sizeof(std::uint16_t);
+  }
+  return sum;
+}
+
 }  // namespace roam

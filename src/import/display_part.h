@@ -94,6 +94,11 @@ struct DisplayPart {
   std::vector<DisplayGeometry> geometries;
   std::uint32_t groups = 1;
   std::vector<DisplayPages> pages;
+
+  /// About what its nodes take where it is drawn, beside the lists that they hold.
+  [[nodiscard]] std::uint64_t node_bytes() const;
+  /// The same with these lists.
+  [[nodiscard]] std::uint64_t bytes() const;
 };
 
 }  // namespace roam

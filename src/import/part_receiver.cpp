@@ -66,6 +66,9 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
 void PartReceiver::finish_part() {
   decode(bytes_, part_);
   bytes_.clear();
+  // Many small things take more where they are drawn than in the stream.
+  count_bytes(part_.node_bytes());
+  bytes_taken_ += part_.node_bytes();
   const bool paged = !part_.pages.empty();
   origin_ = part_.origin;
   triangles_ += part_.triangles;

@@ -23,7 +23,7 @@ class PartReceiver : public StreamReceiver {
                std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give);
 
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
-  /// Of parts, as they were sent.
+  /// Of parts, as they were sent, and of their nodes.
   [[nodiscard]] std::uint64_t bytes_taken() const { return bytes_taken_; }
 
  private:

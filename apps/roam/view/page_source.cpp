@@ -13,16 +13,6 @@ namespace {
 constexpr int depth_limit = 64;
 constexpr std::uint64_t token_bytes_limit = 1u << 30;
 
-std::uint64_t bytes_of(const DisplayPart& part) {
-  std::uint64_t bytes = 0;
-  for (const DisplayTexture& texture : part.textures) bytes += texture.bytes.size();
-  for (const DisplayGeometry& geometry : part.geometries) {
-    bytes += geometry.positions.size() * (sizeof(glm::vec3) + 4) + geometry.normals.size() * sizeof(glm::vec3) +
-             geometry.coordinates.size() * sizeof(glm::vec2) + geometry.indices.size() * 2;
-  }
-  return bytes;
-}
-
 /// Counts bytes for as long as it lives.
 class Counted : public osg::Referenced {
  public:
@@ -79,7 +69,7 @@ osg::ref_ptr<osg::Node> PageSource::read(const Page& page) {
   if (*memory_ > memory_limit_) throw Error("the pages that are shown fill the memory that importing may use.");
   const DisplayPart part = reader_.read(page.source, page.origin, page.token);
   osg::ref_ptr<osg::Group> node = make(part, page.depth + 1);
-  node->setUserData(new Counted(memory_, bytes_of(part)));
+  node->setUserData(new Counted(memory_, part.bytes()));
   return node;
 }
 

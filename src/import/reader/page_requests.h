@@ -11,8 +11,8 @@
 namespace roam::reader {
 
 /// Takes requests from the standard input until it ends: a u32 length and a token (page_token.h) of so many bytes.
-/// Answers each with a stream of its own (stream.h), from what `greet` sends to its end, with one part. Returns the exit
-/// status of the process.
+/// Answers each with a stream of its own (stream.h), from what `greet` sends to its end, with one part. Returns the
+/// exit status of the process.
 int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
                 const std::function<void()>& greet);
 
