@@ -61,7 +61,10 @@ void fill_with(Stage& stage, unsigned char level) {
   std::fill_n(image->data(), 3, level);
   osg::ref_ptr<osg::Geometry> wall = quad({0, 1, 0}, {9, 0, 0}, {0, 0, 9});
   wall->setTexCoordArray(0, new osg::Vec2Array(4));
-  wall->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
+  const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+  texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+  texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  wall->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
   stage.add(wall);
 }
 

@@ -1,20 +1,7 @@
 // How surfaces look.
 
-#include <unistd.h>
-
-#include <chrono>
-#include <filesystem>
 #include <osg/BlendFunc>
-#include <osg/CullFace>
-#include <osg/Depth>
-#include <osg/Material>
-#include <osg/PagedLOD>
-#include <osg/Program>
 #include <osg/Texture2D>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
-#include <osgText/Text>
-#include <thread>
 
 #include "graphics_stage.h"
 
@@ -89,10 +76,6 @@ TEST(GraphicsShading, BackFacesAreSeenAsFrontFacesAre) {
   const Pixel back = middle_of(quad({0, 4, 0}, x_axis * 9, z_axis * -9));
   EXPECT_EQ(front, back);
   EXPECT_EQ(middle_of(with_normals(wall(), {0, -1, 0})), middle_of(with_normals(wall(), {0, 1, 0})));
-  osg::ref_ptr<osg::Geometry> culled = quad({0, 4, 0}, x_axis * 9, z_axis * -9);
-  culled->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace,
-                                                      osg::StateAttribute::ON | osg::StateAttribute::PROTECTED);
-  EXPECT_EQ(middle_of(culled), back);
 }
 
 TEST(GraphicsShading, OfAWallThatIsThereTwiceTheSideThatFacesTheEyeIsSeen) {
@@ -136,25 +119,6 @@ TEST(GraphicsShading, VertexColoursAreKept) {
   EXPECT_EQ(p.b, 0);
 }
 
-TEST(GraphicsShading, MaterialTimesVertexColourIsTheSurface) {
-  const auto colored = [](osg::Material::ColorMode mode) {
-    osg::ref_ptr<osg::Geometry> geometry = paint(wall(), {1, 1, 0, 1});
-    osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 1, 1, 1));
-    material->setColorMode(mode);
-    geometry->getOrCreateStateSet()->setAttribute(material);
-    return middle_of(geometry);
-  };
-  const Pixel product = colored(osg::Material::OFF);
-  EXPECT_EQ(product.r, 0);
-  EXPECT_GT(product.g, 120);
-  EXPECT_EQ(product.b, 0);
-  const Pixel replaced = colored(osg::Material::AMBIENT_AND_DIFFUSE);
-  EXPECT_GT(replaced.r, 120);
-  EXPECT_GT(replaced.g, 120);
-  EXPECT_EQ(replaced.b, 0);
-}
-
 TEST(GraphicsShading, PhotogrammetryIsShownAsItsPictureIs) {
   Stage stage(64, 64);
   stage.add(textured(quad({0, 4, 0}, x_axis * 2, z_axis * 2)));
@@ -172,52 +136,6 @@ TEST(GraphicsShading, ATextureOnGeometryWithNormalsIsLit) {
   EXPECT_GT(red.r, 80);
   EXPECT_LT(red.r, 195);
   EXPECT_EQ(red.g, 0);
-}
-
-TEST(GraphicsShading, AMissingTextureLeavesTheSurfaceAndNotABlackHole) {
-  osg::ref_ptr<osg::Geometry> geometry = textured(wall());
-  geometry->getStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D);
-  EXPECT_EQ(middle_of(geometry), middle_of(wall()));
-}
-
-TEST(GraphicsShading, TexturesHaveNoDarkSeamAtTheirEdge) {
-  osg::ref_ptr<osg::Geometry> geometry = wall();
-  geometry->setTexCoordArray(0, new osg::Vec2Array(4));  // the very corner, everywhere
-  osg::ref_ptr<osg::Image> image = new osg::Image;
-  image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
-  std::fill_n(image->data(), 3, static_cast<unsigned char>(200));
-  geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
-  EXPECT_EQ(middle_of(geometry), (Pixel{200, 200, 200}));
-}
-
-TEST(GraphicsShading, ATextureThatIsSwitchedOffBelowIsNotDrawn) {
-  osg::ref_ptr<osg::Group> group = new osg::Group;
-  group->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture());
-  osg::ref_ptr<osg::Geometry> geometry = wall();
-  geometry->getOrCreateStateSet()->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF);
-  group->addChild(geometry);
-  EXPECT_EQ(middle_of(group), middle_of(wall()));
-}
-
-TEST(GraphicsShading, WhatFilesBringAgainstThePictureIsTakenAway) {
-  osg::ref_ptr<osg::Geometry> geometry = wall();
-  osg::StateSet& state = *geometry->getOrCreateStateSet();
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() { gl_FragColor = vec4(1, 0, 1, 1); }"));
-  state.setAttributeAndModes(program, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
-  state.setAttributeAndModes(new osg::Depth(osg::Depth::LESS),
-                             osg::StateAttribute::ON | osg::StateAttribute::PROTECTED);
-  state.setMode(GL_LIGHTING, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
-  state.setTextureAttributeAndModes(1, texture());
-  EXPECT_EQ(middle_of(geometry), middle_of(wall()));
-}
-
-TEST(GraphicsShading, ArraysThatAreTooShortAreLeftOut) {
-  osg::ref_ptr<osg::Geometry> geometry = wall();
-  geometry->setColorArray(new osg::Vec4Array(2), osg::Array::BIND_PER_VERTEX);
-  geometry->setNormalArray(new osg::Vec3Array(3), osg::Array::BIND_PER_VERTEX);
-  geometry->setTexCoordArray(0, new osg::Vec2Array(1));
-  EXPECT_EQ(middle_of(geometry), middle_of(wall()));
 }
 
 TEST(GraphicsShading, WhatIsTransparentIsBlendedOverWhatLiesBehind) {
@@ -248,90 +166,6 @@ TEST(GraphicsShading, TheSkyMovesNoBounds) {
   EXPECT_FALSE(stage.frame.root()->getBound().valid());
   stage.add(quad({0, 4, 0}, x_axis, z_axis));
   EXPECT_NEAR(stage.frame.root()->getBound().radius(), std::sqrt(2.0), 1e-3);
-}
-
-TEST(GraphicsShading, PreparingTwiceChangesNothingMore) {
-  osg::ref_ptr<osg::Geometry> geometry = textured(wall());
-  graphics::prepare(*geometry);
-  const osg::Array* colors = geometry->getColorArray();
-  const osg::Array* normals = geometry->getNormalArray();
-  const unsigned count = colors->getModifiedCount();
-  graphics::prepare(*geometry);
-  EXPECT_EQ(geometry->getColorArray(), colors);
-  EXPECT_EQ(geometry->getNormalArray(), normals);
-  EXPECT_EQ(colors->getModifiedCount(), count);
-}
-
-TEST(GraphicsShading, ThreadsMayPrepareGraphsThatShareParts) {
-  osg::ref_ptr<osg::Geometry> shared = textured(wall());
-  std::vector<osg::ref_ptr<osg::Group>> graphs;
-  for (int i = 0; i < 4; ++i) {
-    graphs.push_back(new osg::Group);
-    for (int k = 0; k < 50; ++k) graphs.back()->addChild(textured(wall()));
-    graphs.back()->addChild(shared);
-  }
-  std::vector<std::thread> threads;
-  for (const auto& graph : graphs) threads.emplace_back([graph] { graphics::prepare(*graph); });
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& graph : graphs) {
-    for (unsigned k = 0; k < graph->getNumChildren(); ++k) {
-      ASSERT_TRUE(graph->getChild(k)->asGeometry()->getColorArray());
-      EXPECT_EQ(graph->getChild(k)->asGeometry()->getColorArray()->getNumElements(), 1u);
-    }
-  }
-}
-
-TEST(GraphicsShading, WhatIsReadByTheCallbackIsPrepared) {
-  const std::string file = testing::TempDir() + "roam-graphics-prepared.osgb";
-  ASSERT_TRUE(osgDB::writeNodeFile(*wall(), file));
-  osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-  options->setReadFileCallback(graphics::make_preparing_reader());
-  const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
-  std::filesystem::remove(file);
-  ASSERT_TRUE(node && node->asGeometry());
-  EXPECT_TRUE(node->asGeometry()->getColorArray());
-}
-
-TEST(GraphicsShading, PagesThatThePagerReadsThroughTheRegistryArePrepared) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("roam-graphics-pages-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  ASSERT_TRUE(osgDB::writeNodeFile(*wall(), (folder / "page.osgb").string()));
-  osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
-  paged->setDatabasePath(folder.string() + "/");
-  paged->setCenter(osg::Vec3(0, 4, 0));
-  paged->setRadius(10);
-  paged->setFileName(0, "page.osgb");
-  paged->setRange(0, 0, 1e6f);
-
-  osgDB::Registry::instance()->setReadFileCallback(graphics::make_preparing_reader());
-  {
-    Stage stage(64, 64);
-    stage.scene->addChild(paged);
-    for (int i = 0; i < 500 && paged->getNumChildren() == 0; ++i) {
-      stage.viewer.frame();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    if (paged->getNumChildren() == 1) {
-      EXPECT_EQ(at(*stage.picture(), 32, 32), middle_of(wall()));
-      ASSERT_TRUE(paged->getChild(0)->asGeometry());
-      EXPECT_TRUE(paged->getChild(0)->asGeometry()->getColorArray());
-    } else {
-      ADD_FAILURE() << "the page was not read";
-    }
-  }
-  osgDB::Registry::instance()->setReadFileCallback(nullptr);
-  std::filesystem::remove_all(folder);
-}
-
-TEST(GraphicsShading, TextsOfFilesAreNotDrawnAndTheirSharedStateIsLeftAlone) {
-  osg::ref_ptr<osgText::Text> text = new osgText::Text;
-  text->setText("label");
-  const osg::StateSet* state = text->getStateSet();
-  graphics::prepare(*text);
-  EXPECT_EQ(text->getNodeMask(), 0u);
-  ASSERT_TRUE(state);
-  EXPECT_TRUE(state->getAttribute(osg::StateAttribute::PROGRAM));
 }
 
 }  // namespace

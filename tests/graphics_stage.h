@@ -10,6 +10,8 @@
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/Image>
+#include <osg/NodeVisitor>
+#include <osg/StateSet>
 #include <osgViewer/Viewer>
 #include <vector>
 
@@ -66,6 +68,24 @@ inline osg::ref_ptr<osg::Geometry> paint(osg::ref_ptr<osg::Geometry> geometry, c
   return geometry;
 }
 
+/// Makes of geometries what the scene group wants: white and without normals where they do not say otherwise.
+struct Completion : osg::NodeVisitor {
+  Completion() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+  void apply(osg::Geometry& geometry) override {
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+    if (!geometry.getColorArray()) {
+      osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array(1);
+      (*white)[0].set(1, 1, 1, 1);
+      geometry.setColorArray(white, osg::Array::BIND_OVERALL);
+    }
+    if (!geometry.getNormalArray()) geometry.setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
+    osg::StateSet* state = geometry.getStateSet();
+    const bool textured = state && state->getTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    if (textured) state->setDefine(graphics::textured_define);
+  }
+};
+
 /// What a viewer has, without a screen. Nothing is smoothed unless wished, so that pixels are what they are.
 struct Stage {
   explicit Stage(int width = 320, int height = 180, const graphics::FrameSettings& settings = {.samples = 1},
@@ -81,7 +101,8 @@ struct Stage {
   }
 
   void add(const osg::ref_ptr<osg::Node>& node) {
-    graphics::prepare(*node);
+    Completion completion;
+    node->accept(completion);
     scene->addChild(node);
   }
   void look(const osg::Vec3d& eye, const osg::Vec3d& at_point) {

@@ -1,7 +1,5 @@
 // Colours, images, normals and transparency of what is to be seen.
 
-#include <osg/AlphaFunc>
-#include <osg/Material>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,12 +13,11 @@ using Row = std::vector<std::array<std::uint8_t, 3>>;
 const Row two_texels{{255, 0, 0}, {0, 0, 255}};
 
 /// The colours of the lowest row of an image.
-Row row_of(const osg::Image& image) {
+Row row_of(const DisplayTexture& image) {
+  EXPECT_EQ(image.texels, DisplayTexels::rgb);
   Row row;
-  for (int s = 0; s < image.s(); ++s) {
-    const osg::Vec4 c = image.getColor(s, 0);
-    row.push_back(
-        {std::uint8_t(c.r() * 255 + 0.5f), std::uint8_t(c.g() * 255 + 0.5f), std::uint8_t(c.b() * 255 + 0.5f)});
+  for (std::uint32_t s = 0; s < image.width; ++s) {
+    row.push_back({image.bytes.at(3 * s), image.bytes.at(3 * s + 1), image.bytes.at(3 * s + 2)});
   }
   return row;
 }
@@ -44,14 +41,14 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfObj) {
   EXPECT_TRUE(shown.report.notes.empty());
   std::multiset<std::string> seen;
   for (const ShownTriangle& t : shown.triangles) {
-    const osg::Vec4ub c = t.colours[1];
-    const bool blended = t.state != nullptr && (t.state->getMode(GL_BLEND) & osg::StateAttribute::ON) != 0;
-    seen.insert(std::to_string(c.r()) + " " + std::to_string(c.g()) + " " + std::to_string(c.b()) + " " +
-                std::to_string(c.a()) + (t.image != nullptr ? " image" : "") + (blended ? " blended" : "") +
-                (t.normals[0] == osg::Vec3(0, 0, 1) ? " normal" : ""));
+    const Colour c = t.colours[1];
+    const bool blended = t.look.cover == DisplayCover::blended;
+    seen.insert(std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) + " " +
+                std::to_string(c[3]) + (t.image != nullptr ? " image" : "") + (blended ? " blended" : "") +
+                (t.normals[0] == glm::vec3(0, 0, 1) ? " normal" : ""));
     if (t.image == nullptr) continue;
     EXPECT_EQ(row_of(*t.image), two_texels);
-    EXPECT_EQ(t.coordinates, (std::array{osg::Vec2(0, 0), osg::Vec2(1, 0), osg::Vec2(1, 1)}));
+    EXPECT_EQ(t.coordinates, (std::array{glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1)}));
   }
   EXPECT_EQ(seen, (std::multiset<std::string>{"255 255 255 255", "255 255 255 255 image normal", "255 128 0 255",
                                               "0 0 255 128 blended normal", "255 255 255 255", "0 255 0 255"}));
@@ -91,13 +88,13 @@ TEST(ImportDisplayLooks, ReadsVertexColours) {
                                                "0 0 0 255 0 0 0\n1 0 0 0 255 0 0\n1 1 0 0 0 255 0\n3 0 1 2\n");
   const auto floats = folder.write("c.ply", header + "property float red\nproperty float green\nproperty float blue\n" +
                                                 faces + "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n3 0 1 2\n");
-  const osg::Vec4ub red(255, 0, 0, 255), green(0, 255, 0, 255), blue(0, 0, 255, 255);
+  const Colour red{255, 0, 0, 255}, green{0, 255, 0, 255}, blue{0, 0, 255, 255};
   const auto colours_of = [](const std::filesystem::path& file) {
     const Shown shown = show({file});
     return shown.triangles.at(0).colours;
   };
   EXPECT_EQ(colours_of(obj), (std::array{red, green, blue}));
-  EXPECT_EQ(show({obj}).triangles.at(1).colours[2], osg::Vec4ub(255, 255, 255, 255));
+  EXPECT_EQ(show({obj}).triangles.at(1).colours[2], (Colour{255, 255, 255, 255}));
   EXPECT_EQ(colours_of(bytes), (std::array{red, green, blue}));
   EXPECT_EQ(colours_of(floats), (std::array{red, green, blue}));
 }
@@ -116,9 +113,9 @@ TEST(ImportDisplayLooks, ReadsTheImageAndNormalsOfPly) {
   const ShownTriangle& t = shown.triangles.at(0);
   ASSERT_NE(t.image, nullptr);
   EXPECT_EQ(row_of(*t.image), two_texels);
-  EXPECT_EQ(t.coordinates[2], osg::Vec2(1, 0.5f));
+  EXPECT_EQ(t.coordinates[2], glm::vec2(1, 0.5f));
   // Turned with the scene.
-  EXPECT_EQ(t.normals[0], osg::Vec3(0, 0, 1));
+  EXPECT_EQ(t.normals[0], glm::vec3(0, 0, 1));
 }
 
 TEST(ImportDisplayLooks, ReadsWhatFacesOfPlySayAboutImages) {
@@ -138,7 +135,7 @@ TEST(ImportDisplayLooks, ReadsWhatFacesOfPlySayAboutImages) {
   std::map<std::string, int> seen;
   for (const ShownTriangle& t : shown.triangles) {
     const std::string image = t.image == nullptr ? "none" : row_of(*t.image) == two_texels ? "a" : "b";
-    ++seen[image + " " + std::to_string(t.coordinates[0].x()) + " " + std::to_string(t.coordinates[2].y())];
+    ++seen[image + " " + std::to_string(t.coordinates[0].x) + " " + std::to_string(t.coordinates[2].y)];
   }
   EXPECT_EQ(seen, (std::map<std::string, int>{
                       {"none 0.000000 0.000000", 1}, {"a 0.000000 0.500000", 1}, {"b 0.250000 1.000000", 2}}));
@@ -190,23 +187,21 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
     ASSERT_NE(t.image, nullptr) << uri.substr(0, 20);
     EXPECT_EQ(row_of(*t.image), two_texels);
     // The file's zero is at the image's upper edge, ours at the lower; its factors are linear, ours as on the screen.
-    EXPECT_EQ(t.coordinates[0], osg::Vec2(0, 0));
-    EXPECT_EQ(t.coordinates[2], osg::Vec2(0, 1));
-    EXPECT_EQ(t.colours[0], osg::Vec4ub(255, 128, 0, 255));
-    const auto* cut = dynamic_cast<osg::AlphaFunc*>(t.state->getAttribute(osg::StateAttribute::ALPHAFUNC));
-    ASSERT_NE(cut, nullptr);
-    EXPECT_EQ(cut->getReferenceValue(), 0.25f);
+    EXPECT_EQ(t.coordinates[0], glm::vec2(0, 0));
+    EXPECT_EQ(t.coordinates[2], glm::vec2(0, 1));
+    EXPECT_EQ(t.colours[0], (Colour{255, 128, 0, 255}));
+    EXPECT_EQ(t.look.cover, DisplayCover::cut);
+    EXPECT_EQ(t.look.cutoff, 0.25f);
     EXPECT_EQ(shown.report.textures, 1u);
   }
   const Shown glass = show({folder.write(
       "b.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]},"alphaMode":"BLEND"})", "wood.bmp"))});
-  EXPECT_EQ(glass.triangles.at(0).colours[0].a(), 128);
-  ASSERT_NE(glass.triangles[0].state, nullptr);
-  EXPECT_EQ(glass.triangles[0].state->getMode(GL_BLEND), osg::StateAttribute::ON);
+  EXPECT_EQ(glass.triangles.at(0).colours[0][3], 128);
+  EXPECT_EQ(glass.triangles[0].look.cover, DisplayCover::blended);
   EXPECT_EQ(glass.report.textures, 0u);
   const Shown air = show({folder.write(
       "c.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]},"alphaMode":"BLEND"})", "wood.bmp"))});
-  EXPECT_EQ(air.triangles.at(0).colours[0].a(), 255);
+  EXPECT_EQ(air.triangles.at(0).colours[0][3], 255);
 }
 
 /// A square in OpenSceneGraph's text format with a state, colours and coordinates.
@@ -229,7 +224,7 @@ TEST(ImportDisplayLooks, MultipliesMaterialsAndColoursOfOpenSceneGraphAsItDoes) 
     const Shown shown = show({folder.write("a.osg", content)});
     return std::pair(shown.triangles.at(0).colours[0], shown.triangles.at(1).colours[1]);
   };
-  const osg::Vec4ub red(255, 0, 0, 255), green(0, 255, 0, 255), blue(0, 0, 255, 255);
+  const Colour red{255, 0, 0, 255}, green{0, 255, 0, 255}, blue{0, 0, 255, 255};
   const auto state = [](const std::string& inside) { return "StateSet {\n" + inside + "}\n"; };
   EXPECT_EQ(colours_of(square("", by_set)), std::pair(red, blue));
   EXPECT_EQ(colours_of(square(state(material("OFF")), by_set)), std::pair(green, green));
@@ -256,11 +251,10 @@ TEST(ImportDisplayLooks, ReadsImagesBesideFilesOfOpenSceneGraph) {
   const ShownTriangle& t = shown.triangles.at(0);
   ASSERT_NE(t.image, nullptr);
   EXPECT_EQ(row_of(*t.image), two_texels);
-  EXPECT_EQ(t.coordinates[2], osg::Vec2(1, 1));
-  EXPECT_EQ(t.normals[0], osg::Vec3(0, -1, 0));
-  const auto* texture = dynamic_cast<osg::Texture2D*>(t.state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-  EXPECT_EQ(texture->getWrap(osg::Texture::WRAP_S), osg::Texture::CLAMP_TO_EDGE);
-  EXPECT_EQ(texture->getWrap(osg::Texture::WRAP_T), osg::Texture::REPEAT);
+  EXPECT_EQ(t.coordinates[2], glm::vec2(1, 1));
+  EXPECT_EQ(t.normals[0], glm::vec3(0, -1, 0));
+  EXPECT_EQ(t.image->across, DisplayWrap::clamp);
+  EXPECT_EQ(t.image->up, DisplayWrap::repeat);
   EXPECT_EQ(shown.report.textures, 1u);
 
   const Shown without = show({folder.write("b.osg", textured("gone.bmp"))});
@@ -302,7 +296,7 @@ TEST(ImportDisplayLooks, SendsALargeImageOnce) {
   const auto file = folder.write("a.obj", content);
   const Shown shown = show({file});
   EXPECT_EQ(not_shown(import_scene(file), shown, 1e-3), 0u);
-  std::set<osg::Image*> images;
+  std::set<const DisplayTexture*> images;
   for (const ShownTriangle& t : shown.triangles) images.insert(t.image);
   EXPECT_EQ(images.size(), 2u);
   EXPECT_EQ(shown.report.textures, 2u);

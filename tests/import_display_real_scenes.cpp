@@ -45,7 +45,7 @@ TEST(ImportDisplayRealScenes, HaveTheTexturesOfPhotogrammetry) {
   EXPECT_EQ(shown.report.textures, 1u);
   for (const ShownTriangle& triangle : shown.triangles) {
     ASSERT_NE(triangle.image, nullptr);
-    EXPECT_EQ(triangle.colours[0], osg::Vec4ub(255, 255, 255, 255));
+    EXPECT_EQ(triangle.colours[0], (Colour{255, 255, 255, 255}));
   }
 }
 

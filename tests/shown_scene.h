@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What read_display sends, read back as a viewer does, and compared with what import_scene gives.
+/// What read_display sends, taken apart triangle by triangle, and compared with what import_scene gives.
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/Node>
-#include <osg/NodeVisitor>
-#include <osg/Texture2D>
-#include <osgDB/Registry>
-#include <sstream>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -24,87 +18,68 @@
 
 namespace roam::test {
 
+using Colour = std::array<std::uint8_t, 4>;
+
 /// A triangle as it is to be seen.
 struct ShownTriangle {
   Triangle corners;
-  std::array<osg::Vec4ub, 3> colours;
-  std::array<osg::Vec3, 3> normals;      ///< zero where there are none
-  std::array<osg::Vec2, 3> coordinates;  ///< zero where there are none
-  osg::ref_ptr<osg::Image> image;        ///< null where there is none
-  osg::ref_ptr<osg::StateSet> state;     ///< null where there is none
+  std::array<Colour, 3> colours;
+  std::array<glm::vec3, 3> normals{};      ///< zero where there are none
+  std::array<glm::vec2, 3> coordinates{};  ///< zero where there are none
+  const DisplayTexture* image = nullptr;   ///< null where there is none
+  DisplayLook look;
 };
 
 struct Shown {
   std::vector<ShownTriangle> triangles;
-  std::vector<osg::ref_ptr<osg::Geometry>> geometries;
-  std::vector<DisplayPart> parts;  ///< without their bytes
-  std::vector<osg::ref_ptr<osg::Node>> roots;
+  std::vector<std::shared_ptr<DisplayPart>> parts;
   DisplayReport report;
+
+  [[nodiscard]] std::vector<const DisplayGeometry*> geometries() const {
+    std::vector<const DisplayGeometry*> all;
+    for (const auto& part : parts) {
+      for (const DisplayGeometry& geometry : part->geometries) all.push_back(&geometry);
+    }
+    return all;
+  }
+  [[nodiscard]] std::vector<const DisplayPages*> pages() const {
+    std::vector<const DisplayPages*> all;
+    for (const auto& part : parts) {
+      for (const DisplayPages& pages : part->pages) all.push_back(&pages);
+    }
+    return all;
+  }
 };
 
-/// Takes a part apart, as display.h says what it holds.
-class PartWalk : public osg::NodeVisitor {
- public:
-  PartWalk(Shown& shown, const Vec3& origin) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), shown_(shown) {
-    to_scene_.makeTranslate(origin.x, origin.y, origin.z);
-  }
-
-  void apply(osg::MatrixTransform& transform) override {
-    const osg::Matrixd before = to_scene_;
-    to_scene_.preMult(transform.getMatrix());
-    traverse(transform);
-    to_scene_ = before;
-  }
-
-  void apply(osg::Geometry& geometry) override {
-    shown_.geometries.push_back(&geometry);
-    const auto* vertices = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
-    const auto* colours = dynamic_cast<const osg::Vec4ubArray*>(geometry.getColorArray());
-    const auto* normals = dynamic_cast<const osg::Vec3Array*>(geometry.getNormalArray());
-    const auto* coordinates = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
-    ASSERT_TRUE(vertices != nullptr && colours != nullptr && geometry.getNumPrimitiveSets() == 1);
-    const auto* elements = dynamic_cast<const osg::DrawElementsUShort*>(geometry.getPrimitiveSet(0));
-    ASSERT_TRUE(elements != nullptr && elements->getMode() == GL_TRIANGLES);
-    osg::Texture2D* texture = nullptr;
-    if (osg::StateSet* state = geometry.getStateSet()) {
-      texture = dynamic_cast<osg::Texture2D*>(state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-    }
-    EXPECT_EQ(texture != nullptr, coordinates != nullptr);
-    for (std::size_t i = 0; i + 2 < elements->size(); i += 3) {
+/// The triangles of a part.
+inline std::vector<ShownTriangle> triangles_of(const DisplayPart& part) {
+  std::vector<ShownTriangle> all;
+  for (const DisplayGeometry& geometry : part.geometries) {
+    const DisplayLook& look = part.looks.at(geometry.look);
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
       ShownTriangle triangle;
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto v = (*elements)[i + k];
-        const osg::Vec3d place = osg::Vec3d((*vertices)[v]) * to_scene_;
-        triangle.corners[k] = {place.x(), place.y(), place.z()};
-        triangle.colours[k] = (*colours)[v];
-        if (normals != nullptr) triangle.normals[k] = (*normals)[v];
-        if (coordinates != nullptr) triangle.coordinates[k] = (*coordinates)[v];
+        const std::uint16_t v = geometry.indices[i + k];
+        triangle.corners[k] = Vec3(geometry.positions.at(v)) + geometry.cell + part.origin;
+        triangle.colours[k] = geometry.colours.at(v);
+        if (!geometry.normals.empty()) triangle.normals[k] = geometry.normals.at(v);
+        if (!geometry.coordinates.empty()) triangle.coordinates[k] = geometry.coordinates.at(v);
       }
-      if (texture != nullptr) triangle.image = texture->getImage();
-      triangle.state = geometry.getStateSet();
-      shown_.triangles.push_back(triangle);
+      if (look.texture != DisplayLook::no_texture) triangle.image = &part.textures.at(look.texture);
+      triangle.look = look;
+      all.push_back(triangle);
     }
   }
-
- private:
-  Shown& shown_;
-  osg::Matrixd to_scene_;
-};
+  return all;
+}
 
 inline Shown show(const std::vector<std::filesystem::path>& paths, const ImportOptions& options = {}) {
   Shown shown;
   shown.report = read_display(paths, options, [&](DisplayPart&& part) {
-    std::istringstream bytes(std::exchange(part.osgb, {}), std::ios::binary);
-    osg::ref_ptr<osg::Node> root =
-        osgDB::Registry::instance()->getReaderWriterForExtension("osgb")->readNode(bytes).getNode();
-    EXPECT_TRUE(root != nullptr);
-    if (root == nullptr) return false;
-    const std::size_t before = shown.triangles.size();
-    PartWalk walk(shown, part.origin);
-    root->accept(walk);
-    EXPECT_EQ(shown.triangles.size() - before, part.triangles);
-    shown.roots.push_back(root);
-    shown.parts.push_back(std::move(part));
+    shown.parts.push_back(std::make_shared<DisplayPart>(std::move(part)));
+    const std::vector<ShownTriangle> triangles = triangles_of(*shown.parts.back());
+    EXPECT_EQ(triangles.size(), shown.parts.back()->triangles);
+    shown.triangles.insert(shown.triangles.end(), triangles.begin(), triangles.end());
     return true;
   });
   return shown;

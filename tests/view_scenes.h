@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <osg/Image>
-#include <osgDB/ReadFile>
+#include <osgDB/Registry>
 #include <set>
 #include <string>
 
@@ -19,7 +19,10 @@
 struct Shot {
   osg::ref_ptr<osg::Image> image;
 
-  explicit Shot(const std::string& file) : image(osgDB::readRefImageFile(file)) {
+  explicit Shot(const std::string& file) {
+    // By the plugin itself: while a session lives, OpenSceneGraph reads what the session gives it and nothing else.
+    auto* png = osgDB::Registry::instance()->getReaderWriterForExtension("png");
+    if (png) image = png->readImage(file).getImage();
     if (!image) throw std::runtime_error("no picture: " + file);
   }
   [[nodiscard]] int width() const { return image->s(); }

@@ -43,6 +43,8 @@ constexpr std::string_view ellipsis = "…";
 
 }  // namespace
 
+void load_fonts() { static_cast<void>(font_for(false)); }
+
 osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look, float x, float y) {
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setDataVariance(osg::Object::DYNAMIC);

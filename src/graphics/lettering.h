@@ -17,6 +17,9 @@ struct Look {
   osg::Vec4 color{1, 1, 1, 1};
 };
 
+/// Loads the fonts, which make_text does else: for programs that let OpenSceneGraph read no file later.
+void load_fonts();
+
 /// A text in UTF-8 whose base line begins at (x, y), pixels, drawn in any threading model. In DejaVu Sans as fontconfig
 /// finds it, else in the font that OpenSceneGraph brings.
 [[nodiscard]] osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look, float x, float y);

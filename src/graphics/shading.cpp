@@ -2,7 +2,6 @@
 
 #include <osg/Geode>
 #include <osg/Geometry>
-#include <osg/Material>
 #include <osg/Program>
 #include <osg/StateSet>
 #include <osg/Uniform>
@@ -24,7 +23,7 @@ void main() {
   // Many models have each wall twice, front and back, at one place. The one that faces the eye is to be seen, so the
   // other yields by more than depths are inexact: along the line of sight, which moves nothing in the picture.
   if (dot(roam_normal, eye.xyz) > 0.0) eye.xyz *= 1.00005;
-  roam_surface = gl_Color * gl_FrontMaterial.diffuse;
+  roam_surface = gl_Color;
   gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0;
   gl_Position = roam_clip(eye);
 }
@@ -62,11 +61,8 @@ vec3 lit(vec3 normal, vec3 view, float distance) {
 
 void main() {
   vec4 color = roam_surface;
-  vec3 glow = gl_FrontMaterial.emission.rgb;
 #ifdef ROAM_TEXTURED
-  vec4 texel = texture2D(roam_picture, gl_TexCoord[0].st);
-  color *= texel;
-  glow *= texel.rgb;
+  color *= texture2D(roam_picture, gl_TexCoord[0].st);
 #endif
   float distance = length(roam_position);
   vec3 view = -roam_position / max(distance, 1e-6);
@@ -80,7 +76,7 @@ void main() {
 #ifdef ROAM_TEXTURED
   if (!has_normal) light = vec3(1.0);
 #endif
-  vec3 seen = color.rgb * light + glow;
+  vec3 seen = color.rgb * light;
   float hazed = most_haze * (1.0 - exp(-distance * distance / (haze_reach * haze_reach)));
   gl_FragColor = vec4(mix(seen, haze, hazed), color.a);
 }
@@ -133,9 +129,6 @@ osg::ref_ptr<osg::Group> make_scene_group() {
   osg::StateSet& state = *group->getOrCreateStateSet();
   state.setAttribute(make_program("roam scene", std::string(depth_glsl()) + scene_vertex, scene_fragment));
   state.addUniform(new osg::Uniform("roam_picture", 0));
-  osg::ref_ptr<osg::Material> white = new osg::Material;
-  white->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 1, 1, 1));
-  state.setAttribute(white);
   state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   return group;
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "import/part_receiver.h"
 #include "import/read_all.h"
@@ -16,11 +16,11 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
   DisplayReport report;
   std::optional<Vec3> origin;
   std::uint64_t bytes_left = options.memory_limit;
-  const auto counting_take = [&](DisplayPart&& part) {
-    bytes_left -= std::min<std::uint64_t>(bytes_left, part.osgb.size());
+  std::uint32_t source = 0;
+  const std::function<bool(DisplayPart &&)> give = [&](DisplayPart&& part) {
+    part.source = source;
     return take(std::move(part));
   };
-  const std::function<bool(DisplayPart &&)> give = counting_take;
   reader::read_all(reader::sources(paths), options, report.import,
                    [&](reader::Reading& reading, std::vector<bool>& matched) {
                      const std::uint64_t parts_before = report.parts;
@@ -28,17 +28,17 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
                      reading.origin = origin;
                      reader::PartReceiver receiver(report, origin, options.ignore.size(), bytes_left, give);
                      reader::read_one(reading, receiver, matched);
+                     bytes_left -= receiver.bytes_taken();
+                     ++source;
+                     // What a pattern matches in pages is not known.
+                     if (report.paged) matched.assign(matched.size(), true);
                      return report.parts > parts_before;
                    });
   if (report.missing_textures > 0) {
-    report.notes.push_back(fmt::format(
-        "{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
-        report.missing_textures == 1 ? "1 image" : fmt::format("{} images", report.missing_textures),
-        report.missing_textures == 1 ? "is" : "are", reader::listed(report.missing_texture_files)));
-  }
-  if (report.paged && !options.ignore.empty()) {
     report.notes.push_back(
-        "Objects to be ignored are left out of what stops a body, but in pages they are still to be seen.");
+        fmt::format("{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
+                    report.missing_textures == 1 ? "1 image" : fmt::format("{} images", report.missing_textures),
+                    report.missing_textures == 1 ? "is" : "are", reader::listed(report.missing_texture_files)));
   }
   return report;
 }

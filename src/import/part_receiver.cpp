@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "import/part_format.h"
 #include "roam/error.h"
 #include "roam/world.h"
 
@@ -23,7 +24,8 @@ void PartReceiver::take_content(FrameKind kind, std::span<const std::byte> paylo
   if (kind == FrameKind::part_bytes) {
     if (payload.size() > bytes_missing_) throw StreamDamaged{"bytes of no part"};
     count_bytes(payload.size());
-    part_.osgb.append(reinterpret_cast<const char*>(payload.data()), payload.size());
+    bytes_taken_ += payload.size();
+    bytes_.insert(bytes_.end(), payload.begin(), payload.end());
     bytes_missing_ -= payload.size();
     if (bytes_missing_ == 0) finish_part();
     return;
@@ -40,16 +42,15 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
   if (bytes_missing_ > 0) throw StreamDamaged{"a part that is not whole"};
   PayloadReader fields(payload);
   const auto header = fields.take<PartHeader>();
-  if (!fields.complete() || header.bytes == 0 || header.paged > 1) throw StreamDamaged{"a frame of broken length"};
+  if (!fields.complete() || header.bytes == 0) throw StreamDamaged{"a frame of broken length"};
   part_ = {};
   part_.triangles = header.triangles;
-  part_.paged = header.paged != 0;
   for (int k = 0; k < 3; ++k) {
     part_.origin[k] = header.origin[k];
     part_.bounds.lower[k] = header.lower[k];
     part_.bounds.upper[k] = header.upper[k];
     // False for a NaN too. Pages state their bounds themselves, so that these may be too large.
-    const double limit = part_.paged ? 4.0 * World::coordinate_limit : World::coordinate_limit;
+    constexpr double limit = 4.0 * World::coordinate_limit;
     if (!(std::abs(header.origin[k]) <= World::coordinate_limit && std::abs(header.lower[k]) <= limit &&
           std::abs(header.upper[k]) <= limit && header.lower[k] <= header.upper[k])) {
       throw StreamDamaged{"a part without a place"};
@@ -58,10 +59,17 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
   if (origin_ && *origin_ != part_.origin) throw StreamDamaged{"parts of several origins"};
   bytes_missing_ = header.bytes;
   // A header may promise more than ever comes.
-  part_.osgb.reserve(std::min<std::uint64_t>(header.bytes, reserve_limit));
+  bytes_.clear();
+  bytes_.reserve(std::min<std::uint64_t>(header.bytes, reserve_limit));
 }
 
 void PartReceiver::finish_part() {
+  decode(bytes_, part_);
+  bytes_.clear();
+  // Many small things take more where they are drawn than in the stream.
+  count_bytes(part_.node_bytes());
+  bytes_taken_ += part_.node_bytes();
+  const bool paged = !part_.pages.empty();
   origin_ = part_.origin;
   triangles_ += part_.triangles;
   display_.origin = part_.origin;
@@ -69,7 +77,7 @@ void PartReceiver::finish_part() {
   ++display_.parts;
   display_.triangles += part_.triangles;
   display_.import.triangles += part_.triangles;
-  display_.paged = display_.paged || part_.paged;
+  display_.paged = display_.paged || paged;
   if (!give_(std::move(part_))) throw Cancelled();
   part_ = {};
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "import/display.h"
 #include "import/stream_receiver.h"
@@ -22,6 +23,8 @@ class PartReceiver : public StreamReceiver {
                std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give);
 
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
+  /// Of parts, as they were sent, and of their nodes.
+  [[nodiscard]] std::uint64_t bytes_taken() const { return bytes_taken_; }
 
  private:
   void take_content(FrameKind kind, std::span<const std::byte> payload) override;
@@ -35,6 +38,8 @@ class PartReceiver : public StreamReceiver {
   std::uint64_t triangles_ = 0;
 
   DisplayPart part_;
+  std::vector<std::byte> bytes_;  ///< of part_, so far
+  std::uint64_t bytes_taken_ = 0;
   std::uint64_t bytes_missing_ = 0;  ///< of part_
 };
 

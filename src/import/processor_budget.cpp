@@ -10,8 +10,9 @@
 namespace roam::reader {
 namespace {
 
-/// Bytes that the process has read by system calls, files again and again included; the largest number where the
-/// kernel does not count.
+constexpr std::uint64_t not_counted = std::numeric_limits<std::uint64_t>::max();
+
+/// Bytes that the process has read by system calls, files again and again included, or not_counted.
 std::uint64_t bytes_read_by(int process) {
   std::ifstream counts("/proc/" + std::to_string(process) + "/io");
   std::string name;
@@ -19,12 +20,15 @@ std::uint64_t bytes_read_by(int process) {
   while (counts >> name >> value) {
     if (name == "rchar:") return value;
   }
-  return std::numeric_limits<std::uint64_t>::max();
+  return not_counted;
 }
 
 }  // namespace
 
-ProcessorBudget::ProcessorBudget(int process) : process_(process) {}
+ProcessorBudget::ProcessorBudget(int process) : process_(process) {
+  used_before_ = used();
+  read_before_ = bytes_read_by(process);
+}
 
 void ProcessorBudget::add_file(const std::filesystem::path& file) {
   struct stat status {};
@@ -35,7 +39,8 @@ void ProcessorBudget::add_file(const std::filesystem::path& file) {
 
 std::uint64_t ProcessorBudget::bytes() const {
   // A file may say that it is larger than what is on the disk, and may be read more than once.
-  return std::min(file_bytes_, bytes_read_by(process_));
+  const std::uint64_t read = bytes_read_by(process_);
+  return std::min(file_bytes_, read == not_counted ? read : read - std::min(read, read_before_));
 }
 
 double ProcessorBudget::allowed() const {
@@ -46,7 +51,7 @@ double ProcessorBudget::used() const {
   clockid_t clock{};
   timespec time{};
   if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0.0;
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) - used_before_;
 }
 
 }  // namespace roam::reader

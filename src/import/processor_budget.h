@@ -17,7 +17,7 @@ class ProcessorBudget {
   static constexpr double least_seconds = 10.0;
   static constexpr double seconds_per_byte = 3e-6;
 
-  /// `process`: a child that was just started.
+  /// `process`: a child. What it used and read before does not count.
   explicit ProcessorBudget(int process);
 
   /// A file that the reader says it opened. Each counts once, by what it is on the disk.
@@ -32,6 +32,8 @@ class ProcessorBudget {
 
  private:
   int process_;
+  double used_before_ = 0.0;
+  std::uint64_t read_before_ = 0;
   std::uint64_t file_bytes_ = 0;
   std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and number
 };

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,9 +12,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "import/stream.h"
 #include "roam/error.h"
@@ -113,6 +116,29 @@ std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
   return pointers;
 }
 
+/// Two ends that are told, and do not kill, when the other is gone.
+struct SocketPair {
+  int ours = -1, theirs = -1;
+
+  explicit SocketPair(bool wanted) {
+    if (!wanted) return;
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+      throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(errno));
+    }
+    ours = ends[0];
+    // An end numbered 0 to 3 would be overwritten by the others.
+    theirs = fcntl(ends[1], F_DUPFD_CLOEXEC, stream_fd + 1);
+    close(ends[1]);
+  }
+  ~SocketPair() {
+    if (ours >= 0) close(ours);
+    if (theirs >= 0) close(theirs);
+  }
+  SocketPair(const SocketPair&) = delete;
+  SocketPair& operator=(const SocketPair&) = delete;
+};
+
 /// A descriptor above those that the child's own standard descriptors and stream replace.
 int moved_out_of_the_way(int descriptor) {
   const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, stream_fd + 1);
@@ -122,8 +148,10 @@ int moved_out_of_the_way(int descriptor) {
 
 }  // namespace
 
-ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                             bool takes_requests) {
   Pipe stream, complaints;
+  SocketPair requests(takes_requests);
   // dup2 onto itself would leave close-on-exec set, and an end numbered 1 or 2 would be overwritten by the other's.
   for (Pipe* pipe : {&stream, &complaints}) {
     const int moved = moved_out_of_the_way(pipe->write_end);
@@ -135,7 +163,11 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::ve
 #endif
 
   SpawnSettings settings;
-  posix_spawn_file_actions_addopen(&settings.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (takes_requests) {
+    posix_spawn_file_actions_adddup2(&settings.files, requests.theirs, STDIN_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&settings.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  }
   posix_spawn_file_actions_adddup2(&settings.files, complaints.write_end, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&settings.files, complaints.write_end, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&settings.files, stream.write_end, stream_fd);
@@ -164,14 +196,32 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::ve
                 ". Install roam anew, or name the program by the environment variable ROAM_READER.");
   }
   pid_ = pid;
+  requests_ = std::exchange(requests.ours, -1);
   stream_ = stream.release_read_end();
   complaint_pipe_ = complaints.release_read_end();
 }
 
 ReaderProcess::~ReaderProcess() {
   finish(0);
+  if (requests_ >= 0) close(requests_);
   close(stream_);
   close(complaint_pipe_);
+}
+
+void ReaderProcess::request(std::string_view bytes) {
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  std::string message(reinterpret_cast<const char*>(&length), sizeof(length));
+  message += bytes;
+  // One that does not take so little at once is not waiting for it.
+  const ssize_t n = send(requests_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (n != static_cast<ssize_t>(message.size())) {
+    throw Error(std::string("the scene reader takes no request: ") + std::strerror(n < 0 ? errno : EAGAIN));
+  }
+}
+
+bool ReaderProcess::has_ended() const {
+  pollfd stream{stream_, POLLIN, 0};
+  return poll(&stream, 1, 0) > 0 && (stream.revents & POLLIN) == 0;
 }
 
 ReaderProcess::Arrival ReaderProcess::receive(std::span<std::byte> buffer, int milliseconds, std::size_t& received) {

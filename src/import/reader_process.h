@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace roam::reader {
@@ -21,12 +22,19 @@ struct Ending {
 class ReaderProcess {
  public:
   /// Starts `program` with `arguments` (without the program's own name) in the folder "/", so that paths among them
-  /// must be absolute, and with an environment that holds nothing but folders of libraries and temporary files. Throws
-  /// roam::Error when it cannot run.
-  ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+  /// must be absolute, and with an environment that holds nothing but folders of libraries and temporary files.
+  /// `takes_requests`: what `request` sends is its standard input, else that is empty. Throws roam::Error when it
+  /// cannot run.
+  ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                bool takes_requests = false);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
   ReaderProcess& operator=(const ReaderProcess&) = delete;
+
+  /// Sends a u32 length and so many bytes. Throws roam::Error when nobody takes them.
+  void request(std::string_view bytes);
+  /// Whether it has closed its stream, with nothing left in it.
+  [[nodiscard]] bool has_ended() const;
 
   enum class Arrival { bytes, nothing, end };
   /// Waits at most `milliseconds` for bytes of the stream and puts up to buffer.size() of them into `buffer`.
@@ -43,6 +51,7 @@ class ReaderProcess {
  private:
   void drain_complaints();
 
+  int requests_ = -1;
   int stream_ = -1;
   int complaint_pipe_ = -1;
   int pid_ = -1;

@@ -77,6 +77,7 @@ std::vector<std::string> arguments_of(const Reading& reading, const fs::path& pa
   }
   if (!reading.tile.empty()) arguments.insert(arguments.end(), {"--tile", reading.tile});
   if (reading.wanted == Reading::Wanted::display) arguments.emplace_back("--display");
+  if (reading.wanted == Reading::Wanted::pages) arguments.emplace_back("--pages");
   if (reading.wanted == Reading::Wanted::pieces) arguments.emplace_back("--pieces");
   if (reading.wanted == Reading::Wanted::list) arguments.emplace_back("--only-list");
   if (const auto& o = reading.origin) {
@@ -166,16 +167,19 @@ Confinement confinement_of(const fs::path& program) {
   throw Error(program.string() + " is not the roam-reader of this version, or cannot run here. Install roam anew.");
 }
 
-void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
+std::unique_ptr<ReaderProcess> start(const Reading& reading) {
+  return std::make_unique<ReaderProcess>(reading.program, arguments_of(reading, readers_path(reading.path)),
+                                         reading.wanted == Reading::Wanted::pages);
+}
+
+void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
   const auto fail = [&](const std::string& what) -> Error { return Error(path + ": " + what + "."); };
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
-  const fs::path readers_name = readers_path(reading.path);
-  receiver.spell(readers_name.string(), without_slash(path));
-  ReaderProcess process(reading.program, arguments_of(reading, readers_name));
+  receiver.spell(readers_path(reading.path).string(), without_slash(path));
   ProcessorBudget budget(process.id());
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
@@ -226,6 +230,10 @@ void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool
                     "anew",
                     damage.how));
   }
+}
+
+void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
+  receive(reading, *start(reading), receiver);
   for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || receiver.matched()[i];
 }
 

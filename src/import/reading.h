@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "import/reader_process.h"
 #include "import/stream_receiver.h"
 #include "roam/import.h"
 
@@ -22,7 +24,7 @@ struct Reading {
   const ImportOptions* options = nullptr;
   std::optional<Georeference> frame{};  ///< of the paths before, if there is one
   /// What the reader is to send.
-  enum class Wanted { meshes, pieces, display, list };
+  enum class Wanted { meshes, pieces, display, pages, list };
   Wanted wanted = Wanted::meshes;
   std::string tile{};            ///< of a folder, the only one that is wanted; empty: all
   std::optional<Vec3> origin{};  ///< of the parts of the paths before
@@ -32,6 +34,12 @@ struct Reading {
 
 /// The walls around a reader, as one says that reads nothing. Throws roam::Error when it cannot be run.
 [[nodiscard]] Confinement confinement_of(const std::filesystem::path& program);
+
+/// Starts the reader; of pages one that takes requests.
+[[nodiscard]] std::unique_ptr<ReaderProcess> start(const Reading& reading);
+
+/// Gives what the reader says to `receiver`, until that has ended. Throws what read_one throws.
+void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver);
 
 /// Gives what the reader says of the path to `receiver`, and sets matched[i] where ignore pattern i matched. Throws
 /// roam::Error, and whatever report_progress and the receiver throw; the reader is gone either way.

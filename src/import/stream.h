@@ -20,10 +20,10 @@
 ///     triangles     u32 a, b, c of each                                      index the vertices of the mesh or piece
 ///                                                                            that were sent so far
 ///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
-///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, paged, bytes;
+///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, bytes;
 ///                   begins a part of what is shown (display.h); only where the program asked for that, and then
 ///                   neither object, vertices nor triangles come
-///     part_bytes    bytes of the part begun last, until all are there
+///     part_bytes    bytes of the part begun last (part_format.h), until all are there
 ///     missing_page  text file
 ///     missing_texture  text file
 ///     note          text sentence
@@ -45,7 +45,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 4;
+inline constexpr std::uint32_t stream_version = 5;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -102,7 +102,6 @@ struct PartHeader {
   double origin[3];
   double lower[3], upper[3];
   std::uint64_t triangles;
-  std::uint64_t paged;  ///< 0 or 1
   std::uint64_t bytes;
 };
 

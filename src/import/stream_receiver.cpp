@@ -107,6 +107,7 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
     case FrameKind::failure: {
       Failure failure{spelt(fields.take_text())};
       if (!fields.complete()) break;
+      ended_ = true;
       throw failure;
     }
     case FrameKind::end:

@@ -103,7 +103,7 @@ void GraphWalk::apply(osg::PagedLOD& lod) {
   const Entered entered(*this, lod);
   const auto& path = getNodePath();
   const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
-  if (parent != nullptr && continues_a_finer_sibling(lod, *parent)) return;
+  if (parent != nullptr && continues_a_finer_sibling(lod, *parent) && stands_for(lod)) return;
   meet(lod, &lod);
 }
 

@@ -51,6 +51,8 @@ class GraphWalk : public osg::NodeVisitor {
   virtual void meet(osg::Geometry& geometry) = 0;
   /// A LOD node; `paged` is the same node when it is a PagedLOD. Calls accept() of the children that count.
   virtual void meet(osg::LOD& lod, osg::PagedLOD* paged) = 0;
+  /// Whether a finer sibling stands for the level of detail that continues it.
+  [[nodiscard]] virtual bool stands_for(const osg::LOD&) const { return true; }
   /// A node or drawable that is left out though it may have a surface.
   virtual void leave_out(const osg::Object&) {}
   /// Nodes are nested more than depth_limit deep. Throws.

@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <osgDB/Registry>
-#include <sstream>
 #include <utility>
 
-#include "graphics/shading.h"
 #include "roam/error.h"
 #include "view/store_triangles.h"
 
 namespace roam::app {
 
-DisplayLoader::DisplayLoader(const SceneOptions& scene) : scene_(scene), loading_([this] { load_scene(); }) {}
+DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& quality)
+    : scene_(scene),
+      pages_(new PageSource(scene.scenes, scene.import_options(), quality)),
+      loading_([this] { load_scene(); }) {}
 
 DisplayLoader::DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place)
-    : store_(store), place_(std::move(place)), loading_([this] { load_store(); }) {}
+    : store_(store), place_(std::move(place)), pages_(new PageSource({}, {}, {})), loading_([this] { load_store(); }) {}
 
 std::optional<DisplayNode> DisplayLoader::take() {
   return loading_.with_state([this](const LoadState&) -> std::optional<DisplayNode> {
@@ -30,14 +30,8 @@ std::optional<DisplayReport> DisplayLoader::take_report() {
   return loading_.with_state([this](const LoadState&) { return std::exchange(report_, std::nullopt); });
 }
 
-bool DisplayLoader::receive(DisplayPart&& part) {
-  auto* reader = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
-  if (reader == nullptr) throw Error("OpenSceneGraph's plugin osgb is missing: is its package installed whole?");
-  std::istringstream bytes(std::move(part.osgb));
-  auto read = reader->readNode(bytes, nullptr);
-  if (!read.validNode()) throw Error("a part of the scene came damaged from its reader: " + read.message());
-  DisplayNode ready{read.getNode(), part.origin, part.bounds};
-  graphics::prepare(*ready.node);
+bool DisplayLoader::receive(const DisplayPart& part) {
+  DisplayNode ready{pages_->make(part), part.origin, part.bounds};
   loading_.with_state([&](LoadState& state) {
     ready_.push_back(std::move(ready));
     state.triangles += part.triangles;
@@ -53,7 +47,7 @@ void DisplayLoader::load_scene() {
     loading_.with_state([&](LoadState& state) { state.share = std::min(share, 1.0); });
     return loading_.wanted();
   };
-  finish(read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(std::move(part)); }));
+  finish(read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(part); }));
 }
 
 void DisplayLoader::load_store() {

@@ -13,6 +13,7 @@
 #include "roam/import.h"
 #include "scene_options.h"
 #include "view/loading.h"
+#include "view/page_source.h"
 
 namespace roam::app {
 
@@ -26,13 +27,18 @@ struct DisplayNode {
 /// Reads in a thread of its own, with a reader's process of its own; hands over piece by piece.
 class DisplayLoader {
  public:
-  explicit DisplayLoader(const SceneOptions& scene);
+  DisplayLoader(const SceneOptions& scene, const TextureQuality& quality);
   /// Of a store whose scene is not there: the triangles around a place, when that is known. See show_store.
   DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place);
 
   /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
   /// fraction of a second.
-  void cancel() { loading_.cancel(); }
+  void cancel() {
+    loading_.cancel();
+    pages_->cancel();
+  }
+  /// Reads the pages of the pieces that have come.
+  [[nodiscard]] PageSource& pages() { return *pages_; }
   /// How far it is; from any thread.
   [[nodiscard]] LoadState state() const { return loading_.state(); }
   /// The next piece that is ready, if there is one.
@@ -44,11 +50,12 @@ class DisplayLoader {
   void load_scene();
   void load_store();
   void finish(DisplayReport&& report);
-  bool receive(DisplayPart&& part);
+  bool receive(const DisplayPart& part);
 
   SceneOptions scene_;
   std::filesystem::path store_;
   std::future<Vec3> place_;
+  osg::ref_ptr<PageSource> pages_;
   std::deque<DisplayNode> ready_;
   std::optional<DisplayReport> report_;
   Loading loading_;

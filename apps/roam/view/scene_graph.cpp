@@ -14,50 +14,11 @@ constexpr int quiet_frames_needed = 6;
 
 }  // namespace
 
-/// Reads the pager's pages, counts them, and remembers those that can not be read: OpenSceneGraph asks for them again
-/// in every frame.
-class SceneGraph::PageReader : public osgDB::ReadFileCallback {
- public:
-  osgDB::ReaderWriter::ReadResult readNode(const std::string& file, const osgDB::Options* options) override {
-    {
-      const std::lock_guard lock(mutex_);
-      if (missing_.count(file) > 0) return osgDB::ReaderWriter::ReadResult::FILE_NOT_FOUND;
-    }
-    ++events_;
-    ++under_way_;
-    auto result = osgDB::ReadFileCallback::readNode(file, options);
-    if (!result.validNode()) {
-      const std::lock_guard lock(mutex_);
-      missing_.insert(file);
-    }
-    --under_way_;
-    ++events_;
-    return result;
-  }
-
-  [[nodiscard]] std::uint64_t missing() const {
-    const std::lock_guard lock(mutex_);
-    return missing_.size();
-  }
-  [[nodiscard]] std::uint64_t events() const { return events_; }
-  [[nodiscard]] bool is_reading() const { return under_way_ > 0; }
-
- private:
-  mutable std::mutex mutex_;
-  std::set<std::string> missing_;
-  std::atomic<std::uint64_t> events_ = 0;
-  std::atomic<int> under_way_ = 0;
-};
-
 SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader,
                        Arrival arrival)
-    : viewer_(viewer),
-      group_(graphics::make_scene_group()),
-      arrival_(arrival),
-      pages_(new PageReader),
-      loader_(std::move(loader)) {
+    : viewer_(viewer), group_(graphics::make_scene_group()), arrival_(arrival), loader_(std::move(loader)) {
   parent.addChild(group_);
-  osgDB::Registry::instance()->setReadFileCallback(graphics::make_preparing_reader(pages_));
+  osgDB::Registry::instance()->setReadFileCallback(&loader_->pages());
   if (arrival_ == Arrival::smooth) {
     compiler_ = new osgUtil::IncrementalCompileOperation;
     viewer_.setIncrementalCompileOperation(compiler_);
@@ -65,7 +26,8 @@ SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::uniqu
 }
 
 SceneGraph::~SceneGraph() {
-  // Its threads may be reading by the callback that goes now.
+  // Its threads may be reading by the callback that goes now; what they wait for comes to its end first.
+  loader_->cancel();
   if (osgDB::DatabasePager* pager = viewer_.getDatabasePager()) pager->cancel();
   osgDB::Registry::instance()->setReadFileCallback(nullptr);
 }
@@ -99,13 +61,15 @@ bool SceneGraph::is_complete() {
   const auto* pager = viewer_.getDatabasePager();
   const bool merging =
       pager != nullptr && (pager->getDataToCompileListSize() > 0 || pager->getDataToMergeListSize() > 0);
-  const bool moved = pages_->events() != last_count_ || pages_->is_reading();
-  last_count_ = pages_->events();
+  const bool moved = loader_->pages().events() != last_count_ || loader_->pages().is_reading();
+  last_count_ = loader_->pages().events();
   quiet_frames_ = !read || merging || moved || is_compiling() ? 0 : quiet_frames_ + 1;
   const bool paged = report_ && report_->paged;
   return quiet_frames_ > (paged ? quiet_frames_needed : 1);
 }
 
-std::uint64_t SceneGraph::missing_pages() const { return pages_->missing(); }
+std::uint64_t SceneGraph::missing_pages() const { return loader_->pages().missing(); }
+
+std::string SceneGraph::page_problem() const { return loader_->pages().problem(); }
 
 }  // namespace roam::app

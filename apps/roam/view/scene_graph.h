@@ -2,15 +2,12 @@
 /// \file
 /// The scene in the graph that is drawn: pieces come while it is shown, pages follow the eye.
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <osg/Group>
 #include <osg/ref_ptr>
 #include <osgUtil/IncrementalCompileOperation>
 #include <osgViewer/Viewer>
-#include <set>
 #include <string>
 
 #include "view/display_loader.h"
@@ -18,13 +15,14 @@
 namespace roam::app {
 
 /// Takes what a DisplayLoader has ready, has it sent to the graphics card a little a frame, and puts it into the graph.
-/// Reads nothing itself. All members belong to the thread that draws, between two frames.
+/// Reads nothing itself, and no file of a scene is read in this process. All members belong to the thread that draws,
+/// between two frames.
 class SceneGraph {
  public:
   /// How pieces come into the graph: a little in each frame, so that no frame hitches; or at once, where nobody looks.
   enum class Arrival : std::uint8_t { smooth, at_once };
 
-  /// Puts a group below `parent`. Everything that the viewer's pager reads from now on is prepared for it.
+  /// Puts a group below `parent`. From now on OpenSceneGraph reads in this process what PageSource gives it.
   SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader, Arrival arrival);
   ~SceneGraph();
   SceneGraph(const SceneGraph&) = delete;
@@ -49,9 +47,10 @@ class SceneGraph {
   [[nodiscard]] const std::optional<DisplayReport>& report() const { return report_; }
   /// Pages that could not be read while they were wanted.
   [[nodiscard]] std::uint64_t missing_pages() const;
+  /// Why the first of them could not.
+  [[nodiscard]] std::string page_problem() const;
 
  private:
-  class PageReader;
   void attach(DisplayNode&& piece);
   [[nodiscard]] bool is_compiling() const;
 
@@ -59,7 +58,6 @@ class SceneGraph {
   osg::ref_ptr<osg::Group> group_;
   Arrival arrival_;
   osg::ref_ptr<osgUtil::IncrementalCompileOperation> compiler_;
-  osg::ref_ptr<PageReader> pages_;
   Box bounds_;
   Vec3 origin_{0.0};
   std::uint64_t pieces_ = 0;

@@ -42,8 +42,8 @@ void Session::tell_of_loading() {
   }
   if (scene_->missing_pages() > pages_told_) {
     pages_told_ = scene_->missing_pages();
-    note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there", pages_told_,
-                     pages_told_ == 1 ? "" : "s"));
+    note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there ({})", pages_told_,
+                     pages_told_ == 1 ? "" : "s", scene_->page_problem()));
   }
 }
 

@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
+#include "graphics/lettering.h"
+#include "osg_plugins/plugins.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -11,7 +16,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Letters and pictures are all that OpenSceneGraph's plugins are wanted for in this process. After this it loads no
+/// other library, whatever it comes upon.
+void load_plugins() {
+  for (const char* plugin : {"freetype", "png", "jpeg"}) osg_plugins::load(plugin);
+  osg_plugins::close_door([](const std::string& name, const osgDB::Options*) {
+    std::error_code none;
+    const std::filesystem::path file(name);
+    return file.is_absolute() && std::filesystem::is_regular_file(file, none) ? name : std::string();
+  });
+  graphics::load_fonts();
+}
+
 graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
+  load_plugins();
   if (options.headless) return graphics::open_headless(plan.width, plan.height);
   std::string title = "roam: " + options.scene.names();
   return graphics::open_window(title, plan.width, plan.height);
@@ -47,6 +65,11 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   set_hud(plan.hud);
   viewer_->realize();
   if (options.fullscreen && !context_.headless) toggle_fullscreen();
+}
+
+TextureQuality Stage::texture_quality() const {
+  // A processor takes each sample by itself: ground that is seen at a flat angle would take minutes a frame.
+  return context_.abilities.software ? TextureQuality{1.0f} : TextureQuality{};
 }
 
 void Stage::show(const Status& status) {

@@ -15,6 +15,7 @@
 #include "graphics/overlay.h"
 #include "graphics/shading.h"
 #include "roam/math.h"
+#include "view/display_node.h"
 #include "view/film.h"
 #include "view/histogram.h"
 #include "view/options.h"
@@ -39,6 +40,7 @@ class Stage {
   [[nodiscard]] graphics::Hud& hud() { return *hud_; }
   [[nodiscard]] graphics::Overlay& overlay() { return *overlay_; }
   [[nodiscard]] bool headless() const { return context_.headless; }
+  [[nodiscard]] TextureQuality texture_quality() const;
 
   /// Shows the lines and the message; changes nothing when they are what is shown.
   void show(const Status& status);

@@ -6,9 +6,9 @@
 #include <glm/common.hpp>
 #include <osg/Geometry>
 
-#include "graphics/shading.h"
 #include "progress.h"
 #include "roam/error.h"
+#include "view/display_node.h"
 
 namespace roam::app {
 namespace {
@@ -43,20 +43,15 @@ bool read(const Store& store, const Box& box, std::size_t most, const std::funct
 Box around(const Vec3& place, double reach) { return {place - reach, place + reach}; }
 
 osg::ref_ptr<osg::Geometry> geometry_of(std::span<const Triangle> triangles, const Vec3& origin) {
-  osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-  vertices->reserve(3 * triangles.size());
+  DisplayGeometry geometry;
   for (const Triangle& triangle : triangles) {
     for (const Vec3& corner : triangle) {
-      const Vec3 v = corner - origin;
-      vertices->push_back(osg::Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)));
+      geometry.indices.push_back(static_cast<std::uint16_t>(geometry.positions.size()));
+      geometry.positions.emplace_back(corner - origin);
+      geometry.colours.push_back({255, 255, 255, 255});
     }
   }
-  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-  geometry->setUseDisplayList(false);
-  geometry->setUseVertexBufferObjects(true);
-  geometry->setVertexArray(vertices);
-  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices->size())));
-  return geometry;
+  return make_geometry(geometry);
 }
 
 std::string sentence(const Store& store, const StoreTriangles& shown) {
@@ -106,7 +101,6 @@ DisplayReport show_store(const Store& store, const Vec3& place,
         for (const Vec3& corner : triangle) node.bounds.include(corner);
       }
     }
-    graphics::prepare(*group);
     node.node = group;
     node.origin = report.origin;
     report.bounds.include(node.bounds);

@@ -18,6 +18,8 @@ class FrameWriter {
 
   void send(FrameKind kind, std::span<const std::byte> payload);
   void send(FrameKind kind, const PayloadWriter& payload) { send(kind, payload.bytes()); }
+  /// The next frame is the first of another stream.
+  void begin_stream() { number_ = 0; }
   /// Writes out what is gathered. Ends the process when nobody listens any more.
   void flush();
 

@@ -18,6 +18,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/page_requests.h"
 #include "import/reader/piece_cutter.h"
 #include "import/reader/read_path.h"
 #include "import/reader/sandbox/sandbox.h"
@@ -47,6 +48,7 @@ struct Request {
   ReadingSettings settings;
   bool display = false;
   bool pieces = false;
+  bool pages = false;
   std::optional<Vec3> origin;
   std::vector<std::filesystem::path> folders, files;  ///< that may be read; absolute, without links
   int highest_landlock = any_landlock;
@@ -94,6 +96,8 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       request.pieces = true;
     } else if (name == "--display") {
       request.display = true;
+    } else if (name == "--pages") {
+      request.pages = true;
     } else if (name == "--origin" && left() > 2) {
       request.origin = Vec3(0.0);
       for (int k = 0; k < 3; ++k) (*request.origin)[k] = std::stod(arguments[i++]);
@@ -132,7 +136,7 @@ int run(const std::vector<std::string>& arguments) {
   rights.file_size = request.pieces ? temporary_bytes(request.path, memory) : 0;
   limit_process(rights, stream_fd);
   const bool empty_folder = enter_empty_folder();
-  if (!request.only_walls) load_libraries(request.path, request.display);
+  if (!request.only_walls) load_libraries(request.path, request.display || request.pages);
 
   FrameWriter frames(stream_fd);
   SceneFiles files(request.folders, request.files, frames);
@@ -143,6 +147,9 @@ int run(const std::vector<std::string>& arguments) {
 
   Confinement walls = enter(rights, request.highest_landlock);
   walls.empty_folder = empty_folder;
+  if (request.pages) {
+    return serve_pages(frames, request.settings, request.origin, rights, [&] { greet(frames, walls); });
+  }
   greet(frames, walls);
   if (request.only_walls) {
     frames.flush();

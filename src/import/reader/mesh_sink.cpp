@@ -156,6 +156,11 @@ void MeshSink::set_look(const Look& wanted) {
   look_ = look;
 }
 
+void MeshSink::set_group(std::uint32_t group) {
+  if (!triangles_.empty()) send_triangles();
+  parts_->set_group(group);
+}
+
 /// Gives the vertex the next index. False where it is not kept: it is bad, or nobody wants it.
 bool MeshSink::count_vertex(const Vec3& vertex, Vec3& place) {
   if (vertex_count_ == std::numeric_limits<std::uint32_t>::max()) {

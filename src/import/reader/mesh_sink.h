@@ -103,6 +103,11 @@ class MeshSink {
   void send_parts();
   /// Where the frame of the file lies in that of the scene: its zero, and the unit vectors along its axes.
   [[nodiscard]] std::array<Vec3, 4> placement() const;
+  [[nodiscard]] const Vec3& offset() const { return offset_; }
+  /// The group of the page (PartPool::begin_page) into which the triangles go that follow.
+  void set_group(std::uint32_t group);
+  /// Whether objects below nodes of these names are left out by name.
+  [[nodiscard]] bool ignores(std::span<const std::string> names) { return matches_ignore(names); }
 
   /// The last words: closes the current object and sends the totals.
   void end();

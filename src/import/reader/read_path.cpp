@@ -87,7 +87,7 @@ void load_libraries(const std::string& name, bool images) {
   const bool folder = fs::is_directory(path, none);
   const Format* format = folder ? nullptr : format_of(extension_of(path));
   const bool osg = folder || (format != nullptr && format->family == Family::osg);
-  if (osg || images) load_osg_plugins(osg && !folder ? extension_of(path) : "");
+  if (osg) load_osg_plugins(folder ? "" : extension_of(path));
   if (images) load_image_plugins();
   if (osg || images) close_osg_door();
 }

@@ -45,14 +45,18 @@ void SceneGraphWalk::meet(osg::Geometry& geometry) {
   add_geometry(geometry, to_world(), &looks, sink_);
 }
 
+fs::path SceneGraphWalk::page_file(const osg::PagedLOD& lod, unsigned i) const {
+  const fs::path named_from =
+      lod.getDatabasePath().empty() ? files_.back().parent_path() : fs::path(lod.getDatabasePath());
+  // Normal, so that a circle is known by its name.
+  return (named_from / lod.getFileName(i)).lexically_normal();
+}
+
 SceneGraphWalk::Child SceneGraphWalk::child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i) {
   if (i < lod.getNumChildren()) return {lod.getChild(i), {}};
   const bool named = paged != nullptr && i < paged->getNumFileNames() && !paged->getFileName(i).empty();
   if (!named) return {};
-  const fs::path named_from =
-      paged->getDatabasePath().empty() ? files_.back().parent_path() : fs::path(paged->getDatabasePath());
-  // Normal, so that a circle is known by its name.
-  const fs::path file = (named_from / paged->getFileName(i)).lexically_normal();
+  const fs::path file = page_file(*paged, i);
   if (std::find(files_.begin(), files_.end(), file) != files_.end()) {
     sink_.report_missing_page(file.string());
     return {};

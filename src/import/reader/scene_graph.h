@@ -19,9 +19,13 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
   /// Walks a node that was read from `file`.
   void walk(osg::Node& root, const std::filesystem::path& file);
 
+ protected:
+  void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
+  /// The file that a page is in.
+  [[nodiscard]] std::filesystem::path page_file(const osg::PagedLOD& lod, unsigned i) const;
+
  private:
   void meet(osg::Geometry& geometry) override;
-  void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
   void leave_out(const osg::Object& object) override;
   [[noreturn]] void refuse_depth() override;
 

@@ -16,15 +16,15 @@ double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-osg::Texture::WrapMode wrap_of(aiTextureMapMode mode) {
+DisplayWrap wrap_of(aiTextureMapMode mode) {
   switch (mode) {
     case aiTextureMapMode_Clamp:
     case aiTextureMapMode_Decal:
-      return osg::Texture::CLAMP_TO_EDGE;
+      return DisplayWrap::clamp;
     case aiTextureMapMode_Mirror:
-      return osg::Texture::MIRROR;
+      return DisplayWrap::mirror;
     default:
-      return osg::Texture::REPEAT;
+      return DisplayWrap::repeat;
   }
 }
 

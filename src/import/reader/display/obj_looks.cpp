@@ -95,7 +95,7 @@ void ObjLooks::read_materials(const std::string& name) {
     if (one.diffuse_texname.empty()) {
       for (std::size_t k = 0; k < 3; ++k) material.colour[k] = colour_byte(one.diffuse[k]);
     } else {
-      const auto wrap = one.diffuse_texopt.clamp ? osg::Texture::CLAMP_TO_EDGE : osg::Texture::REPEAT;
+      const auto wrap = one.diffuse_texopt.clamp ? DisplayWrap::clamp : DisplayWrap::repeat;
       material.look.texture = sink_.parts()->textures().add_file(file.parent_path(), one.diffuse_texname, {wrap, wrap});
     }
     material.look.transparency = material.colour[3] < 255 ? Transparency::blend : Transparency::by_texture;

@@ -72,9 +72,10 @@ Colour colour_of(const osg::Vec4d& c) {
   return {colour_byte(c[0]), colour_byte(c[1]), colour_byte(c[2]), colour_byte(c[3])};
 }
 
-/// OpenSceneGraph's default, CLAMP, mixes in a border that nobody draws.
-osg::Texture::WrapMode drawn(osg::Texture::WrapMode mode) {
-  return mode == osg::Texture::CLAMP || mode == osg::Texture::CLAMP_TO_BORDER ? osg::Texture::CLAMP_TO_EDGE : mode;
+/// OpenSceneGraph's default, CLAMP, mixes in a border that nobody draws: it ends at the edge, too.
+DisplayWrap wrap_of(osg::Texture::WrapMode mode) {
+  if (mode == osg::Texture::REPEAT) return DisplayWrap::repeat;
+  return mode == osg::Texture::MIRROR ? DisplayWrap::mirror : DisplayWrap::clamp;
 }
 
 bool is_on(osg::StateAttribute::GLModeValue mode) { return (mode & osg::StateAttribute::ON) != 0; }
@@ -119,7 +120,7 @@ void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
     // The walk reads the graph, and an image is the graph's.
     osg::Image& image = const_cast<osg::Image&>(*texture->getImage());
     look_.texture = textures.add_image(
-        image, {drawn(texture->getWrap(osg::Texture::WRAP_S)), drawn(texture->getWrap(osg::Texture::WRAP_T))});
+        image, {wrap_of(texture->getWrap(osg::Texture::WRAP_S)), wrap_of(texture->getWrap(osg::Texture::WRAP_T))});
   }
   if (const auto* matrix =
           dynamic_cast<const osg::TexMat*>(state.getTextureAttribute(0, osg::StateAttribute::TEXMAT))) {

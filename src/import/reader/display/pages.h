@@ -1,16 +1,19 @@
 #pragma once
 /// \file
-/// Scenes that are paged: handed on unread, for the program to load what is near.
+/// Scenes that are paged: handed on unread, and read page by page when the program wants what is near.
 
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <osg/Group>
 #include <osg/Node>
+#include <osg/PagedLOD>
 #include <osg/ref_ptr>
+#include <vector>
 
+#include "import/reader/display/page_token.h"
 #include "import/reader/display/part_graph.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/scene_graph.h"
 
 namespace roam::reader {
 
@@ -32,8 +35,31 @@ class Pages {
  private:
   MeshSink& sink_;
   std::optional<PartGraph> graph_;
-  Box bounds_;
   std::chrono::steady_clock::time_point begun_;
+};
+
+/// What pages inherit from nodes in the files through which they are reached; kept as long as the process lives. Number
+/// 0 is none.
+using PageStates = std::vector<osg::ref_ptr<osg::StateSet>>;
+
+/// Walks a page: what is in it goes into the page of the sink's parts (PartPool::begin_page), and its PagedLODs that
+/// name pages become pages again.
+class PageWalk : public SceneGraphWalk {
+ public:
+  PageWalk(MeshSink& sink, const PageContext& page, PageStates& states);
+
+  /// Walks what was read from the page's file.
+  void walk(osg::Node& root);
+
+ private:
+  void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
+  [[nodiscard]] bool stands_for(const osg::LOD& coarser) const override;
+  bool add(osg::PagedLOD& lod);
+  std::uint32_t state_here();
+
+  MeshSink& sink_;
+  const PageContext& page_;
+  PageStates& states_;
 };
 
 }  // namespace roam::reader

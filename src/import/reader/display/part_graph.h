@@ -1,49 +1,52 @@
 #pragma once
 /// \file
-/// One part as a scene graph, and as the bytes of a file.
+/// One part: surfaces and pages as the plain values of display_part.h.
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
-#include <osg/Group>
-#include <osg/StateSet>
-#include <osg/Texture2D>
-#include <string>
 
+#include "import/display_part.h"
 #include "import/reader/display/surface.h"
 #include "import/reader/display/textures.h"
 #include "roam/math.h"
 
 namespace roam::reader {
 
-/// Builds what display.h says of a part.
 class PartGraph {
  public:
   /// `origin` is subtracted from every coordinate.
   PartGraph(Textures& textures, const Vec3& origin);
 
-  /// Adds the chunks of a surface of one look. `normals`: whether all of its vertices have one.
-  void add(const Surface& surface, const Look& look, bool normals);
-  /// Adds a ready node, in coordinates that are relative to the origin already.
-  void add(osg::Node& node) { root_->addChild(&node); }
+  /// Adds the chunks of a surface of one look to a group. `normals`: whether all of its vertices have one.
+  void add(const Surface& surface, const Look& look, bool normals, std::uint32_t group);
+  /// A new group, which must become a level of one node of pages.
+  [[nodiscard]] std::uint32_t add_group() { return part_.groups++; }
+  /// Adds a node of pages, its place in the frame of the scene, in which `box` lies; returns its number. It must come
+  /// before what is in its levels.
+  std::size_t add_pages(DisplayPages&& pages, const Box& box);
+  [[nodiscard]] DisplayPages& pages(std::size_t number) { return part_.pages[number]; }
 
-  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  /// What is gathered.
+  [[nodiscard]] const DisplayPart& part() const { return part_; }
   /// Of geometry and images, about.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
-  /// A file in OpenSceneGraph's binary format. Throws roam::Error when OpenSceneGraph's own plugin is not there.
-  [[nodiscard]] std::string osgb() const;
 
  private:
-  osg::ref_ptr<osg::StateSet> state_of(const Look& look);
-  osg::Group& cell_around(const Vec3& place, Vec3& cell);
+  /// A texture of the part, and whether it is translucent somewhere.
+  struct Loaded {
+    std::uint32_t number = DisplayLook::no_texture;
+    bool translucent = false;
+  };
+  const Loaded& load(TextureId texture);
+  std::uint32_t number_of(const Look& look);
 
   Textures& textures_;
-  Vec3 origin_;
-  Box bounds_;
+  DisplayPart part_;
   std::size_t bytes_ = 0;
-  osg::ref_ptr<osg::Group> root_ = new osg::Group;
-  std::map<std::array<double, 3>, osg::Group*> cells_;
-  std::map<TextureId, osg::ref_ptr<osg::Texture2D>> loaded_;
-  std::map<Look, osg::ref_ptr<osg::StateSet>> states_;
+  std::map<TextureId, Loaded> loaded_;
+  std::map<Look, std::uint32_t> looks_;
 };
 
 }  // namespace roam::reader

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "import/part_format.h"
 #include "import/stream.h"
 
 namespace roam::reader {
@@ -35,20 +36,29 @@ void PartPool::add(std::span<const Vec3> vertices, std::span<const VertexLook> l
     const bool any = std::any_of(triangles.begin(), triangles.end(),
                                  [&](const Corners& corners) { return has_normals(corners, looks) == normals; });
     if (!any) continue;
-    const auto at = gathered_.try_emplace({look, normals}).first;
+    const auto at = gathered_.try_emplace({look, group_, normals}).first;
     const std::size_t before = at->second.bytes();
     add_to(at->second, vertices, looks, triangles, look, normals);
     const std::size_t bytes = at->second.bytes();
-    const bool plain = look.texture == no_texture;
-    (plain ? plain_bytes_ : textured_bytes_) += bytes - before;
-    if (plain && plain_bytes_ >= part_bytes) {
-      send_where([](const Look& one) { return one.texture == no_texture; });
-    } else if (!plain && bytes >= one_texture_bytes) {
-      send_where([&](const Look& one) { return one.texture == look.texture; });
-    } else if (textured_bytes_ >= all_textures_bytes) {
-      send_where([](const Look&) { return true; });
-    }
+    (look.texture == no_texture ? plain_bytes_ : textured_bytes_) += bytes - before;
+    if (!page_) send_enough(look, bytes);
   }
+}
+
+void PartPool::send_enough(const Look& look, std::size_t bytes) {
+  const bool plain = look.texture == no_texture;
+  if (plain && plain_bytes_ >= part_bytes) {
+    send_where([](const Look& one) { return one.texture == no_texture; });
+  } else if (!plain && bytes >= one_texture_bytes) {
+    send_where([&](const Look& one) { return one.texture == look.texture; });
+  } else if (textured_bytes_ >= all_textures_bytes) {
+    send_where([](const Look&) { return true; });
+  }
+}
+
+PartGraph& PartPool::begin_page() {
+  group_ = 0;
+  return page_.emplace(textures_, origin_.value_or(Vec3(0.0)));
 }
 
 void PartPool::add_to(Surface& surface, std::span<const Vec3> vertices, std::span<const VertexLook> looks,
@@ -72,34 +82,33 @@ void PartPool::add_to(Surface& surface, std::span<const Vec3> vertices, std::spa
 }
 
 void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
-  std::optional<PartGraph> graph;
-  std::uint64_t triangles = 0;
+  std::optional<PartGraph> own;
   TextureId last = no_texture;
   // In the order of the map, which is that of textures: several small ones in a part, all of one in the same part.
   for (auto at = gathered_.begin(); at != gathered_.end();) {
-    const auto& [look, normals] = at->first;
+    const auto& [look, group, normals] = at->first;
     Surface& surface = at->second;
     if (!wanted(look)) {
       ++at;
       continue;
     }
-    if (graph && look.texture != last && graph->bytes() >= part_bytes) {
-      send(*graph, graph->bounds(), triangles, false);
-      graph.reset();
-      triangles = 0;
+    if (own && look.texture != last && own->bytes() >= part_bytes) {
+      send(*own);
+      own.reset();
     }
-    if (!graph) graph.emplace(textures_, origin_near(surface.vertices));
-    graph->add(surface, look, normals);
-    triangles += surface.triangles.size();
+    if (!page_ && !own) own.emplace(textures_, origin_near(surface.vertices));
+    (page_ ? *page_ : *own).add(surface, look, normals, group);
     last = look.texture;
     (last == no_texture ? plain_bytes_ : textured_bytes_) -= surface.bytes();
     at = gathered_.erase(at);
   }
-  if (graph) send(*graph, graph->bounds(), triangles, false);
+  if (own) send(*own);
 }
 
 void PartPool::finish_file() {
   send_where([](const Look&) { return true; });
+  if (page_) send(*page_);
+  page_.reset();
   textures_.forget_images();
 }
 
@@ -121,19 +130,21 @@ const Vec3& PartPool::origin_near(std::span<const Vec3> places) {
   return *origin_;
 }
 
-void PartPool::send(const PartGraph& graph, const Box& bounds, std::uint64_t triangles, bool paged) {
-  const std::string bytes = graph.osgb();
+void PartPool::send(const PartGraph& graph) {
+  const DisplayPart& part = graph.part();
+  const std::vector<std::byte> bytes = encode(part);
+  // A page of which nothing is left lies nowhere.
+  const Box bounds = part.bounds.lower.x <= part.bounds.upper.x ? part.bounds : Box{part.origin, part.origin};
   PartHeader header{};
   for (int k = 0; k < 3; ++k) {
-    header.origin[k] = origin_.value_or(Vec3(0.0))[k];
+    header.origin[k] = part.origin[k];
     header.lower[k] = bounds.lower[k];
     header.upper[k] = bounds.upper[k];
   }
-  header.triangles = triangles;
-  header.paged = paged ? 1 : 0;
+  header.triangles = part.triangles;
   header.bytes = bytes.size();
   frames_.send(FrameKind::part, PayloadWriter().add(header));
-  const auto all = std::as_bytes(std::span(bytes));
+  const std::span<const std::byte> all = bytes;
   for (std::size_t sent = 0; sent < all.size(); sent += payload_limit) {
     frames_.send(FrameKind::part_bytes, all.subspan(sent, std::min<std::size_t>(payload_limit, all.size() - sent)));
   }

@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "import/reader/display/part_graph.h"
@@ -34,20 +33,36 @@ class PartPool {
   /// Chooses the origin, unless it is known, for a scene that has these places.
   const Vec3& origin_near(std::span<const Vec3> places);
   /// Sends a part that is made already.
-  void send(const PartGraph& graph, const Box& bounds, std::uint64_t triangles, bool paged);
+  void send(const PartGraph& graph);
+
+  /// From here on all belongs to one part, which finish_file sends: a page. Triangles go into the group of it that is
+  /// set last, at first 0.
+  PartGraph& begin_page();
+  /// Null outside of a page.
+  [[nodiscard]] PartGraph* page() { return page_ ? &*page_ : nullptr; }
+  void set_group(std::uint32_t group) { group_ = group; }
+  [[nodiscard]] std::uint32_t group() const { return group_; }
 
  private:
-  using Key = std::pair<Look, bool>;  ///< and whether there are normals
+  struct Key {
+    Look look;
+    std::uint32_t group = 0;
+    bool normals = false;
+    auto operator<=>(const Key&) const = default;
+  };
   using Gathered = std::map<Key, Surface>;
 
   void add_to(Surface& surface, std::span<const Vec3> vertices, std::span<const VertexLook> looks,
               std::span<const Corners> triangles, const Look& look, bool normals);
+  void send_enough(const Look& look, std::size_t bytes);
   void send_where(const std::function<bool(const Look&)>& wanted);
 
   FrameWriter& frames_;
   Textures textures_;
   std::optional<Vec3> origin_;
   Gathered gathered_;
+  std::optional<PartGraph> page_;
+  std::uint32_t group_ = 0;
   std::size_t plain_bytes_ = 0, textured_bytes_ = 0;  ///< gathered without and with texture
 
   /// The index in the surface of each vertex of the mesh that is being added, where its mark is the current one.

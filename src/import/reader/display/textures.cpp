@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "import/reader/display/image_file.h"
+#include "import/reader/display/texels.h"
 #include "roam/import.h"
 
 namespace roam::reader {
@@ -42,10 +43,10 @@ TextureId Textures::add_image(osg::Image& image, Wrapping wrapping) {
   return add(key, {image.getFileName(), {}, &image, wrapping});
 }
 
-osg::ref_ptr<osg::Texture2D> Textures::load(TextureId id) {
+osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
   Source& source = sources_.at(id);
   osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
-  if (image == nullptr) {
+  if (image == nullptr || !has_texels(*image)) {
     report_missing(source.name);
     return nullptr;
   }
@@ -54,15 +55,7 @@ osg::ref_ptr<osg::Texture2D> Textures::load(TextureId id) {
     frames_.send(FrameKind::note, PayloadWriter().add_text(fmt::format(
                                       "Images of more than {} texels a side are shown smaller.", image_size_limit)));
   }
-  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
-  texture->setWrap(osg::Texture::WRAP_S, source.wrapping.across);
-  texture->setWrap(osg::Texture::WRAP_T, source.wrapping.up);
-  texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
-  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  constexpr float anisotropy = 8.0f;
-  texture->setMaxAnisotropy(anisotropy);
-  texture->setResizeNonPowerOfTwoHint(false);
-  return texture;
+  return image;
 }
 
 void Textures::forget_images() {

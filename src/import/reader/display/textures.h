@@ -7,14 +7,13 @@
 #include <functional>
 #include <map>
 #include <osg/Image>
-#include <osg/Texture2D>
-#include <osg/Texture>
 #include <osg/ref_ptr>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "import/display_part.h"
 #include "import/reader/display/look.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/scene_files.h"
@@ -23,8 +22,8 @@ namespace roam::reader {
 
 /// How an image goes on beyond its edges, across and up.
 struct Wrapping {
-  osg::Texture::WrapMode across = osg::Texture::REPEAT;
-  osg::Texture::WrapMode up = osg::Texture::REPEAT;
+  DisplayWrap across = DisplayWrap::repeat;
+  DisplayWrap up = DisplayWrap::repeat;
 };
 
 class Textures {
@@ -41,8 +40,9 @@ class Textures {
   /// An image that is decoded already.
   TextureId add_image(osg::Image& image, Wrapping wrapping);
 
-  /// The texture with its image, decoded anew each time; null when there is none, which is reported once.
-  [[nodiscard]] osg::ref_ptr<osg::Texture2D> load(TextureId texture);
+  /// The image, decoded anew each time; null when there is none, which is reported once.
+  [[nodiscard]] osg::ref_ptr<osg::Image> load(TextureId texture);
+  [[nodiscard]] Wrapping wrapping(TextureId texture) const { return sources_.at(texture).wrapping; }
   /// Lets go of the images of find and add_image; the latter's numbers must not be used any more.
   void forget_images();
 

@@ -1,0 +1,163 @@
+#include "view/display_node.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <osg/AlphaFunc>
+#include <osg/Array>
+#include <osg/Image>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/StateSet>
+#include <osg/Texture2D>
+#include <utility>
+#include <vector>
+
+#include "graphics/shading.h"
+
+namespace roam::app {
+namespace {
+
+/// An array with the bits of a list of plain vectors.
+template <class Array, class Vector>
+osg::ref_ptr<Array> array_of(const std::vector<Vector>& list) {
+  static_assert(sizeof(typename Array::ElementDataType) == sizeof(Vector));
+  osg::ref_ptr<Array> array = new Array(osg::Array::BIND_PER_VERTEX, static_cast<unsigned>(list.size()));
+  if (!list.empty()) {
+    std::memcpy(const_cast<void*>(array->getDataPointer()), list.data(), list.size() * sizeof(Vector));
+  }
+  return array;
+}
+
+GLenum format_of(DisplayTexels texels) {
+  constexpr GLenum formats[] = {GL_LUMINANCE,
+                                GL_LUMINANCE_ALPHA,
+                                GL_RGB,
+                                GL_RGBA,
+                                GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                                GL_COMPRESSED_RGBA_S3TC_DXT1_EXT,
+                                GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
+                                GL_COMPRESSED_RGBA_S3TC_DXT5_EXT};
+  return formats[static_cast<std::size_t>(texels)];
+}
+
+osg::Texture::WrapMode wrap_of(DisplayWrap wrap) {
+  if (wrap == DisplayWrap::repeat) return osg::Texture::REPEAT;
+  return wrap == DisplayWrap::mirror ? osg::Texture::MIRROR : osg::Texture::CLAMP_TO_EDGE;
+}
+
+osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const TextureQuality& quality) {
+  auto* bytes = new unsigned char[from.bytes.size()];
+  std::copy(from.bytes.begin(), from.bytes.end(), bytes);
+  const GLenum format = format_of(from.texels);
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->setImage(static_cast<int>(from.width), static_cast<int>(from.height), 1, static_cast<GLint>(format), format,
+                  GL_UNSIGNED_BYTE, bytes, osg::Image::USE_NEW_DELETE, 1);
+  if (from.levels > 1) {
+    osg::Image::MipmapDataType offsets;
+    for (std::uint32_t level = 1; level < from.levels; ++level) {
+      offsets.push_back(static_cast<unsigned>(DisplayTexture::bytes_of(from.texels, from.width, from.height, level)));
+    }
+    image->setMipmapLevels(offsets);
+  }
+  // Cards make smaller levels of texels, and not always of blocks.
+  const bool smaller = from.levels > 1 || from.texels < DisplayTexels::dxt1;
+  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+  texture->setWrap(osg::Texture::WRAP_S, wrap_of(from.across));
+  texture->setWrap(osg::Texture::WRAP_T, wrap_of(from.up));
+  texture->setFilter(osg::Texture::MIN_FILTER, smaller ? osg::Texture::LINEAR_MIPMAP_LINEAR : osg::Texture::LINEAR);
+  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  texture->setMaxAnisotropy(quality.anisotropy);
+  texture->setResizeNonPowerOfTwoHint(false);
+  return texture;
+}
+
+/// Null where there is nothing to say.
+osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look, osg::Texture2D* texture) {
+  if (texture == nullptr && look.cover == DisplayCover::opaque) return nullptr;
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+  if (texture != nullptr) {
+    state->setTextureAttributeAndModes(0, texture);
+    state->setDefine(graphics::textured_define);
+  }
+  if (look.cover == DisplayCover::cut) {
+    state->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, look.cutoff));
+  }
+  if (look.cover == DisplayCover::blended) {
+    state->setMode(GL_BLEND, osg::StateAttribute::ON);
+    state->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+  }
+  return state;
+}
+
+osg::ref_ptr<osg::PagedLOD> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
+                                     const NamePage& name_page) {
+  osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(osg::Vec3d(from.center.x, from.center.y, from.center.z));
+  lod->setRadius(from.radius);
+  lod->setRangeMode(from.by_pixels ? osg::LOD::PIXEL_SIZE_ON_SCREEN : osg::LOD::DISTANCE_FROM_EYE_POINT);
+  for (unsigned i = 0; i < from.levels.size(); ++i) {
+    const DisplayLevel& level = from.levels[i];
+    if (level.group != 0) {
+      lod->addChild(groups[level.group], level.from, level.to);
+    } else {
+      lod->setFileName(i, name_page(level.page));
+      lod->setRange(i, level.from, level.to);
+    }
+  }
+  return lod;
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(array_of<osg::Vec3Array>(from.positions));
+  const osg::ref_ptr<osg::Vec4ubArray> colours = array_of<osg::Vec4ubArray>(from.colours);
+  colours->setNormalize(true);
+  geometry->setColorArray(colours);
+  if (from.normals.empty()) {
+    // The zero normal says that there is none.
+    geometry->setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
+  } else {
+    geometry->setNormalArray(array_of<osg::Vec3Array>(from.normals));
+  }
+  if (!from.coordinates.empty()) geometry->setTexCoordArray(0, array_of<osg::Vec2Array>(from.coordinates));
+  const osg::ref_ptr<osg::DrawElementsUShort> triangles =
+      new osg::DrawElementsUShort(GL_TRIANGLES, static_cast<unsigned>(from.indices.size()), from.indices.data());
+  geometry->addPrimitiveSet(triangles);
+  return geometry;
+}
+
+osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page) {
+  std::vector<osg::ref_ptr<osg::Texture2D>> textures;
+  for (const DisplayTexture& texture : part.textures) textures.push_back(texture_of(texture, quality));
+  std::vector<osg::ref_ptr<osg::StateSet>> states;
+  for (const DisplayLook& look : part.looks) {
+    const bool textured = look.texture != DisplayLook::no_texture;
+    states.push_back(state_of(look, textured ? textures[look.texture].get() : nullptr));
+  }
+  std::vector<osg::ref_ptr<osg::Group>> groups(part.groups);
+  for (auto& group : groups) group = new osg::Group;
+
+  std::map<std::pair<std::uint32_t, std::array<double, 3>>, osg::MatrixTransform*> cells;
+  for (const DisplayGeometry& from : part.geometries) {
+    const Vec3& c = from.cell;
+    osg::MatrixTransform*& cell = cells[{from.group, {c.x, c.y, c.z}}];
+    if (cell == nullptr) {
+      cell = new osg::MatrixTransform(osg::Matrixd::translate(c.x, c.y, c.z));
+      groups[from.group]->addChild(cell);
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = make_geometry(from);
+    geometry->setStateSet(states[from.look]);
+    cell->addChild(geometry);
+  }
+  for (const DisplayPages& pages : part.pages) groups[pages.group]->addChild(pages_of(pages, groups, name_page));
+  return groups[0];
+}
+
+}  // namespace roam::app

@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// Gives OpenSceneGraph's pager the pages that it wants.
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <osgDB/Callbacks>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "import/page_reader.h"
+#include "view/display_node.h"
+
+namespace roam::app {
+
+/// Reads every node that OpenSceneGraph reads while it is the Registry's callback: pages by the names that it has made
+/// itself, in another process, and nothing else. A name never is that of a file. Counts what it reads, and remembers
+/// what cannot be read: OpenSceneGraph asks for it again in every frame. All members may be called from any thread.
+class PageSource : public osgDB::ReadFileCallback {
+ public:
+  PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options, const TextureQuality& quality);
+
+  /// The nodes of a part; what it names as pages can be read from now on. Throws roam::Error when these are more than
+  /// any scene has.
+  [[nodiscard]] osg::ref_ptr<osg::Group> make(const DisplayPart& part) { return make(part, 0); }
+  /// Lets every reading, now and later, come to its end at once.
+  void cancel() { reader_.cancel(); }
+
+  /// Pages that could not be read while they were wanted.
+  [[nodiscard]] std::uint64_t missing() const;
+  /// Why the first of them could not; empty where there is none.
+  [[nodiscard]] std::string problem() const;
+  /// Changes whenever a reading begins or ends.
+  [[nodiscard]] std::uint64_t events() const { return events_; }
+  [[nodiscard]] bool is_reading() const { return under_way_ > 0; }
+
+  using Result = osgDB::ReaderWriter::ReadResult;
+  Result readNode(const std::string& name, const osgDB::Options*) override;
+  Result openArchive(const std::string&, osgDB::ReaderWriter::ArchiveStatus, unsigned, const osgDB::Options*) override {
+    return Result::FILE_NOT_FOUND;
+  }
+  Result readObject(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+  Result readImage(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+  Result readHeightField(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+  Result readShader(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+  Result readScript(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
+
+ private:
+  struct Page {
+    std::uint32_t source = 0;
+    Vec3 origin{0.0};
+    std::string token;
+    int depth = 0;  ///< pages through which it is reached
+    bool missing = false;
+  };
+
+  osg::ref_ptr<osg::Group> make(const DisplayPart& part, int depth);
+  std::string name_of(const DisplayPart& part, const std::string& token, int depth);
+  /// Throws roam::Error, or roam::Cancelled.
+  osg::ref_ptr<osg::Node> read(const Page& page);
+
+  PageReader reader_;
+  TextureQuality quality_;
+  std::uint64_t memory_limit_;
+  std::shared_ptr<std::atomic<std::uint64_t>> memory_;  ///< bytes of the pages that there are
+  mutable std::mutex mutex_;
+  std::map<std::pair<std::uint32_t, std::string>, std::string> names_;  ///< by source and token
+  std::map<std::string, Page> pages_;                                   ///< by name
+  std::uint64_t token_bytes_ = 0;
+  std::uint64_t missing_ = 0;
+  std::string problem_;
+  std::atomic<std::uint64_t> events_ = 0;
+  std::atomic<int> under_way_ = 0;
+};
+
+}  // namespace roam::app

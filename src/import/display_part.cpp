@@ -1,0 +1,44 @@
+#include "import/display_part.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace roam {
+
+std::uint64_t DisplayTexture::bytes_of(DisplayTexels texels, std::uint32_t width, std::uint32_t height,
+                                       std::uint32_t levels) {
+  // Of a texel, or of a block.
+  constexpr std::uint64_t unit_bytes[] = {1, 2, 3, 4, 8, 8, 16, 16};
+  const std::uint32_t side = texels >= DisplayTexels::dxt1 ? 4 : 1;
+  std::uint64_t bytes = 0;
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    const std::uint64_t columns = (std::max(width >> level, 1u) + side - 1) / side;
+    const std::uint64_t rows = (std::max(height >> level, 1u) + side - 1) / side;
+    bytes += columns * rows * unit_bytes[static_cast<std::size_t>(texels)];
+  }
+  return bytes;
+}
+
+std::uint32_t DisplayTexture::all_levels(std::uint32_t width, std::uint32_t height) {
+  return static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
+}
+
+std::uint64_t DisplayPart::node_bytes() const {
+  // A geometry of OpenSceneGraph with its arrays and buffers; others take less.
+  constexpr std::uint64_t most = 2048;
+  std::uint64_t nodes = textures.size() + looks.size() + geometries.size() + groups;
+  for (const DisplayPages& node : pages) nodes += 1 + node.levels.size();
+  return most * nodes;
+}
+
+std::uint64_t DisplayPart::bytes() const {
+  std::uint64_t sum = node_bytes();
+  for (const DisplayTexture& texture : textures) sum += texture.bytes.size();
+  for (const DisplayGeometry& g : geometries) {
+    sum += g.positions.size() * (sizeof(glm::vec3) + 4) + g.normals.size() * sizeof(glm::vec3) +
+           g.coordinates.size() * sizeof(glm::vec2) + g.indices.size() * sizeof(std::uint16_t);
+  }
+  return sum;
+}
+
+}  // namespace roam

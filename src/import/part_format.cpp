@@ -1,0 +1,286 @@
+#include "import/part_format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include "import/stream_receiver.h"
+#include "roam/world.h"
+
+namespace roam::reader {
+namespace {
+
+using StreamDamaged = StreamReceiver::StreamDamaged;
+
+class Writer {
+ public:
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_class_v<T>);
+    append(&value, sizeof(T));
+  }
+  void add(const Vec3& v) {
+    for (int k = 0; k < 3; ++k) add(v[k]);
+  }
+  /// Of values without padding.
+  template <class List>
+  void add_list(const List& list) {
+    add(std::uint64_t{list.size()});
+    append(list.data(), list.size() * sizeof(*list.data()));
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  void append(const void* from, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(from);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class T>
+  T take() {
+    static_assert(std::is_arithmetic_v<T>);
+    T value;
+    std::memcpy(&value, next(1, sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  template <class Enumeration>
+  Enumeration take(Enumeration last) {
+    const auto value = take<std::uint8_t>();
+    if (value > static_cast<std::uint8_t>(last)) throw StreamDamaged{"a value of no meaning"};
+    return static_cast<Enumeration>(value);
+  }
+  Vec3 take_place() {
+    Vec3 v;
+    for (int k = 0; k < 3; ++k) v[k] = take<double>();
+    return v;
+  }
+  template <class List>
+  void take_list(List& list, std::uint64_t limit = ~std::uint64_t{0}) {
+    constexpr std::size_t size = sizeof(*list.data());
+    const auto count = take<std::uint64_t>();
+    if (count > limit) throw StreamDamaged{"a list that is too long"};
+    const auto from = next(count, size);
+    list.resize(count);
+    if (count > 0) std::memcpy(static_cast<void*>(list.data()), from.data(), from.size());
+  }
+  /// The length of a list of which each element takes at least `size` bytes.
+  std::uint64_t take_count(std::size_t size) {
+    const auto count = take<std::uint64_t>();
+    if (count > rest_.size() / size) throw StreamDamaged{"a list that is not there"};
+    return count;
+  }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::byte> next(std::uint64_t count, std::size_t size) {
+    if (count > rest_.size() / size) throw StreamDamaged{"a list that is not there"};
+    const auto taken = rest_.first(static_cast<std::size_t>(count) * size);
+    rest_ = rest_.subspan(taken.size());
+    return taken;
+  }
+
+  std::span<const std::byte> rest_;
+};
+
+/// Both ends of a scene and its origin, and what rounding adds.
+constexpr double place_limit = 4.0 * World::coordinate_limit;
+
+void check_place(const Vec3& v) {
+  // False for a NaN too.
+  if (!(std::abs(v.x) <= place_limit && std::abs(v.y) <= place_limit && std::abs(v.z) <= place_limit)) {
+    throw StreamDamaged{"a place beyond all scenes"};
+  }
+}
+
+template <class Vector>
+void check_finite(const std::vector<Vector>& vectors) {
+  for (const Vector& v : vectors) {
+    for (int k = 0; k < Vector::length(); ++k) {
+      if (!std::isfinite(v[k])) throw StreamDamaged{"a number that is none"};
+    }
+  }
+}
+
+DisplayTexture take_texture(Reader& from) {
+  DisplayTexture texture;
+  texture.width = from.take<std::uint32_t>();
+  texture.height = from.take<std::uint32_t>();
+  texture.levels = from.take<std::uint32_t>();
+  texture.texels = from.take(DisplayTexels::dxt5);
+  texture.across = from.take(DisplayWrap::mirror);
+  texture.up = from.take(DisplayWrap::mirror);
+  for (const std::uint32_t side : {texture.width, texture.height}) {
+    if (side == 0 || side > DisplayTexture::side_limit) throw StreamDamaged{"an image of no size"};
+  }
+  if (texture.levels != 1 && texture.levels != DisplayTexture::all_levels(texture.width, texture.height)) {
+    throw StreamDamaged{"an image of other levels"};
+  }
+  from.take_list(texture.bytes);
+  if (texture.bytes.size() != DisplayTexture::bytes_of(texture.texels, texture.width, texture.height, texture.levels)) {
+    throw StreamDamaged{"an image of another size"};
+  }
+  return texture;
+}
+
+DisplayLook take_look(Reader& from, const DisplayPart& part) {
+  DisplayLook look;
+  look.texture = from.take<std::uint32_t>();
+  look.cover = from.take(DisplayCover::cut);
+  look.cutoff = from.take<float>();
+  const bool textured = look.texture != DisplayLook::no_texture;
+  if (textured && look.texture >= part.textures.size()) throw StreamDamaged{"a look without its image"};
+  if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  return look;
+}
+
+DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
+  DisplayGeometry g;
+  g.group = from.take<std::uint32_t>();
+  g.look = from.take<std::uint32_t>();
+  g.cell = from.take_place();
+  constexpr std::uint64_t most = 1u << 16;
+  from.take_list(g.positions, most);
+  from.take_list(g.colours, most);
+  from.take_list(g.normals, most);
+  from.take_list(g.coordinates, most);
+  from.take_list(g.indices, 3 * most);
+  if (g.group >= part.groups || g.look >= part.looks.size()) throw StreamDamaged{"a geometry without a place"};
+  check_place(g.cell);
+  for (const glm::vec3& p : g.positions) check_place(g.cell + Vec3(p));
+  check_finite(g.normals);
+  check_finite(g.coordinates);
+  const std::size_t n = g.positions.size();
+  const bool textured = part.looks[g.look].texture != DisplayLook::no_texture;
+  if (n == 0 || g.indices.empty() || g.indices.size() % 3 != 0 || g.colours.size() != n ||
+      (!g.normals.empty() && g.normals.size() != n) || g.coordinates.size() != (textured ? n : 0)) {
+    throw StreamDamaged{"a geometry that is not whole"};
+  }
+  for (const std::uint16_t i : g.indices) {
+    if (i >= n) throw StreamDamaged{"a triangle of vertices that are not there"};
+  }
+  return g;
+}
+
+/// Levels within levels; what draws them calls itself for each.
+constexpr std::uint32_t depth_limit = 64;
+constexpr std::uint32_t not_shown = std::numeric_limits<std::uint32_t>::max();
+
+/// `depth`: how deep each group lies that is a level already.
+DisplayPages take_pages(Reader& from, const DisplayPart& part, std::vector<std::uint32_t>& depth) {
+  DisplayPages pages;
+  pages.group = from.take<std::uint32_t>();
+  pages.center = from.take_place();
+  pages.radius = from.take<float>();
+  const auto by_pixels = from.take<std::uint8_t>();
+  if (by_pixels > 1) throw StreamDamaged{"a value of no meaning"};
+  pages.by_pixels = by_pixels != 0;
+  if (pages.group >= part.groups || depth[pages.group] >= depth_limit) throw StreamDamaged{"pages without a place"};
+  check_place(pages.center);
+  if (!(pages.radius >= 0.0f && static_cast<double>(pages.radius) <= place_limit)) {
+    throw StreamDamaged{"pages without a size"};
+  }
+  constexpr std::size_t least_level_bytes = 20;
+  const std::uint64_t count = from.take_count(least_level_bytes);
+  bool paged = false;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    DisplayLevel level;
+    level.from = from.take<float>();
+    level.to = from.take<float>();
+    level.group = from.take<std::uint32_t>();
+    from.take_list(level.page, DisplayLevel::page_limit);
+    if (std::isnan(level.from) || std::isnan(level.to)) throw StreamDamaged{"a number that is none"};
+    paged = paged || level.group == 0;
+    if (paged == level.page.empty() || paged != (level.group == 0)) throw StreamDamaged{"a level of nothing"};
+    if (!paged) {
+      if (level.group >= part.groups || depth[level.group] != not_shown) throw StreamDamaged{"groups that are no tree"};
+      depth[level.group] = depth[pages.group] + 1;
+    }
+    pages.levels.push_back(std::move(level));
+  }
+  return pages;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode(const DisplayPart& part) {
+  Writer to;
+  to.add(part.groups);
+  to.add(std::uint64_t{part.textures.size()});
+  for (const DisplayTexture& texture : part.textures) {
+    to.add(texture.width);
+    to.add(texture.height);
+    to.add(texture.levels);
+    to.add(texture.texels);
+    to.add(texture.across);
+    to.add(texture.up);
+    to.add_list(texture.bytes);
+  }
+  to.add(std::uint64_t{part.looks.size()});
+  for (const DisplayLook& look : part.looks) {
+    to.add(look.texture);
+    to.add(look.cover);
+    to.add(look.cutoff);
+  }
+  to.add(std::uint64_t{part.geometries.size()});
+  for (const DisplayGeometry& g : part.geometries) {
+    to.add(g.group);
+    to.add(g.look);
+    to.add(g.cell);
+    to.add_list(g.positions);
+    to.add_list(g.colours);
+    to.add_list(g.normals);
+    to.add_list(g.coordinates);
+    to.add_list(g.indices);
+  }
+  to.add(std::uint64_t{part.pages.size()});
+  for (const DisplayPages& pages : part.pages) {
+    to.add(pages.group);
+    to.add(pages.center);
+    to.add(pages.radius);
+    to.add(static_cast<std::uint8_t>(pages.by_pixels));
+    to.add(std::uint64_t{pages.levels.size()});
+    for (const DisplayLevel& level : pages.levels) {
+      to.add(level.from);
+      to.add(level.to);
+      to.add(level.group);
+      to.add_list(level.page);
+    }
+  }
+  return to.take();
+}
+
+void decode(std::span<const std::byte> bytes, DisplayPart& part) {
+  // What an element takes at least, so that no count makes more of itself than the bytes that are there.
+  constexpr std::size_t texture_bytes = 23, look_bytes = 9, geometry_bytes = 72, pages_bytes = 41;
+  // A group costs no byte by itself; each but the first is a level, which does.
+  Reader from(bytes);
+  part.groups = from.take<std::uint32_t>();
+  if (part.groups == 0 || part.groups > bytes.size()) throw StreamDamaged{"groups that are no tree"};
+  for (std::uint64_t n = from.take_count(texture_bytes); n > 0; --n) part.textures.push_back(take_texture(from));
+  for (std::uint64_t n = from.take_count(look_bytes); n > 0; --n) part.looks.push_back(take_look(from, part));
+  std::uint64_t triangles = 0;
+  for (std::uint64_t n = from.take_count(geometry_bytes); n > 0; --n) {
+    part.geometries.push_back(take_geometry(from, part));
+    triangles += part.geometries.back().indices.size() / 3;
+  }
+  std::vector<std::uint32_t> depth(part.groups, not_shown);
+  depth[0] = 0;
+  for (std::uint64_t n = from.take_count(pages_bytes); n > 0; --n) {
+    part.pages.push_back(take_pages(from, part, depth));
+  }
+  if (!from.at_end()) throw StreamDamaged{"a part that is too long"};
+  if (triangles != part.triangles) throw StreamDamaged{"a part of other triangles"};
+  if (std::find(depth.begin(), depth.end(), not_shown) != depth.end()) throw StreamDamaged{"groups that are no tree"};
+}
+
+}  // namespace roam::reader

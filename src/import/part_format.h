@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// The bytes of a DisplayPart in the stream of a reader.
+///
+/// In the order of the machine, without padding; a list is a u64 number of elements and these:
+///
+///     part       u32 groups; list of texture; list of look; list of geometry; list of pages
+///     texture    u32 width, height, levels; u8 texels, across, up; list of u8
+///     look       u32 texture; u8 cover; f32 cutoff
+///     geometry   u32 group, look; f64 cell x, y, z; lists of positions (3 f32), colours (4 u8), normals (3 f32),
+///                coordinates (2 f32), indices (u16)
+///     pages      u32 group; f64 center x, y, z; f32 radius; u8 by_pixels; list of level
+///     level      f32 from, to; u32 group; list of the bytes of its page
+///
+/// Origin, bounds and triangles are in the frame that begins the part (PartHeader).
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "import/display_part.h"
+
+namespace roam::reader {
+
+[[nodiscard]] std::vector<std::byte> encode(const DisplayPart& part);
+
+/// Fills in `part`, whose origin is known. Trusts nothing: every count is compared with the bytes that are there, every
+/// index with what it counts, every number with what it may be. Throws StreamReceiver::StreamDamaged.
+void decode(std::span<const std::byte> bytes, DisplayPart& part);
+
+}  // namespace roam::reader

@@ -1,0 +1,95 @@
+#include "import/reader/page_requests.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "import/display_part.h"
+#include "import/reader/display/pages.h"
+#include "import/reader/display/part_pool.h"
+#include "import/reader/osg_files.h"
+#include "import/stream.h"
+#include "roam/error.h"
+
+namespace roam::reader {
+namespace {
+
+/// Pages within pages; more is a scene without end.
+constexpr std::size_t nesting_limit = 64;
+
+/// False when nobody asks any more.
+bool take(void* to, std::size_t size) {
+  auto* at = static_cast<char*>(to);
+  while (size > 0) {
+    const ssize_t n = read(STDIN_FILENO, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool take_request(std::string& token) {
+  std::uint32_t length = 0;
+  if (!take(&length, sizeof(length)) || length > DisplayLevel::page_limit) return false;
+  token.resize(length);
+  return take(token.data(), length);
+}
+
+void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, PageStates& states) {
+  const std::optional<PageContext> page = page_of(token);
+  if (!page) throw Error("a page was asked for that no part has named; install roam anew.");
+  const std::string name = page->file.string();
+  const bool circle = std::find(page->above.begin(), page->above.end(), hash_of(page->file)) != page->above.end();
+  if (circle || page->above.size() > nesting_limit) {
+    throw Error(name + ": this page is reached through itself, or through too many others; the scene is damaged.");
+  }
+  prepare_osg(sink, files, true);
+  const osg::ref_ptr<osg::Node> root = read_osg_file(page->file, true);
+  if (root == nullptr) throw Error(name + ": this page is absent or unreadable.");
+  sink.set_offset(page->offset);
+  sink.parts()->begin_page();
+  PageWalk(sink, *page, states).walk(*root);
+}
+
+}  // namespace
+
+int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
+                const Rights& rights, const std::function<void()>& greet) {
+  PageStates states;
+  std::string token;
+  while (take_request(token)) {
+    frames.begin_stream();
+    greet();
+    SceneFiles files(rights.folders, rights.files, frames);
+    PartPool parts(frames, files, origin);
+    MeshSink sink(frames, settings, &parts, nullptr);
+    const auto fail = [&](const std::string& sentence) {
+      frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
+      frames.flush();
+    };
+    try {
+      read_page(token, files, sink, states);
+      sink.end();
+    } catch (const Error& error) {
+      fail(error.what());
+    } catch (const std::bad_alloc&) {
+      std::fputs("out of memory\n", stderr);
+      return EXIT_FAILURE;
+    } catch (const std::exception& error) {
+      fail(fmt::format("a page's reader gave up: {}. The file is probably damaged.", error.what()));
+    }
+  }
+  return EXIT_SUCCESS;
+}
+
+}  // namespace roam::reader
