@@ -29,10 +29,6 @@ std::string digits(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
   throw Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", name, what));
 }
 
-bool is_digits(const std::string& text, std::size_t count) {
-  return text.size() == count && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 /// Reads the members of objects, and says which one is wrong.
 class Fields {
  public:
@@ -279,7 +275,7 @@ void refuse_to_open(const std::filesystem::path& folder) {
   }
   if (!holds_store(folder)) throw Error(fmt::format("{} is no store; make one with roam build", name));
   const fs::path current = folder / current_file;
-  if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a link that leads nowhere");
+  if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a symbolic link, which no store has");
   if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
   const bool has_manifest = !fs::is_empty(folder / "manifests", none) && !none;
   // A build that is killed just before it writes CURRENT has written its manifest, and has its plan still.
@@ -298,6 +294,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
       // What may not be read, or only not now, is not damaged.
       if (error.number == ENOENT) throw RootDamage(store, what, file + " is not there");
       if (error.number == EFBIG) throw RootDamage(store, what, file + " is larger than any of its kind");
+      if (is_foreign(error.number)) throw RootDamage(store, what, error.what());
       throw;
     }
   };
@@ -331,11 +328,11 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
 
 std::string publish(const std::filesystem::path& store, const Manifest& manifest) {
   const std::string text = to_text(manifest);
-  make_folder(store / "manifests");
-  NewFile file(store / manifest_file("new"));
+  make_folder_in(store, "manifests");
+  NewFile file(store, manifest_file("new"));
   file.write(std::as_bytes(std::span(text)));
   const std::string hash = file.commit_by_hash();
-  write_file(store / current_file, fmt::format("{}{}\n{}\n", kCurrentStart, manifest.format, hash));
+  write_file(store, current_file, fmt::format("{}{}\n{}\n", kCurrentStart, manifest.format, hash));
   return hash;
 }
 

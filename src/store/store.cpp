@@ -81,7 +81,7 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
 
 bool Store::is_store(const std::filesystem::path& folder) {
   std::error_code none;
-  return std::filesystem::is_regular_file(folder / store::current_file, none);
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / store::current_file, none));
 }
 
 const StoreInfo& Store::info() const { return state_->info; }

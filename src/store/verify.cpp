@@ -69,10 +69,9 @@ class Verifier {
   void check_spare() {
     const std::string& hash = state_.info.hash;
     const std::string file = spare_file(hash);
-    std::error_code none;
-    if (!std::filesystem::exists(folder_ / file, none)) return;
     try {
-      if (sha256_of_file(folder_ / file) != hash) damage({file, "its SHA-256 is not its name", Box{}});
+      if (!size_of(folder_, file)) return;
+      if (sha256_of_file(folder_, file) != hash) damage({file, "its SHA-256 is not its name", Box{}});
     } catch (const Error& error) {
       damage({file, error.what(), Box{}});
     }
@@ -81,10 +80,10 @@ class Verifier {
   void check_part(const PartInfo& part) {
     const std::string file = part_file(part.file);
     try {
-      if (sha256_of_file(folder_ / file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
+      if (sha256_of_file(folder_, file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
         throw Error("its SHA-256 is not its name");
       }
-      const PartFile content = decode_part(read_file(folder_ / file, part.bytes), file);
+      const PartFile content = decode_part(read_file(folder_, file, part.bytes), file);
       if (content.triangles != part.triangles || content.objects.size() != part.objects) {
         throw Error("its counts are not those of the manifest");
       }
@@ -97,7 +96,7 @@ class Verifier {
     const std::string file = pack_file(shard.pack);
     bool whole = false;
     try {
-      whole = sha256_of_file(folder_ / file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
+      whole = sha256_of_file(folder_, file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
       if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
     } catch (const Error& error) {
       damage({file, error.what(), shard.bounds});

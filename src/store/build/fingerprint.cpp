@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roam/error.h"
+#include "store/build/layout.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -83,10 +84,9 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
-Sources::Sources(fs::path file) : file_(std::move(file)) {
-  std::error_code error;
-  if (!fs::exists(file_, error)) return;
-  const std::vector<std::byte> bytes = read_file(file_, kSourcesLimit);
+Sources::Sources(fs::path store) : store_(std::move(store)) {
+  if (!size_of(store_, sources_file)) return;
+  const std::vector<std::byte> bytes = read_file(store_, sources_file, kSourcesLimit);
   const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
                                 reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
   if (!json.is_object()) return;
@@ -163,7 +163,7 @@ void Sources::save() const {
   Json json = Json::object();
   for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
   // A path that is no UTF-8 is not found again, and its file read again.
-  write_file(file_, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace roam::store

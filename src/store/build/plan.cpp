@@ -50,6 +50,9 @@ PartRecord record_of(const Json& json) {
   record.info.triangles = json.at("triangles").get<std::uint64_t>();
   record.info.objects = json.at("objects").get<std::uint64_t>();
   record.id = json.at("id").get<std::string>();
+  if (!is_digits(record.info.file, 64) || !is_digits(record.id, record_digits)) {
+    throw std::runtime_error("the name of a file is not what it should be");
+  }
   for (const Json& run : json.at("runs")) {
     record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
   }
@@ -95,16 +98,14 @@ void write_plan(const fs::path& store, const Plan& plan) {
                      {"lossless", plan.lossless},
                      {"parts", std::move(parts)},
                      {"shards", std::move(shards)}};
-  write_file(plan_file(store), json.dump(1) + "\n");
+  write_file(store, plan_file, json.dump(1) + "\n");
 }
 
 Plan read_plan(const fs::path& store) {
-  const fs::path file = plan_file(store);
-  std::error_code error;
-  if (!fs::exists(file, error)) {
+  if (!size_of(store, plan_file)) {
     throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
   }
-  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
+  const std::vector<std::byte> bytes = read_file(store, plan_file, kPlanLimit);
   try {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const Json json = Json::parse(text, text + bytes.size());
@@ -131,7 +132,7 @@ Plan read_plan(const fs::path& store) {
     }
     return plan;
   } catch (const std::exception& e) {
-    throw Error(fmt::format("{} cannot be used ({}); plan again", file.string(), e.what()));
+    throw Error(fmt::format("{} cannot be used ({}); plan again", (store / plan_file).string(), e.what()));
   }
 }
 
@@ -152,12 +153,12 @@ std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
 }
 
 std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
-  const fs::path file = shard_file(store, key);
-  std::error_code error;
-  if (!fs::exists(file, error)) return {};
-  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
-  ShardInfo shard = parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file.string());
-  if (shard.key != key || fs::file_size(store / pack_file(shard.pack), error) != shard.bytes || error) return {};
+  const std::string file = shard_file(key);
+  if (!size_of(store, file)) return {};
+  const std::vector<std::byte> bytes = read_file(store, file, kPlanLimit);
+  ShardInfo shard =
+      parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), (store / file).string());
+  if (shard.key != key || size_of(store, pack_file(shard.pack)) != shard.bytes) return {};
   return shard;
 }
 

@@ -38,7 +38,7 @@ bool is_inside(const fs::path& inner, const fs::path& outer) {
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
-      : work_(work), damaged_(damaged), report_(report), sources_(sources_file(work.store)) {}
+      : work_(work), damaged_(damaged), report_(report), sources_(work.store) {}
 
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
@@ -97,14 +97,10 @@ class Planner {
   }
 
   [[nodiscard]] bool is_there(const PartInfo& info) const {
-    std::error_code error;
-    return !damaged_.contains(info.file) && fs::file_size(work_.store / part_file(info.file), error) == info.bytes &&
-           !error;
+    return !damaged_.contains(info.file) && size_of(work_.store, part_file(info.file)) == info.bytes;
   }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {
-    std::error_code error;
-    return !damaged_.contains(shard.pack) && fs::file_size(work_.store / pack_file(shard.pack), error) == shard.bytes &&
-           !error;
+    return !damaged_.contains(shard.pack) && size_of(work_.store, pack_file(shard.pack)) == shard.bytes;
   }
 
   [[nodiscard]] bool unchanged() const {
@@ -177,7 +173,7 @@ class Planner {
     std::vector<PartCell> cells;
     for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
       const std::string file = part_file(plan_.parts[i].info.file);
-      const PartFile part = decode_part(read_file(work_.store / file, kPartFileLimit), file);
+      const PartFile part = decode_part(read_file(work_.store, file, kPartFileLimit), file);
       for (const Cell& cell : part.cells) {
         cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), part.cell_bits});
       }
@@ -210,8 +206,7 @@ class Planner {
   void remove_results() const {
     if (in_force_) return;
     remove_scratch(work_.store);
-    std::error_code error;
-    for (const PartRecord& part : plan_.parts) fs::remove(work_.store / part_file(part.info.file), error);
+    for (const PartRecord& part : plan_.parts) remove_file(work_.store, part_file(part.info.file));
   }
 
   /// See Refine. Counts in the runs of the part; a part without runs is noted down and counted as if in one place.
@@ -225,7 +220,7 @@ class Planner {
     RunBlock block;
     for (std::size_t r = 0; r < record.runs.size(); ++r) {
       if (record.runs[r].last < cell.key || cell.last() < record.runs[r].first) continue;
-      const RunReader run(run_file(work_.store, record.id, r));
+      const RunReader run(work_.store, run_file(record.id, r));
       const RunReader::Range range = run.blocks(cell.key, cell.last());
       for (std::size_t b = range.begin; b < range.end; ++b) {
         run.read(b, block);
