@@ -211,7 +211,7 @@ ShardInfo some_shard(std::uint64_t triangles) {
   shard.bounds = {Vec3(-0.1, 1e-300, 2.0 / 3.0), Vec3(6.4e6, 1.0, 2.0)};
   shard.largest_error = 0x1.fp-11;
   shard.geometry_hash = 0xfedcba9876543210ULL;
-  shard.pages = {{shard.bounds, 64, 1000, 0xffffffffffffffffULL, 1}, {shard.bounds, 2000, 1001, 1, 2}};
+  shard.pages = {{shard.bounds, 64, 456, 0xffffffffffffffffULL, 1}, {shard.bounds, 2000, 784, 1, 2}};
   return shard;
 }
 

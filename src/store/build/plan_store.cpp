@@ -1,5 +1,7 @@
 // The first step of a build: what has changed is read, and the shards are decided.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -20,8 +22,6 @@ namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kPartFileLimit = 1ull << 32;
 
 fs::path whole_path(const fs::path& path) {
   std::error_code error;
@@ -173,10 +173,27 @@ class Planner {
     std::vector<PartCell> cells;
     for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
       const std::string file = part_file(plan_.parts[i].info.file);
-      const PartFile part = decode_part(read_file(work_.store, file, kPartFileLimit), file);
-      for (const Cell& cell : part.cells) {
-        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), part.cell_bits});
-      }
+      int bits = 0;
+      PartVisitor visitor;
+      visitor.counts = [&](const PartCounts& counts) {
+        bits = counts.cell_bits;
+        if (counts.cells > most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) {
+          throw Error(fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
+                                  work_.store.string()));
+        }
+      };
+      visitor.cell = [&](const Cell& cell) {
+        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), bits});
+      };
+      const Descriptor opened = open_file(work_.store, file, O_RDONLY);
+      if (!opened.is_open()) fail("read", work_.store, file, errno);
+      visit_part(
+          [&](std::span<std::byte> out) {
+            const ssize_t got = again([&] { return ::read(opened.number(), out.data(), out.size()); });
+            if (got < 0) fail("read", work_.store, file, errno);
+            return static_cast<std::size_t>(got);
+          },
+          file, visitor);
       work_.tick();
     }
     if (cells.empty()) {
@@ -200,6 +217,11 @@ class Planner {
       shard.there = old != before.end() && is_there(*old->second);
       plan_.shards.push_back(std::move(shard));
     }
+  }
+
+  /// Half of the memory, in a list that grows.
+  [[nodiscard]] std::size_t most_cells_of_plan() const {
+    return static_cast<std::size_t>(work_.options.memory / (6 * sizeof(PartCell)));
   }
 
   /// Of a scene of which nothing can be made, nothing is kept.
