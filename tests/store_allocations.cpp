@@ -76,10 +76,15 @@ TEST_F(StoreAllocations, APagerIsMadeOrRefusedWhereverOneFails) {
 
 TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
   for (long failing = 1; failing < 60; ++failing) {
-    const auto opened = Store::open(folder_.path());  // which has no file open yet
+    const auto bytes = std::make_shared<made::TroubledBytes>(folder_.path());  // which has no file open yet
+    const auto opened = Store::open(bytes, "s");
+    bytes->hold();
     Pager pager(opened, {.memory = Pager::least_memory});
+    spared = true;
+    ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] { return bytes->waiting() > 0; }));
     allocations = 0;
     failing_allocation = failing;
+    bytes->let_go();
     const bool all = made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] {
       static_cast<void>(pager.object_name(0));
       return pager.stats().tiles == opened->info().tiles;
@@ -89,6 +94,7 @@ TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
     // The name, too, comes in the end.
     EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(),
                                    [&] { return pager.object_name(0) == "square"; }));
+    spared = false;
   }
 }
 

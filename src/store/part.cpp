@@ -49,8 +49,8 @@ class Writer {
 /// Bytes. More than the names of a hundred million objects.
 constexpr std::uint64_t kMostContent = 1ull << 32;
 
-/// Of bytes that a frame may look back; encode_part's look back 2^21.
-constexpr int kWindowLog = 23;
+/// Of bytes that a frame may look back, which whoever reads it must keep: as many as encode_part's look back.
+constexpr int kWindowLog = 21;
 
 /// The numbers and texts of a part's content, which comes out of a zstd frame piece by piece.
 class Content {
