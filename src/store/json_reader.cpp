@@ -124,6 +124,31 @@ void JsonReader::read(std::string_view text) {
   if (!Json::sax_parse(text.begin(), text.end(), &events)) refuse("it is no JSON");
 }
 
+namespace {
+
+/// Counts what a tree of values takes.
+class Weighed : public JsonReader {
+ public:
+  using JsonReader::JsonReader;
+  void value(const JsonPlace&, JsonValue value) override {
+    const auto* const text = std::get_if<std::string*>(&value);
+    keep(most_of_a_value + (text != nullptr ? (*text)->size() : 0));
+  }
+  void list_begins(const JsonPlace&) override { keep(most_of_a_value); }
+  void object_begins(const JsonPlace&) override { keep(most_of_a_value); }
+  void object_ends(const JsonPlace&) override {}
+
+ private:
+  /// With its name, in lists that grow.
+  static constexpr std::uint64_t most_of_a_value = 192;
+};
+
+}  // namespace
+
+void check_json(std::string_view text, const std::string& name, std::uint64_t memory) {
+  Weighed(name, memory).read(text);
+}
+
 void JsonReader::keep(std::uint64_t bytes) {
   kept_ += bytes;
   if (kept_ > memory_) throw TooLarge(name_, memory_);

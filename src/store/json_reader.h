@@ -68,6 +68,9 @@ class JsonReader {
   std::uint64_t memory_, kept_ = 0;
 };
 
+/// Throws TooLarge, or roam::Error, for a text of which a whole nlohmann::ordered_json would take more than `memory`.
+void check_json(std::string_view text, const std::string& name, std::uint64_t memory);
+
 /// Puts the members of one kind of object where they belong, and notes which have come. A list of the members, each by
 /// its name and where it goes, is gone through twice: for each value, and, at the end of the object, for what is
 /// missing.

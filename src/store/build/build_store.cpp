@@ -199,7 +199,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 
 void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   Work work(options);
-  const Plan plan = read_plan(work.store);
+  const Plan plan = read_plan(work.store, options.memory);
   describe(plan, report);
   const std::vector<std::size_t> numbers = plan.to_build();
   if (i >= numbers.size()) {
@@ -217,7 +217,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
                             error ? error.message() : ""));
   }
   const auto lock = locked(work.store, options.progress);
-  const Plan plan = read_plan(work.store);
+  const Plan plan = read_plan(work.store, options.memory);
   describe(plan, report);
   merge_locked(work, plan, report);
 }

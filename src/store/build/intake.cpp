@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "store/build/histogram.h"
 #include "store/build/layout.h"
 #include "store/build/run.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
@@ -18,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kRecordLimit = 1u << 30;
+/// Bytes. A record has a line for each half a million triangles.
+constexpr std::uint64_t record_memory = 64u << 20;
 
 /// Takes the pieces of a part and writes runs; sorts one while the next one fills, where memory allows.
 class Intake {
@@ -147,12 +150,13 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
 std::optional<PartRecord> find_record(const fs::path& store, const std::string& id) {
   const std::string file = record_file(id);
   if (!size_of(store, file)) return {};
-  const std::vector<std::byte> bytes = read_file(store, file, kRecordLimit);
+  const std::vector<std::byte> bytes = read_file(store, file, record_memory);
   PartRecord record;
   record.id = id;
   try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(text, text + bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check_json(text, file, record_memory);
+    const Json json = Json::parse(text);
     if (json.at("scratch_version").get<int>() != scratch_version) return {};
     record.info.name = json.at("name").get<std::string>();
     record.info.fingerprint = json.at("fingerprint").get<std::string>();

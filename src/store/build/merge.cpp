@@ -113,7 +113,7 @@ std::string tidy(const fs::path& store) {
   for (const std::string& file : files_in(store, "manifests")) {
     if (is_temporary(file, [](auto name) { return name == manifest_file("new"); })) remove_file(store, file);
     if (!is_named_by_hash(file, ".json") || file == manifest_file(hash) || remove_unless_read(store, file)) continue;
-    const std::vector<std::byte> bytes = read_file(store, file, 1ull << 30);
+    const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
     keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file), needed);
   }
   needed.insert(spare_file(keep_spare(store, manifest)));

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "roam/error.h"
 #include "store/build/layout.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
@@ -16,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kPlanLimit = 1u << 30;
 /// What a shard's tiles depend on beside its triangles: goes up with every change of what the builder makes of them.
 constexpr int kBuilderVersion = 1;
 
@@ -101,14 +102,15 @@ void write_plan(const fs::path& store, const Plan& plan) {
   write_file(store, plan_file, json.dump(1) + "\n");
 }
 
-Plan read_plan(const fs::path& store) {
+Plan read_plan(const fs::path& store, std::uint64_t memory) {
   if (!size_of(store, plan_file)) {
     throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
   }
-  const std::vector<std::byte> bytes = read_file(store, plan_file, kPlanLimit);
+  const std::vector<std::byte> bytes = read_file(store, plan_file, memory / 4);
   try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(text, text + bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check_json(text, plan_file, memory / 2);
+    const Json json = Json::parse(text);
     if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
     Plan plan;
     plan.options = json.at("options").get<std::string>();
@@ -155,7 +157,7 @@ std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
 std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
   const std::string file = shard_file(key);
   if (!size_of(store, file)) return {};
-  const std::vector<std::byte> bytes = read_file(store, file, kPlanLimit);
+  const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
   ShardInfo shard =
       parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), (store / file).string());
   if (shard.key != key || size_of(store, pack_file(shard.pack)) != shard.bytes) return {};

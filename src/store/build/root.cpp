@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kManifestLimit = 1u << 30;
-
 /// Manifests that are what they were when they were written, the newest first.
 std::vector<std::string> whole_manifests(const fs::path& store) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
@@ -76,7 +74,7 @@ RootMending mend_root(const fs::path& store) {
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
   for (const std::string& copy : whole_manifests(store)) {
-    const std::vector<std::byte> bytes = read_file(store, copy, kManifestLimit);
+    const std::vector<std::byte> bytes = read_file(store, copy, Store::usual_memory);
     std::optional<Manifest> manifest;
     try {
       manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string());
