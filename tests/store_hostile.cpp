@@ -3,43 +3,16 @@
 #include <zstd.h>
 
 #include <cstring>
-#include <fstream>
 
+#include "memory_cost.h"
 #include "store_made.h"
 
 namespace {
 
 using namespace roam;
 
-std::uint64_t status_kilobytes(const char* field) {
-  std::ifstream in("/proc/self/status");
-  std::string name;
-  std::uint64_t value = 0;
-  while (in >> name) {
-    if (name == std::string(field) + ":" && in >> value) return value;
-    in.ignore(1000, '\n');
-  }
-  return 0;
-}
-
-/// By how many MiB the process was larger, at most, than before, while it did something; and what that said.
-struct Cost {
-  std::uint64_t mebibytes = 0;
-  std::string said;
-};
-template <class Work>
-Cost cost_of(Work&& work) {
-  std::ofstream("/proc/self/clear_refs") << 5;  // the highest is the present
-  const std::uint64_t before = status_kilobytes("VmRSS");
-  Cost cost;
-  try {
-    work();
-  } catch (const Error& error) {
-    cost.said = error.what();
-  }
-  cost.mebibytes = (status_kilobytes("VmHWM") - before) >> 10;
-  return cost;
-}
+using memory_cost::Cost;
+using memory_cost::cost_of;
 
 class HostileStore : public testing::Test {
  protected:

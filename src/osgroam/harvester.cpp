@@ -115,7 +115,7 @@ struct Harvester::State {
       const auto root = std::make_shared<Place>();
       root->trail = std::make_shared<Trail>(Trail{file, nullptr});
       root->to_scene = origin;
-      named[file].push_back(root);
+      named.emplace(file, std::vector{root});  // all of it or nothing
       ++stats.expected;
     }
     std::vector<std::shared_ptr<Place>> claimed;
