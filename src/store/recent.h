@@ -2,7 +2,9 @@
 /// \file
 /// What reports have read of a store: a little of it, so that they need not read the same again.
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <utility>
@@ -14,6 +16,37 @@
 
 namespace roam {
 
+namespace store {
+
+/// The source numbers of a tile in a quarter of the memory, where they are of one part and below 2^32.
+class TileNumbers {
+ public:
+  explicit TileNumbers(std::vector<SourceNumber> numbers) {
+    if (!numbers.empty()) part_ = numbers.front().part;
+    small_.resize(numbers.size());
+    std::uint64_t other = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      other |= (numbers[i].part ^ part_) | numbers[i].number >> 32;
+      small_[i] = static_cast<std::uint32_t>(numbers[i].number);
+    }
+    if (other == 0) return;
+    small_ = {};
+    any_ = std::move(numbers);
+  }
+  [[nodiscard]] std::size_t size() const { return any_.size() + small_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return any_.size() * sizeof(SourceNumber) + small_.size() * 4; }
+  [[nodiscard]] SourceNumber operator[](std::size_t i) const {
+    return small_.empty() ? any_[i] : SourceNumber{part_, small_[i]};
+  }
+
+ private:
+  std::uint64_t part_ = 0;
+  std::vector<std::uint32_t> small_;
+  std::vector<SourceNumber> any_;
+};
+
+}  // namespace store
+
 struct Store::State::Recent {
   explicit Recent(const State& state) : store(state), reader(state) {}
 
@@ -22,8 +55,7 @@ struct Store::State::Recent {
 
   /// The numbers of a tile's triangles. Throws what TileReader does, and no_such() where there is no such tile.
   template <class NoSuch>
-  [[nodiscard]] const std::vector<store::SourceNumber>& numbers_of(std::uint64_t page, std::uint32_t tile,
-                                                                   const NoSuch& no_such) {
+  [[nodiscard]] const store::TileNumbers& numbers_of(std::uint64_t page, std::uint32_t tile, const NoSuch& no_such) {
     const TriangleId id = store::stored_id(page, tile, 0);
     const auto known = numbers.find(id);
     if (known != numbers.end()) return known->second;
@@ -34,9 +66,16 @@ struct Store::State::Recent {
       in = pages.emplace(page, std::move(loaded)).first;
     }
     if (tile >= in->second.view.tiles.size()) throw no_such();
-    auto read = reader.numbers(page, in->second.view.tiles[tile], tile);
-    make_room(read.size() * sizeof(store::SourceNumber));
-    return numbers.emplace(id, std::move(read)).first->second;
+    store::TileNumbers read(reader.numbers(page, in->second.view.tiles[tile], tile));
+    make_room(read.bytes());
+    const auto& kept = numbers.emplace(id, std::move(read)).first->second;
+    try {
+      oldest.push_back(id);
+    } catch (...) {
+      numbers.erase(id);
+      throw;
+    }
+    return kept;
   }
   /// The name of the object of a triangle of a part. Throws roam::Error for a part file that is damaged.
   [[nodiscard]] std::string object(std::uint32_t part, std::uint64_t triangle);
@@ -49,22 +88,28 @@ struct Store::State::Recent {
     std::string name;
   };
 
-  void make_room(std::size_t bytes) {
-    if (used + bytes > most) {
+  /// The numbers of tiles go first: there are many of them, and none helps with another.
+  void make_room(std::size_t size) {
+    for (; used + size > most && !oldest.empty(); oldest.pop_front()) {
+      const auto gone = numbers.find(oldest.front());
+      used -= gone->second.bytes();
+      numbers.erase(gone);
+    }
+    if (used + size > most) {
       pages.clear();
-      numbers.clear();
       parts.clear();
       objects.clear();
       used = 0;
     }
-    used += bytes;
+    used += size;
   }
 
   const State& store;
   store::TileReader reader;
-  std::size_t used = 0;  ///< bytes
+  std::size_t used = 0;  ///< bytes, or a little more
   std::map<std::uint64_t, store::LoadedPage> pages;
-  std::map<TriangleId, std::vector<store::SourceNumber>> numbers;  ///< of a tile, by the id of its first triangle
+  std::map<TriangleId, store::TileNumbers> numbers;  ///< of a tile, by the id of its first triangle
+  std::deque<TriangleId> oldest;                     ///< of these, the first that came first
   std::map<std::uint32_t, store::PartFile> parts;
   std::vector<Object> objects;
 };

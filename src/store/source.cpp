@@ -30,7 +30,7 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   if (page >= s.pages.size()) throw no_such();
   const auto& numbers = s.recent->numbers_of(page, tile, no_such);
   if (number >= numbers.size()) throw no_such();
-  const store::SourceNumber& from = numbers[number];
+  const store::SourceNumber from = numbers[number];
   const auto part = s.part_of.find(from.part);
   if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
     throw Error(
@@ -50,18 +50,18 @@ std::string Store::State::Recent::object(std::uint32_t part, std::uint64_t trian
   }
   store::PartFile all;
   Object found{part, 0, std::numeric_limits<std::uint64_t>::max(), {}};
-  std::size_t bytes = 0;
+  std::size_t taken = 0;
   store::PartVisitor visitor;
-  visitor.object = [&](std::uint64_t first, std::string_view name) {
-    if (first <= triangle) {
-      found.first = first;
-      found.name = name;
+  visitor.object = [&](std::uint64_t begin, std::string_view called) {
+    if (begin <= triangle) {
+      found.first = begin;
+      found.name = called;
     } else {
-      found.end = std::min(found.end, first);
+      found.end = std::min(found.end, begin);
     }
-    bytes += sizeof(store::PartFile::Object) + name.size();
-    if (bytes <= most_of_a_part) {
-      all.objects.push_back({first, std::string(name)});
+    taken += sizeof(store::PartFile::Object) + called.size();
+    if (taken <= most_of_a_part) {
+      all.objects.push_back({begin, std::string(called)});
     } else {
       all.objects = {};
     }
@@ -71,8 +71,8 @@ std::string Store::State::Recent::object(std::uint32_t part, std::uint64_t trian
   if (!file.is_whole()) {
     throw Error(fmt::format("{} is damaged: it is not what it was when it was written", file.name()));
   }
-  if (bytes <= most_of_a_part) {
-    make_room(2 * bytes);
+  if (taken <= most_of_a_part) {
+    make_room(2 * taken);
     parts.emplace(part, std::move(all));
   } else {
     make_room(sizeof found + found.name.size());
