@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "memory_cost.h"
+#include "store/build/plan.h"
+#include "store/files.h"
+#include "store/part.h"
 #include "store_builds.h"
 
 namespace {
@@ -51,6 +54,39 @@ TEST(StoreBuildHostile, FilesOfABuilderAreReadWithinLimits) {
     }
     std::ofstream(file) << good;
   }
+}
+
+TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0))), store = folder.file("s");
+  const auto o = options({scene}, store);
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  const roam::store::Plan good = roam::store::read_plan(store, o.memory);
+  roam::store::Plan plan = good;
+  plan.shards[0].stretch.triangles = 1ULL << 34;
+  plan.shards[0].key = roam::store::key_of(plan.shards[0].stretch, plan);
+  roam::store::write_plan(store, plan);
+  const Cost cost = cost_of([&] { roam::build_shard(o, 0, report); });
+  EXPECT_NE(cost.said.find("too large"), std::string::npos) << cost.said;
+  EXPECT_LT(cost.mebibytes, 16U);
+  // The part of a published store, which is what the builder takes for the scene's.
+  roam::store::write_plan(store, good);
+  roam::build_store(o);
+  roam::store::PartFile part;
+  part.triangles = 1ULL << 40;
+  part.cells.push_back({0, part.triangles});
+  roam::store::Manifest manifest = *roam::store::manifest_in_force(store);
+  const auto bytes = roam::store::encode_part(part);
+  roam::store::NewFile file(store, "parts/new.part");
+  file.write(bytes);
+  manifest.parts[0].file = file.commit_by_hash();
+  manifest.parts[0].bytes = bytes.size();
+  fs::remove_all(store + "/packs");  // so that something is to be built
+  roam::store::publish(store, manifest);
+  const Cost planning = cost_of([&] { static_cast<void>(roam::plan_store(o, report)); });
+  EXPECT_NE(planning.said.find("more triangles than any scene has"), std::string::npos) << planning.said;
+  EXPECT_LT(planning.mebibytes, 200U);
 }
 
 }  // namespace

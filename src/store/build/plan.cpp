@@ -126,6 +126,7 @@ Plan read_plan(const fs::path& store, std::uint64_t memory) {
       shard.stretch.parts = item.at("parts").get<std::vector<std::uint32_t>>();
       shard.key = item.at("key").get<std::string>();
       shard.there = item.at("there").get<bool>();
+      if (shard.stretch.triangles > ShardLimits{}.shard) throw std::runtime_error("a shard is too large");
       for (const std::uint32_t p : shard.stretch.parts) {
         if (p >= plan.parts.size()) throw std::runtime_error("a part is out of range");
       }

@@ -171,12 +171,18 @@ class Planner {
   void lay_out() {
     missing_.clear();
     std::vector<PartCell> cells;
+    std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
       const std::string file = part_file(plan_.parts[i].info.file);
       int bits = 0;
       PartVisitor visitor;
       visitor.counts = [&](const PartCounts& counts) {
         bits = counts.cell_bits;
+        if (counts.triangles > most_triangles - triangles) {
+          throw Error(fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
+                                  (work_.store / file).string()));
+        }
+        triangles += counts.triangles;
         if (counts.cells > most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) {
           throw Error(fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
                                   work_.store.string()));
@@ -219,6 +225,8 @@ class Planner {
     }
   }
 
+  /// Of a scene. Some 100,000 shards.
+  static constexpr std::uint64_t most_triangles = 1ull << 38;
   /// Half of the memory, in a list that grows.
   [[nodiscard]] std::size_t most_cells_of_plan() const {
     return static_cast<std::size_t>(work_.options.memory / (6 * sizeof(PartCell)));
