@@ -106,7 +106,7 @@ TEST_F(HostileStore, AManifestIsRefusedBeforeItTakesMemory) {
                {"many notes", with_notes(many_notes), "memory"},
                {"many parts", std::string(good).insert(parts, many_parts), "part"},
                {"a long text", with_notes("\"" + std::string(50'000'000, 'x') + "\""), "longer"},
-               {"more than may be read", std::string(200'000'000, ' ') + good, "memory"},
+               {"more than may be read", std::string(300'000'000, ' ') + good, "memory"},
                {"a key like a path", "{\"shards/*/pages/*/offset\": 1}", ""},
                {"a list with the names of its elements", "{\"shards\": {\"*\": {\"pages\": 1}}}", ""}};
   for (const auto& c : cases) {

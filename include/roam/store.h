@@ -75,8 +75,8 @@ class StoreBytes {
 /// A store that is open for reading. Holds the manifest; tiles and pages are read when somebody asks.
 class Store {
  public:
-  /// Bytes. Enough for the manifest of some 10^10 triangles.
-  static constexpr std::uint64_t usual_memory = 128ull << 20;
+  /// Bytes. Enough for the manifest of 10^10 triangles, or of 200,000 parts.
+  static constexpr std::uint64_t usual_memory = 256ull << 20;
   /// `memory`: what the manifest may take, whatever it holds. Throws roam::Error when there is no store, it is of a
   /// newer format (the message says so), or its manifest is damaged or takes more than that.
   [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder,

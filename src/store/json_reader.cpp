@@ -115,8 +115,9 @@ std::size_t longest_token(std::string_view text) {
 }  // namespace
 
 TooLarge::TooLarge(const std::string& name, std::uint64_t memory)
-    : Error(fmt::format("{} takes more than the {:.5g} MiB of memory that it may take; give it more", name,
-                        std::ldexp(double(memory), -20))) {}
+    : Error(fmt::format("{} takes more than the {:.5g} MiB of memory that it may take; where there is --memory, give "
+                        "more",
+                        name, std::ldexp(double(memory), -20))) {}
 
 void JsonReader::read(std::string_view text) {
   if (longest_token(text) > most_token) refuse("a text or a number in it is longer than any of its kind");
