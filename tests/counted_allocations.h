@@ -13,7 +13,7 @@ std::atomic<long> allocations{0};
 [[maybe_unused]] std::atomic<long> failing_allocation{0};
 /// Those of this thread are not counted, and do not fail.
 thread_local bool spared = false;
-}
+}  // namespace
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have an operator new of their own
 // Not inlined: g++ takes malloc and free that it sees through them for a mismatch.

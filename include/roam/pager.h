@@ -41,8 +41,8 @@ struct PagerOptions {
   /// Bytes, >= Pager::least_memory: tiles, pages, tables, buffers, and what the store keeps of its manifest and of what
   /// was asked for last.
   std::uint64_t memory = 64ull << 20;
-  int loaders = 1;                     ///< loading threads, 1 to 16
-  double horizon = 3.0;                ///< seconds of motion ahead that are loaded
+  int loaders = 1;       ///< loading threads, 1 to 16
+  double horizon = 3.0;  ///< seconds of motion ahead that are loaded
 };
 
 /// What a pager holds and has done.
