@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -135,6 +137,31 @@ TEST_F(GraphicsCapture, SaysWhyAPictureCannotBeWritten) {
   EXPECT_NE(complaint([&] { graphics::write_image(*plain_image(8, 8, 9), folder / "taken.png"); }).find("taken.png"),
             std::string::npos);
   EXPECT_EQ(files(), 1u);
+}
+
+/// Takes pictures of its kind, and throws what nobody expects.
+class Thrower : public osgDB::ReaderWriter {
+ public:
+  Thrower() { supportsExtension("jpeg", "throws"); }
+  WriteResult writeImage(const osg::Image&, const std::string&, const Options*) const override {
+    throw std::runtime_error("the plugin is torn");
+  }
+};
+
+TEST_F(GraphicsCapture, APluginThatThrowsEndsNoProgram) {
+  const osg::ref_ptr<Thrower> thrower = new Thrower;
+  osgDB::Registry& plugins = *osgDB::Registry::instance();
+  const osg::ref_ptr<osgDB::ReaderWriter> usual = plugins.getReaderWriterForExtension("jpeg");
+  plugins.removeReaderWriter(usual);
+  plugins.addReaderWriter(thrower);
+  Stage stage(64, 64);
+  Screenshot shot(stage.frame, folder / "shot.jpeg", true);
+  stage.viewer.frame();
+  const std::string said = complaint([&] { shot.finish(); });
+  plugins.removeReaderWriter(thrower);
+  plugins.addReaderWriter(usual);
+  EXPECT_NE(said.find("the plugin is torn"), std::string::npos) << said;
+  EXPECT_NE(said.find("shot.jpeg"), std::string::npos) << said;
 }
 
 TEST_F(GraphicsCapture, APictureThatIsTooLargeIsAnErrorThatSaysWhatCanBeDrawn) {

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +25,8 @@ struct ProgramResult {
   int status = -1;
   std::string out;
   std::string err;
+  /// The most that was resident at once, kB. Not less than this process has resident, of which it begins as a copy.
+  long peak = 0;
 };
 
 struct ProgramOptions {
@@ -91,7 +94,9 @@ inline ProgramResult run_program(const std::string& program, const std::vector<s
   if (!options.close_output) ::close(out[0]);
   ::close(err[0]);
   int status = 0;
-  ::waitpid(child, &status, 0);
+  rusage usage{};
+  ::wait4(child, &status, 0, &usage);
+  result.peak = usage.ru_maxrss;
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }

@@ -83,14 +83,13 @@ TEST(StoreBuildDisk, SyncsTheFolderAboveEachThatItMakes) {
 TEST(StoreBuildDisk, AFileThatMayNotBeReadAsksForTheRightToReadIt) {
   const TestFolder folder;
   fs::permissions(folder.file(""), fs::perms::all);
-  const std::string file = folder.write("secret", "text");
-  fs::permissions(file, fs::perms::none);
+  fs::permissions(folder.write("secret", "text"), fs::perms::none);
   constexpr uid_t nobody = 65534;
   const bool root = ::geteuid() == 0;
   if (root) {
     ASSERT_EQ(::seteuid(nobody), 0);
   }
-  const std::string text = refusal([&] { static_cast<void>(roam::store::read_file(file, 100)); });
+  const std::string text = refusal([&] { static_cast<void>(roam::store::read_file(folder.file(""), "secret", 100)); });
   if (root) {
     ASSERT_EQ(::seteuid(0), 0);
   }

@@ -197,9 +197,9 @@ TEST(StoreRun, GivesBackEveryTriangleOfARange) {
       for (Vec3& v : content.vertices) v = {float(v.x), float(v.y), float(v.z)};
     }
     const std::vector<RunItem> items = sort_run(content);
-    const std::string file = folder.file(floats ? "floats.run" : "doubles.run");
-    write_run(file, content, items);
-    const RunReader run(file);
+    const std::string file = floats ? "floats.run" : "doubles.run";
+    write_run(folder.file(""), file, content, items);
+    const RunReader run(folder.file(""), file);
     const CurveKey first = items[7000].key, last = items[21'000].key;
     std::map<std::uint64_t, Triangle> found;
     RunBlock block;

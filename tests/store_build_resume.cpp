@@ -48,14 +48,14 @@ auto counted(Call&& call) {
 extern "C" int fsync(int fd) {
   return counted([&] { return static_cast<int>(::syscall(SYS_fsync, fd)); });
 }
-extern "C" int rename(const char* from, const char* to) noexcept {
-  return counted([&] { return static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to)); });
+extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
 }
 extern "C" ssize_t write(int fd, const void* bytes, std::size_t size) {
   return counted([&] { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, size)); });
 }
-extern "C" int unlink(const char* file) noexcept {
-  return counted([&] { return static_cast<int>(::syscall(SYS_unlinkat, AT_FDCWD, file, 0)); });
+extern "C" int unlinkat(int folder, const char* file, int flags) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_unlinkat, folder, file, flags)); });
 }
 
 namespace {

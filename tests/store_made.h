@@ -183,7 +183,7 @@ class Maker {
       part.objects.push_back({soup_.first()[m], soup_.meshes()[m].name});
     }
     const auto bytes = store::encode_part(part);
-    store::NewFile file(folder_ / "parts" / "made.part");
+    store::NewFile file(folder_, "parts/made.part");
     file.write(bytes);
     store::Manifest manifest;
     manifest.parts.push_back({part_, "made", file.commit_by_hash(), bytes.size(), soup_.size(),

@@ -33,7 +33,7 @@ std::vector<TileEntry> some_tiles(std::size_t count, double spread, std::uint32_
     t.nodes = static_cast<std::uint16_t>(1 + random() % std::min<std::uint32_t>(t.leaves, 100));
     t.offset = random() % (kPackBytes / 2);
     t.bytes = 1 + random() % 100'000;
-    t.number_bytes = random() % 100'000;
+    t.number_bytes = static_cast<std::uint32_t>(random() % (1 + most_number_bytes(t.triangles)));
     t.hash = i;
     for (auto& m : t.mask) m = random();
   }

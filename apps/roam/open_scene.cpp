@@ -68,7 +68,7 @@ std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
   return pieces.size();
 }
 
-std::shared_ptr<const Store> open_store(const SceneOptions& options) {
+std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64_t memory) {
   const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
   if (std::none_of(options.scenes.begin(), options.scenes.end(), is_store)) return nullptr;
   if (options.scenes.size() > 1) {
@@ -78,7 +78,7 @@ std::shared_ptr<const Store> open_store(const SceneOptions& options) {
     throw UsageError(options.scenes.front().string() +
                      " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
   }
-  return Store::open(options.scenes.front());
+  return Store::open(options.scenes.front(), memory);
 }
 
 std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std::uint64_t memory) {
@@ -102,9 +102,9 @@ void StoreOptions::add_to(CLI::App& verb) {
 }
 
 OpenScene::OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source)
-    : store_(open_store(options)) {
+    : store_(open_store(options, store_options.bytes())) {
   if (store_) {
-    pager_ = make_pager(store_, store_options.memory.value_or(StoreOptions::usual_memory));
+    pager_ = make_pager(store_, store_options.bytes());
     return;
   }
   if (store_options.memory) {
@@ -153,6 +153,10 @@ void OpenScene::follow(const Walker& walker) {
 SourceTriangle OpenScene::source(TriangleId triangle) const {
   if (store_) return store_->source(triangle);
   return {"", triangle, triangle, loaded_.world.object_name(triangle)};
+}
+
+TriangleId OpenScene::scene_triangle(TriangleId triangle) const {
+  return store_ ? store_->scene_triangle(triangle) : triangle;
 }
 
 std::string OpenScene::why_unknown(TriangleId unknown) const {

@@ -19,6 +19,7 @@ struct StoreOptions {
   static constexpr std::uint64_t usual_memory = 64ull << 20;
   std::optional<std::uint64_t> memory;
 
+  [[nodiscard]] std::uint64_t bytes() const { return memory.value_or(usual_memory); }
   void add_to(CLI::App& verb);
 };
 
@@ -50,6 +51,8 @@ class OpenScene {
 
   /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
+  /// Just SourceTriangle::scene.
+  [[nodiscard]] TriangleId scene_triangle(TriangleId triangle) const;
 
   /// Why the unknown that a contact names is not known; waits a moment for what is found out beside.
   [[nodiscard]] std::string why_unknown(TriangleId unknown) const;

@@ -103,7 +103,7 @@ SweepAnswer PagedSweep::operator()(const SweepQuery& query) {
       answer.time = begin + answer.time * (end - begin);
       if (answer.unknown) return {answer, scene_.space().object_name(answer.triangle)};
       try {
-        answer.triangle = scene_.source(answer.triangle).scene;
+        answer.triangle = scene_.scene_triangle(answer.triangle);
       } catch (const Error& error) {
         answer.triangle = no_triangle;
         return {answer, error.what()};

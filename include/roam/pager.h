@@ -38,9 +38,11 @@
 namespace roam {
 
 struct PagerOptions {
-  std::uint64_t memory = 64ull << 20;  ///< bytes, >= Pager::least_memory: tiles, pages, tables, buffers, all of it
-  int loaders = 1;                     ///< loading threads, 1 to 16
-  double horizon = 3.0;                ///< seconds of motion ahead that are loaded
+  /// Bytes, >= Pager::least_memory: tiles, pages, tables, buffers, and what the store keeps of its manifest and of what
+  /// was asked for last.
+  std::uint64_t memory = 64ull << 20;
+  int loaders = 1;       ///< loading threads, 1 to 16
+  double horizon = 3.0;  ///< seconds of motion ahead that are loaded
 };
 
 /// What a pager holds and has done.

@@ -68,17 +68,21 @@ class StoreBytes {
   [[nodiscard]] virtual std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) = 0;
   /// Fills `out` with the bytes from `offset` on of a file, e.g. "packs/<64 digits>.pack". Answers null, or why that
   /// cannot be had, as text that lives for ever. Never throws and never allocates once a file has been read from
-  /// before.
+  /// before. A pager takes an exception for an answer why not.
   [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) = 0;
 };
 
 /// A store that is open for reading. Holds the manifest; tiles and pages are read when somebody asks.
 class Store {
  public:
-  /// Throws roam::Error when there is no store, it is of a newer format (the message says so), or its manifest is
-  /// damaged.
-  [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder);
-  [[nodiscard]] static std::shared_ptr<const Store> open(std::shared_ptr<StoreBytes> bytes, const std::string& name);
+  /// Bytes. Enough for the manifest of 10^10 triangles, or of 200,000 parts.
+  static constexpr std::uint64_t usual_memory = 256ull << 20;
+  /// `memory`: what the manifest may take, whatever it holds. Throws roam::Error when there is no store, it is of a
+  /// newer format (the message says so), or its manifest is damaged or takes more than that.
+  [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder,
+                                                         std::uint64_t memory = usual_memory);
+  [[nodiscard]] static std::shared_ptr<const Store> open(std::shared_ptr<StoreBytes> bytes, const std::string& name,
+                                                         std::uint64_t memory = usual_memory);
   /// Whether the folder is a store, or means to be one: it holds CURRENT.
   [[nodiscard]] static bool is_store(const std::filesystem::path& folder);
   ~Store();
@@ -102,6 +106,8 @@ class Store {
   [[nodiscard]] std::vector<Vec3> sample(std::uint64_t count) const;
   /// Throws roam::Error as above, or when `triangle` is not of this store.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
+  /// Just SourceTriangle::scene, which is known sooner.
+  [[nodiscard]] TriangleId scene_triangle(TriangleId triangle) const;
 
   struct State;
   [[nodiscard]] const State& state() const { return *state_; }
@@ -129,7 +135,8 @@ struct StoreVerification {
 };
 
 /// Reads every byte of a store: SHA-256 of every file, XXH3 of every tile and page, decodes every tile, and compares
-/// counts, boxes and the geometry hash with what the manifest says. `progress` is called with bytes done and bytes in
+/// counts, boxes and the geometry hash with what the manifest says. Takes Store::usual_memory and some 20 MiB a core at
+/// most, whatever the store says. `progress` is called with bytes done and bytes in
 /// all; false cancels (roam::Cancelled). Where CURRENT or the manifest is not there or damaged, that is the only damage
 /// that is found. Throws roam::Error for what is no store, of a newer format, or may not be read.
 [[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,

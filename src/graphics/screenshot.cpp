@@ -77,26 +77,42 @@ struct Screenshot::State {
     changed.notify_all();
   }
 
-  void run() {
+  ~State() { end(std::chrono::seconds(0)); }
+
+  /// Of the thread that writes, where nobody would catch what is thrown.
+  void run() noexcept {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return image || given_up; });
-    if (image) {
-      lock.unlock();
-      std::string why;
-      try {
-        write_image(*image, path);
-      } catch (const Error& e) {
-        why = e.what();
+    std::string why;
+    try {
+      if (image) {
+        lock.unlock();
+        why = why_not_written();
+      } else if (!refusal.empty()) {
+        why = "cannot draw the picture " + path.string() + ": " + refusal;
+      } else {
+        why = "no picture was drawn for " + path.string();
       }
-      lock.lock();
-      problem = why;
-    } else if (!refusal.empty()) {
-      problem = "cannot draw the picture " + path.string() + ": " + refusal;
-    } else {
-      problem = "no picture was drawn for " + path.string();
+    } catch (const std::bad_alloc&) {
+      why = "out of memory";  // short enough to take none
+    } catch (...) {
+      why = "it failed";
     }
+    if (!lock.owns_lock()) lock.lock();
+    problem.swap(why);
     written = true;
     changed.notify_all();
+  }
+
+  [[nodiscard]] std::string why_not_written() const {
+    try {
+      write_image(*image, path);
+    } catch (const Error& e) {
+      return e.what();
+    } catch (const std::exception& e) {
+      return "cannot write the picture " + path.string() + ": " + e.what();
+    }
+    return "";
   }
 
   /// Waits for the picture for at most `patience`, and then for the file.

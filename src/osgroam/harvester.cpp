@@ -69,16 +69,26 @@ std::string caught() {
   }
 }
 
-/// The harvesters that this thread is reading for.
-thread_local std::vector<const void*> reading;
-
+/// A harvester that this thread is reading for. Takes no memory: in a pager's thread nobody would catch that there is
+/// none.
 class Reading {
  public:
-  explicit Reading(const void* who) { reading.push_back(who); }
-  ~Reading() { reading.pop_back(); }
+  explicit Reading(const void* who) : who_(who), outer_(innermost_) { innermost_ = this; }
+  ~Reading() { innermost_ = outer_; }
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
+  [[nodiscard]] static bool is_for(const void* who) {
+    const Reading* at = innermost_;
+    while (at != nullptr && at->who_ != who) at = at->outer_;
+    return at != nullptr;
+  }
+
+ private:
+  static thread_local const Reading* innermost_;
+  const void* who_;
+  const Reading* outer_;
 };
+thread_local const Reading* Reading::innermost_ = nullptr;
 
 }  // namespace
 
@@ -105,7 +115,7 @@ struct Harvester::State {
       const auto root = std::make_shared<Place>();
       root->trail = std::make_shared<Trail>(Trail{file, nullptr});
       root->to_scene = origin;
-      named[file].push_back(root);
+      named.emplace(file, std::vector{root});  // all of it or nothing
       ++stats.expected;
     }
     std::vector<std::shared_ptr<Place>> claimed;
@@ -140,7 +150,16 @@ struct Harvester::State {
       const bool failed = bring(harvested, place) != nullptr;
       settle(place, failed ? Place::State::failed : Place::State::taken, failed);
     } catch (...) {
+      give_up(place);
+    }
+  }
+
+  /// In a handler. The place may be claimed again in any case.
+  void give_up(Place& place) {
+    try {
       fail(place, caught());
+    } catch (...) {
+      settle(place, Place::State::failed, true);
     }
   }
 
@@ -347,7 +366,7 @@ Harvester::Stats Harvester::getStats() const {
 }
 
 osgDB::ReaderWriter::ReadResult Harvester::readNode(const std::string& file, const osgDB::Options* options) {
-  const bool nested = std::find(reading.begin(), reading.end(), this) != reading.end();
+  const bool nested = Reading::is_for(this);
   osg::ref_ptr<osgDB::ReadFileCallback> next;
   {
     const State::Lock lock(_state->mutex);

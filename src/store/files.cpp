@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "roam/error.h"
@@ -29,84 +30,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a person can do about it.
-const char* advice(int error, bool reading) {
-  if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-      return "make room there or choose another output, and start again: what is complete is kept";
-    case EACCES:
-    case EPERM:
-      return "give yourself the right to write there or choose another output";
-    case EROFS:
-      return "the file system can only be read; choose another output";
-    case EIO:
-      return "the disk or the network does not work; see the system's log";
-    case EMFILE:
-    case ENFILE:
-      return "too many files are open; raise the limit (ulimit -n)";
-    default:
-      return "";
-  }
-}
-
-[[noreturn]] void fail(const char* what, const fs::path& file, int error, bool reading = false) {
-  const std::string advised = advice(error, reading);
-  throw FileError(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
-                              advised.empty() ? "" : "; ", advised),
-                  error);
-}
-[[noreturn]] void fail_to_read(const fs::path& file, int error) { fail("read", file, error, true); }
-
-/// Calls a system call again when a signal interrupts it.
-template <class Call>
-auto again(const Call& call) {
-  for (;;) {
-    const auto result = call();
-    if (result >= 0 || errno != EINTR) return result;
-  }
-}
-
-void sync_folder(const fs::path& folder) {
-  const int descriptor = again([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (descriptor < 0) fail("open", folder, errno);
-  const int result = again([&] { return ::fsync(descriptor); });
-  const int error = errno;
-  ::close(descriptor);
-  // Some network file systems know no fsync of folders.
-  if (result != 0 && error != EINVAL) fail("sync", folder, error);
-}
-
-fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
-/// Closes when it goes.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
-
 constexpr std::size_t kPiece = 1 << 20;
 
 }  // namespace
 
-std::string sha256_of_file(const fs::path& file, const std::function<void(std::uint64_t)>& tick) {
-  const Descriptor open(again([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); }));
-  if (open.number() < 0) fail_to_read(file, errno);
+std::string sha256_of_file(const fs::path& store, const std::string& name,
+                           const std::function<void(std::uint64_t)>& tick) {
+  const Descriptor file = open_file(store, name, O_RDONLY);
+  if (!file.is_open()) fail("read", store, name, errno);
   Sha256 hash;
   std::vector<std::byte> piece(kPiece);
   for (;;) {
-    const ssize_t got = again([&] { return ::read(open.number(), piece.data(), piece.size()); });
-    if (got < 0) fail_to_read(file, errno);
+    const ssize_t got = again([&] { return ::read(file.number(), piece.data(), piece.size()); });
+    if (got < 0) fail("read", store, name, errno);
     if (got == 0) return hash.digits();
     hash.add({piece.data(), static_cast<std::size_t>(got)});
     if (tick) tick(static_cast<std::uint64_t>(got));
@@ -115,68 +51,94 @@ std::string sha256_of_file(const fs::path& file, const std::function<void(std::u
 
 // --------------------------------------------------------------------------------------------------------- new files
 
-NewFile::NewFile(fs::path final_path) : path_(std::move(final_path)) {
+void sync_folder(int descriptor, const fs::path& folder) {
+  // Some network file systems know no fsync of folders.
+  if (again([&] { return ::fsync(descriptor); }) != 0 && errno != EINVAL) fail("sync", folder, "", errno);
+}
+
+NewFile::NewFile(fs::path store, std::string name) : store_(std::move(store)), name_(std::move(name)) {
   static std::atomic<std::uint64_t> number{0};
-  temporary_ = path_;
-  temporary_ += fmt::format(".{}.{}{}", ::getpid(), number++, temporary_suffix);
-  descriptor_ = again([&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
-  if (descriptor_ < 0) fail("write", temporary_, errno);
+  const auto [folder, last] = split(name_);
+  last_ = last;
+  folder_ = open_folder(store_, folder);
+  if (!folder_.is_open()) fail_to_write(errno);
+  temporary_ = fmt::format("{}.{}.{}{}", last_, ::getpid(), number++, temporary_suffix);
+  file_ = Descriptor(again([&] {
+    return ::openat(folder_.number(), temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  }));
+  if (!file_.is_open()) {
+    const int error = errno;
+    temporary_.clear();
+    fail_to_write(error);
+  }
 }
 
 NewFile::~NewFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty()) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
 }
+
+void NewFile::fail_to_write(int error) const { fail("write", store_, name_, error); }
 
 void NewFile::write(std::span<const std::byte> bytes) {
   hash_.add(bytes);
   while (!bytes.empty()) {
-    const ssize_t written = again([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
-    if (written < 0) fail("write", path_, errno);
+    const ssize_t written = again([&] { return ::write(file_.number(), bytes.data(), bytes.size()); });
+    if (written < 0) fail_to_write(errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
     size_ += static_cast<std::uint64_t>(written);
   }
 }
 
-void NewFile::rename_to(const fs::path& path) {
-  if (again([&] { return ::fsync(descriptor_); }) != 0) fail("write", path_, errno);
+void NewFile::rename_to(const std::string& last) {
+  if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);
   // Some network file systems tell of a full disk only now.
-  const int closed = ::close(std::exchange(descriptor_, -1));
-  if (closed != 0 && errno != EINTR) fail("write", path_, errno);
-  if (::rename(temporary_.c_str(), path.c_str()) != 0) fail("write", path, errno);
+  const int closed = ::close(file_.release());
+  if (closed != 0 && errno != EINTR) fail_to_write(errno);
+  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), last.c_str()) != 0) fail_to_write(errno);
   temporary_.clear();
-  sync_folder(folder_of(path));
+  sync_folder(folder_.number(), (store_ / name_).parent_path());
 }
 
-void NewFile::commit() { rename_to(path_); }
+void NewFile::commit() { rename_to(last_); }
 
 std::string NewFile::commit_by_hash() {
   std::string digits = hash_.digits();
-  rename_to(folder_of(path_) / (digits + path_.extension().string()));
+  rename_to(digits + fs::path(last_).extension().string());
   return digits;
 }
 
-void write_file(const fs::path& file, std::string_view text) {
-  NewFile out(file);
+bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final) {
+  if (!name.ends_with(temporary_suffix)) return false;
+  name.remove_suffix(temporary_suffix.size());
+  for (int i = 0; i < 2; ++i) {  // the process, and the number of the file
+    const std::size_t end = name.find_last_not_of("0123456789");
+    if (end == std::string_view::npos || end + 1 == name.size() || name[end] != '.') return false;
+    name = name.substr(0, end);
+  }
+  return is_final(name);
+}
+
+void write_file(const fs::path& store, const std::string& name, std::string_view text) {
+  NewFile out(store, name);
   out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
 
-std::vector<std::byte> read_file(const fs::path& file, std::uint64_t limit) {
-  const Descriptor open(again([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC); }));
-  if (open.number() < 0) fail_to_read(file, errno);
+std::vector<std::byte> read_file(const fs::path& store, const std::string& name, std::uint64_t limit) {
+  const Descriptor file = open_file(store, name, O_RDONLY);
+  if (!file.is_open()) fail("read", store, name, errno);
   struct stat status {};
-  if (::fstat(open.number(), &status) != 0) fail_to_read(file, errno);
+  if (::fstat(file.number(), &status) != 0) fail("read", store, name, errno);
+  const std::string path = (store / name).string();
   if (static_cast<std::uint64_t>(status.st_size) > limit) {
     throw FileError(
-        fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", file.string(), status.st_size),
-        EFBIG);
+        fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", path, status.st_size), EFBIG);
   }
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got = again([&] { return ::read(open.number(), bytes.data() + done, bytes.size() - done); });
-    if (got < 0) fail_to_read(file, errno);
-    if (got == 0) throw Error(fmt::format("cannot read {}: it became shorter while it was read", file.string()));
+    const ssize_t got = again([&] { return ::read(file.number(), bytes.data() + done, bytes.size() - done); });
+    if (got < 0) fail("read", store, name, errno);
+    if (got == 0) throw Error(fmt::format("cannot read {}: it became shorter while it was read", path));
     done += static_cast<std::size_t>(got);
   }
   return bytes;
@@ -190,9 +152,21 @@ void make_folder(const fs::path& folder) {
   for (const fs::path& name : folder) {
     path /= name;
     if (fs::is_directory(path, error)) continue;
-    if (!fs::create_directory(path, error) && error) fail("make the folder", folder, error.value());
-    sync_folder(folder_of(path));
+    if (!fs::create_directory(path, error) && error) fail("make the folder", folder, "", error.value());
+    const fs::path above = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const Descriptor opened = open_folder(above, "");
+    if (!opened.is_open()) fail("open", above, "", errno);
+    sync_folder(opened.number(), above);
   }
+}
+
+bool is_digits(std::string_view text, std::size_t count) {
+  return text.size() == count && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool is_named_by_hash(std::string_view name, std::string_view extension) {
+  name.remove_prefix(name.rfind('/') + 1);  // npos + 1 is 0
+  return name.ends_with(extension) && is_digits(name.substr(0, name.size() - extension.size()), 64);
 }
 
 std::string pack_file(const std::string& hash) { return "packs/" + hash + ".pack"; }
@@ -202,7 +176,7 @@ std::string spare_file(const std::string& hash) { return "spare/" + hash + ".jso
 
 // -------------------------------------------------------------------------------------------------------------- packs
 
-PackWriter::PackWriter(const fs::path& store) : file_(store / "packs" / "new.pack") {
+PackWriter::PackWriter(const fs::path& store) : file_(store, pack_file("new")) {
   std::array<std::byte, pack_header_bytes> header{};
   std::memcpy(header.data(), "ROAMPACK", 8);
   const std::uint32_t version = format_version;
@@ -224,12 +198,16 @@ std::string PackWriter::commit() { return file_.commit_by_hash(); }
 
 namespace {
 
-/// The number of the process that a lock's file names; empty: it does not.
-std::string process_in(int descriptor) {
-  std::array<char, 32> text{};
-  const ssize_t got = ::pread(descriptor, text.data(), text.size() - 1, 0);
+/// What a lock's file may hold: the number of a process and a line feed.
+constexpr std::size_t kLockBytes = 24;
+
+/// The number of the process that a lock's file names; empty: none. Nothing where it is no file of a lock.
+std::optional<std::string> process_in(int descriptor) {
+  std::array<char, kLockBytes + 1> text{};
+  const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
   std::string process(text.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
-  process.erase(std::find_if(process.begin(), process.end(), [](char c) { return c < '0' || c > '9'; }), process.end());
+  if (process.ends_with('\n')) process.pop_back();
+  if (process.size() > kLockBytes || process.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
   return process;
 }
 
@@ -265,29 +243,29 @@ std::string held_by(const fs::path& store, const std::string& process, bool ende
 }  // namespace
 
 BuildLock::BuildLock(const fs::path& store) {
-  const fs::path file = store / "LOCK";
-  descriptor_ = again([&] { return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
-  if (descriptor_ < 0) fail("write", file, errno);
-  if (again([&] { return ::flock(descriptor_, LOCK_EX | LOCK_NB); }) != 0) {
-    const int error = errno;
-    const std::string process = process_in(descriptor_);
-    ::close(std::exchange(descriptor_, -1));
-    if (error != EWOULDBLOCK) fail("lock", file, error);
-    const bool ended = has_ended(process);
-    throw LockedError(held_by(store, process, ended), ended);
+  const std::string name = lock_file;
+  Descriptor lock = open_file(store, name, O_RDWR | O_CREAT);
+  if (!lock.is_open()) fail("write", store, name, errno);
+  const auto process = process_in(lock.number());
+  if (again([&] { return ::flock(lock.number(), LOCK_EX | LOCK_NB); }) != 0) {
+    if (errno != EWOULDBLOCK) fail("lock", store, name, errno);
+    const bool ended = has_ended(process.value_or(""));
+    throw LockedError(held_by(store, process.value_or(""), ended), ended);
   }
   struct stat status {};
-  if (::fstat(descriptor_, &status) != 0 || status.st_nlink == 0) {
-    ::close(std::exchange(descriptor_, -1));
+  if (::fstat(lock.number(), &status) != 0 || status.st_nlink == 0) {
     throw LockedError(fmt::format("{} was given up by another build just now; build again", store.string()), false);
   }
-  const std::string process = std::to_string(::getpid()) + "\n";
+  // It is the one file that is written in place.
+  if (status.st_nlink > 1 || !process) {
+    throw Error(fmt::format("cannot lock {}: {}; remove it", (store / name).string(),
+                            process ? "other names, perhaps outside of the store, lead to the same file"
+                                    : "it is not what a build leaves there"));
+  }
+  const std::string own = std::to_string(::getpid()) + "\n";
   // Only for people, and for has_ended: whoever comes next reads it.
-  if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(!::pwrite(descriptor_, process.data(), process.size(), 0));
-}
-
-BuildLock::~BuildLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (::ftruncate(lock.number(), 0) == 0) static_cast<void>(!::pwrite(lock.number(), own.data(), own.size(), 0));
+  descriptor_ = std::move(lock);
 }
 
 }  // namespace roam::store

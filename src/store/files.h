@@ -3,6 +3,7 @@
 /// Files that are whole or not there: written under a temporary name, synced, renamed, the folder synced. And what
 /// names and checks them.
 
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,21 +14,24 @@
 #include <string_view>
 
 #include "roam/store.h"
+#include "store/folder.h"
 #include "store/sha256.h"
 
 namespace roam::store {
 
-/// What the operating system refused to do with a file.
-class FileError : public Error {
- public:
-  FileError(const std::string& what, int error) : Error(what), number(error) {}
-  int number;  ///< errno
-};
+/// Calls a system call again when a signal interrupts it.
+template <class Call>
+auto again(const Call& call) {
+  for (;;) {
+    const auto result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 /// Of a file's content; `tick` is called with the bytes of each piece that was read, and may throw.
-[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file,
+[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& store, const std::string& name,
                                          const std::function<void(std::uint64_t)>& tick = {});
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
@@ -35,8 +39,8 @@ class FileError : public Error {
 /// cause (no space, read-only, I/O) and what to do. Interrupted and short writes are gone on with.
 class NewFile {
  public:
-  /// Beside its final place, under a name that ends with temporary_suffix.
-  explicit NewFile(std::filesystem::path final_path);
+  /// Beside its final place in the store, under a name that ends with temporary_suffix.
+  NewFile(std::filesystem::path store, std::string name);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -49,10 +53,12 @@ class NewFile {
   std::string commit_by_hash();
 
  private:
-  void rename_to(const std::filesystem::path& path);
+  void rename_to(const std::string& last);
+  [[noreturn]] void fail_to_write(int error) const;
 
-  std::filesystem::path path_, temporary_;
-  int descriptor_ = -1;
+  std::filesystem::path store_;
+  std::string name_, last_, temporary_;  ///< of these the latter two in `folder_`
+  Descriptor folder_, file_;
   std::uint64_t size_ = 0;
   Sha256 hash_;
 };
@@ -60,18 +66,30 @@ class NewFile {
 /// What a build that was ended leaves behind ends with this.
 inline constexpr std::string_view temporary_suffix = ".unfinished";
 
-void write_file(const std::filesystem::path& file, std::string_view text);
+/// Whether NewFile may have written, for a file whose name `is_final` accepts, a temporary file of this name.
+[[nodiscard]] bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final);
+
+void write_file(const std::filesystem::path& store, const std::string& name, std::string_view text);
 /// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
-[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t limit);
+[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& store, const std::string& name,
+                                               std::uint64_t limit);
+/// fsync of a folder, whose path is for people.
+void sync_folder(int descriptor, const std::filesystem::path& folder);
 /// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
 void make_folder(const std::filesystem::path& folder);
 
 // Where things are in a store.
 inline constexpr const char* current_file = "CURRENT";
+inline constexpr const char* lock_file = "LOCK";
 [[nodiscard]] std::string spare_file(const std::string& hash);     ///< spare/<hash>.json, the manifest once more
 [[nodiscard]] std::string pack_file(const std::string& hash);      ///< packs/<hash>.pack
 [[nodiscard]] std::string part_file(const std::string& hash);      ///< parts/<hash>.part
 [[nodiscard]] std::string manifest_file(const std::string& hash);  ///< manifests/<hash>.json
+
+/// Whether a text is `count` lower-case hexadecimal digits.
+[[nodiscard]] bool is_digits(std::string_view text, std::size_t count);
+/// Whether a name, in whatever folder, is 64 digits and the extension.
+[[nodiscard]] bool is_named_by_hash(std::string_view name, std::string_view extension);
 
 /// A pack in the making: a header, then blobs, each at a multiple of pack_alignment.
 class PackWriter {
@@ -100,17 +118,17 @@ class LockedError : public Error {
   bool holder_ended;  ///< the process that the lock names runs here no more
 };
 
-/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process.
+/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process. A file that no build left
+/// there is refused.
 class BuildLock {
  public:
   /// Tries once. Throws LockedError naming the other process, and FileError.
   explicit BuildLock(const std::filesystem::path& store);
-  ~BuildLock();
   BuildLock(const BuildLock&) = delete;
   BuildLock& operator=(const BuildLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace roam::store

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roam/math.h"
@@ -80,9 +81,14 @@ class NotComplete : public Error {
 // JSON text; the same manifest is the same text.
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 [[nodiscard]] std::string to_text(const ShardInfo& shard);
-/// Both check everything: roam::Error says what is wrong, with `name` for the file.
-[[nodiscard]] Manifest parse_manifest(const std::string& text, const std::string& name);
-[[nodiscard]] ShardInfo parse_shard(const std::string& text, const std::string& name);
+/// Both check everything: roam::Error says what is wrong, with `name` for the file. They take no more than `memory`
+/// bytes, whatever the text is; `kept`: how many of them an open store keeps, or a little less.
+[[nodiscard]] Manifest parse_manifest(std::string_view text, const std::string& name,
+                                      std::uint64_t memory = Store::usual_memory, std::uint64_t* kept = nullptr);
+[[nodiscard]] ShardInfo parse_shard(std::string_view text, const std::string& name,
+                                    std::uint64_t memory = Store::usual_memory);
+/// Throws NewerFormat.
+void check_format(std::uint32_t version, const std::string& name);
 
 /// Whether a folder holds what a store consists of, though CURRENT may be gone.
 [[nodiscard]] bool holds_store(const std::filesystem::path& folder);
@@ -91,9 +97,10 @@ class NotComplete : public Error {
 [[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
 
 /// CURRENT, its manifest, checked against its name. Throws RootDamage, NewerFormat, and roam::Error where a file cannot
-/// be read.
+/// be read, or takes more than `memory` bytes.
 [[nodiscard]] Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash = nullptr,
-                                     std::uint64_t* text_bytes = nullptr);
+                                     std::uint64_t* text_bytes = nullptr, std::uint64_t memory = Store::usual_memory,
+                                     std::uint64_t* kept = nullptr);
 /// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename, the folder synced. Returns the hash.
 std::string publish(const std::filesystem::path& store, const Manifest& manifest);
 

@@ -11,7 +11,6 @@
 
 #include "roam/store.h"
 #include "store/manifest.h"
-#include "store/part.h"
 
 namespace roam {
 
@@ -29,6 +28,7 @@ struct Store::State {
   std::vector<Page> pages;
   std::vector<std::string> packs;                  ///< file of each shard, as StoreBytes names it
   std::map<std::uint64_t, std::uint32_t> part_of;  ///< part hash to number, see SourceNumber
+  std::uint64_t memory = 0;                        ///< bytes that all of this takes at most, what is recent included
   std::vector<std::uint64_t> first;                ///< number in the scene of each part's first triangle
 
   /// What reports have read, a little of it. Under the lock.

@@ -48,6 +48,9 @@ const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
       t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > kTileBytes) {
     return "a tile's counts are out of range";
   }
+  if (t.bytes > kTileBytes || t.number_bytes > most_number_bytes(t.triangles)) {
+    return "a tile has more bytes than a tile may have";
+  }
   if (t.bytes < 1 || t.offset > pack_bytes || std::uint64_t{t.bytes} + t.number_bytes > pack_bytes - t.offset) {
     return "a tile lies outside its pack";
   }

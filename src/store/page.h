@@ -19,6 +19,9 @@ inline constexpr std::uint32_t page_tiles = 1024;
 /// Cells of a tile's box along each axis in its mask of occupied cells.
 inline constexpr int mask_cells = 8;
 
+/// Of a page of so many tiles: as many nodes as tiles.
+[[nodiscard]] constexpr std::uint64_t most_page_bytes(std::uint32_t tiles) { return 128 + std::uint64_t{tiles} * 328; }
+
 /// Where a tile is and what is known of it without it.
 struct TileEntry {
   double origin[3];  ///< of its grid, metres: see index::Tile

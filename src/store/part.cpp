@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "roam/error.h"
@@ -47,16 +46,28 @@ class Writer {
   void put(std::uint8_t value) { bytes.push_back(std::byte{value}); }
 };
 
-class Reader {
+/// Bytes. More than the names of a hundred million objects.
+constexpr std::uint64_t kMostContent = 1ull << 32;
+
+/// Of bytes that a frame may look back, which whoever reads it must keep: as many as encode_part's look back.
+constexpr int kWindowLog = 21;
+
+/// The numbers and texts of a part's content, which comes out of a zstd frame piece by piece.
+class Content {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  Content(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t size)
+      : more_(more), zstd_(ZSTD_createDCtx(), ZSTD_freeDCtx), left_(size) {
+    if (!zstd_) throw std::bad_alloc();
+    ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, kWindowLog);
+    packed_.resize(ZSTD_DStreamInSize());
+    content_.resize(ZSTD_DStreamOutSize());
+  }
 
   CurveKey number() {
     CurveKey value = 0;
     for (int shift = 0; shift < 128; shift += 7) {
-      if (rest_.empty()) break;
-      const auto byte = static_cast<std::uint8_t>(rest_.front());
-      rest_ = rest_.subspan(1);
+      if (at_ == end_ && !unpack()) break;
+      const auto byte = static_cast<std::uint8_t>(content_[at_++]);
       value |= CurveKey{byte & 127U} << shift;
       if (byte < 128) return value;
     }
@@ -68,51 +79,61 @@ class Reader {
     if (value > UINT64_MAX) ok_ = false;
     return static_cast<std::uint64_t>(value);
   }
-  std::string text() {
-    const std::uint64_t size = count();
-    if (size > rest_.size()) {
-      ok_ = false;
-      return {};
+  /// Of the text only so much as may be kept.
+  void text(std::string& start) {
+    start.clear();
+    for (std::uint64_t size = count(); ok_ && size > 0;) {
+      if (at_ == end_ && !unpack()) {
+        ok_ = false;
+        return;
+      }
+      const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(size, end_ - at_));
+      const auto* first = reinterpret_cast<const char*>(content_.data() + at_);
+      start.append(first, std::min(piece, longest_name - start.size()));
+      at_ += piece;
+      size -= piece;
     }
-    std::string value(reinterpret_cast<const char*>(rest_.data()), static_cast<std::size_t>(size));
-    rest_ = rest_.subspan(static_cast<std::size_t>(size));
-    return value;
   }
   [[nodiscard]] bool ok() const { return ok_; }
-  [[nodiscard]] bool complete() const { return ok_ && rest_.empty(); }
+  /// Whether all of it was taken, and it was one frame, and nothing follows.
+  [[nodiscard]] bool complete() { return ok_ && at_ == end_ && !unpack() && !broken_ && ended_ && left_ == 0; }
 
  private:
-  std::span<const std::byte> rest_;
-  bool ok_ = true;
-};
-
-/// Bytes. More than the names of a hundred million objects.
-constexpr std::uint64_t kMostContent = 1ull << 32;
-
-/// Of bytes that a frame may look back; encode_part's look back 2^21.
-constexpr int kWindowLog = 23;
-
-/// What a frame of `size` bytes holds; nothing where it is none. Takes memory as bytes come: what a header claims costs
-/// nothing.
-std::optional<std::vector<std::byte>> unpacked(std::span<const std::byte> packed, std::size_t size) {
-  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
-  if (!context) throw std::bad_alloc();
-  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kWindowLog);
-  std::vector<std::byte> content;
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  for (;;) {
-    const std::size_t had = content.size();
-    // One more than there should be: where there are too many, that is seen.
-    content.resize(std::min(size + 1, had + std::max(had, ZSTD_DStreamOutSize())));
-    ZSTD_outBuffer out{content.data(), content.size(), had};
-    const std::size_t rest = ZSTD_decompressStream(context.get(), &out, &in);
-    content.resize(out.pos);
-    const bool ends = rest == 0, broken = ZSTD_isError(rest) != 0, stuck = out.pos == had && in.pos == in.size;
-    if (broken || content.size() > size) return std::nullopt;
-    if (ends && in.pos == in.size && content.size() == size) return content;
-    if (ends || stuck) return std::nullopt;
+  /// More content; false at its end, and where it cannot be unpacked.
+  bool unpack() {
+    while (!broken_) {
+      if (in_.pos == in_.size) {
+        in_ = {packed_.data(), more_(packed_), 0};
+        // What a frame still owes it gives without more bytes.
+        if (in_.size == 0 && (ended_ || starved_)) return false;
+        starved_ = in_.size == 0;
+      }
+      if (ended_) {
+        broken_ = true;  // something follows
+        break;
+      }
+      ZSTD_outBuffer out{content_.data(), content_.size(), 0};
+      const std::size_t rest = ZSTD_decompressStream(zstd_.get(), &out, &in_);
+      ended_ = rest == 0;
+      broken_ = ZSTD_isError(rest) != 0 || out.pos > left_;
+      if (broken_) break;
+      left_ -= out.pos;
+      at_ = 0;
+      end_ = out.pos;
+      if (end_ > 0) return true;
+    }
+    at_ = end_ = 0;
+    return false;
   }
-}
+
+  const std::function<std::size_t(std::span<std::byte>)>& more_;
+  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> zstd_;
+  std::uint64_t left_;  ///< of the content
+  std::vector<std::byte> packed_, content_;
+  ZSTD_inBuffer in_{nullptr, 0, 0};
+  std::size_t at_ = 0, end_ = 0;  ///< in content_
+  bool ok_ = true, ended_ = false, broken_ = false, starved_ = false;
+};
 
 }  // namespace
 
@@ -152,41 +173,64 @@ std::vector<std::byte> encode_part(const PartFile& part) {
   return bytes;
 }
 
-PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) {
+void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, const std::string& file,
+                const PartVisitor& visitor) {
   const auto refuse = [&](const char* why) {
     throw Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", file, why));
   };
   Header header{};
-  if (bytes.size() < sizeof header) refuse("it is too short");
-  std::memcpy(&header, bytes.data(), sizeof header);
+  for (auto rest = std::as_writable_bytes(std::span(&header, 1)); !rest.empty();) {
+    const std::size_t got = more(rest);
+    if (got == 0) refuse("it is too short");
+    rest = rest.subspan(got);
+  }
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) refuse("it is no part file");
-  const std::span<const std::byte> packed = bytes.subspan(sizeof header);
   if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > kMostContent) {
     refuse("its header is not what it should be");
   }
-  const auto unpacked_content = unpacked(packed, static_cast<std::size_t>(header.content_bytes));
-  if (!unpacked_content) refuse("it does not unpack");
-  const std::vector<std::byte>& content = *unpacked_content;
   // Each takes two bytes at least.
-  if (header.objects > content.size() / 2 || header.cells > content.size() / 2) refuse("its counts are out of range");
-
-  PartFile part;
-  part.triangles = header.triangles;
-  part.cell_bits = static_cast<int>(header.cell_bits);
-  Reader reader(content);
+  if (header.objects > header.content_bytes / 2 || header.cells > std::min(header.content_bytes / 2, most_cells)) {
+    refuse("its counts are out of range");
+  }
+  if (visitor.counts) {
+    visitor.counts({header.triangles, header.objects, header.cells, static_cast<int>(header.cell_bits)});
+  }
+  Content content(more, header.content_bytes);
   std::uint64_t first = 0;
-  for (std::uint64_t i = 0; i < header.objects && reader.ok(); ++i) {
-    first += reader.count();
-    part.objects.push_back({first, reader.text()});
+  std::string name;
+  for (std::uint64_t i = 0; i < header.objects && content.ok(); ++i) {
+    first += content.count();
+    content.text(name);
+    if (visitor.object && content.ok()) visitor.object(first, name);
   }
-  CurveKey key = 0;
-  CurveKey sum = 0;
-  for (std::uint64_t i = 0; i < header.cells && reader.ok(); ++i) {
-    key += reader.number() << part.cell_bits;
-    part.cells.push_back({key, reader.count()});
-    sum += part.cells.back().triangles;
+  CurveKey key = 0, sum = 0;
+  for (std::uint64_t i = 0; i < header.cells && content.ok(); ++i) {
+    key += content.number() << header.cell_bits;
+    const std::uint64_t triangles = content.count();
+    sum += triangles;
+    if (visitor.cell && content.ok()) visitor.cell({key, triangles});
   }
-  if (!reader.complete() || sum != part.triangles) refuse("its content is not what its header says");
+  if (!content.complete() || sum != header.triangles) refuse("its content is not what its header says");
+}
+
+PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) {
+  PartFile part;
+  PartVisitor visitor;
+  visitor.counts = [&](const PartCounts& counts) {
+    part.triangles = counts.triangles;
+    part.cell_bits = counts.cell_bits;
+  };
+  visitor.object = [&](std::uint64_t first, std::string_view name) {
+    part.objects.push_back({first, std::string(name)});
+  };
+  visitor.cell = [&](const Cell& cell) { part.cells.push_back(cell); };
+  const auto more = [&](std::span<std::byte> out) {
+    const std::size_t size = std::min(out.size(), bytes.size());
+    std::memcpy(out.data(), bytes.data(), size);
+    bytes = bytes.subspan(size);
+    return size;
+  };
+  visit_part(more, file, visitor);
   return part;
 }
 

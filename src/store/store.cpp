@@ -6,32 +6,20 @@
 #include <optional>
 
 #include "store/files.h"
+#include "store/recent.h"
 #include "store/tile_reader.h"
 
 namespace roam {
-
-/// Pages and source numbers that were asked for last.
-struct Store::State::Recent {
-  explicit Recent(const State& state) : reader(state) {}
-
-  /// Enough for a body's neighbourhood.
-  static constexpr std::size_t kept = 64;
-
-  store::TileReader reader;
-  std::map<std::uint64_t, store::LoadedPage> pages;
-  std::map<TriangleId, std::vector<store::SourceNumber>> numbers;  ///< of a tile, by the id of its first triangle
-  std::map<std::uint32_t, store::PartFile> parts;
-};
 
 Store::State::State() = default;
 Store::State::~State() = default;
 Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Store::~Store() = default;
 
-std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder) {
+std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, std::uint64_t memory) {
   if (!is_store(folder)) store::refuse_to_open(folder);
   try {
-    return open(store::files_of(folder), folder.string());
+    return open(store::files_of(folder), folder.string(), memory);
   } catch (const store::RootDamage& damage) {
     // Other programs too call files CURRENT.
     if (store::holds_store(folder) || damage.what_is_damaged != store::current_file) throw;
@@ -39,13 +27,15 @@ std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder) {
   }
 }
 
-std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name) {
+std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name,
+                                         std::uint64_t memory) {
   auto state = std::make_unique<State>();
   State& s = *state;
   s.name = name;
   s.bytes = std::move(bytes);
   std::uint64_t manifest_bytes = 0;
-  s.manifest = store::read_manifest(*s.bytes, name, &s.info.hash, &manifest_bytes);
+  s.manifest = store::read_manifest(*s.bytes, name, &s.info.hash, &manifest_bytes, memory, &s.memory);
+  s.memory += State::Recent::most;
   const store::Manifest& m = s.manifest;
   s.info.format = m.format;
   s.info.lossless = m.lossless;
@@ -62,6 +52,10 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
     s.info.objects += m.parts[i].objects;
     s.info.bytes += m.parts[i].bytes;
   }
+  std::size_t pages = 0;
+  for (const store::ShardInfo& shard : m.shards) pages += shard.pages.size();
+  s.pages.reserve(pages);
+  s.packs.reserve(m.shards.size());
   for (std::uint32_t i = 0; i < m.shards.size(); ++i) {
     const store::ShardInfo& shard = m.shards[i];
     s.packs.push_back(store::pack_file(shard.pack));
@@ -81,7 +75,7 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
 
 bool Store::is_store(const std::filesystem::path& folder) {
   std::error_code none;
-  return std::filesystem::is_regular_file(folder / store::current_file, none);
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / store::current_file, none));
 }
 
 const StoreInfo& Store::info() const { return state_->info; }
@@ -156,55 +150,6 @@ std::vector<Vec3> Store::sample(std::uint64_t count) const {
     first = end;
   }
   return places;
-}
-
-SourceTriangle Store::source(TriangleId triangle) const {
-  const State& s = *state_;
-  const std::uint64_t page_number = triangle >> (store::triangle_bits + store::tile_bits);
-  const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));
-  const auto number = static_cast<std::uint32_t>(triangle & ((1U << store::triangle_bits) - 1));
-  const auto no_such = [&] {
-    return Error(fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
-  };
-  if (page_number >= s.pages.size()) throw no_such();
-
-  const std::lock_guard lock(s.mutex);
-  State::Recent& recent = *s.recent;
-  const TriangleId tile_id = store::stored_id(page_number, tile, 0);
-  auto known = recent.numbers.find(tile_id);
-  if (known == recent.numbers.end()) {
-    auto page = recent.pages.find(page_number);
-    if (page == recent.pages.end()) {
-      if (recent.pages.size() >= State::Recent::kept) recent.pages.clear();
-      page = recent.pages.emplace(page_number, recent.reader.page(page_number)).first;
-    }
-    if (tile >= page->second.view.tiles.size()) throw no_such();
-    auto numbers = recent.reader.numbers(page_number, page->second.view.tiles[tile], tile);
-    if (recent.numbers.size() >= State::Recent::kept) recent.numbers.clear();
-    known = recent.numbers.emplace(tile_id, std::move(numbers)).first;
-  }
-  if (number >= known->second.size()) throw no_such();
-  const store::SourceNumber& from = known->second[number];
-
-  const auto part = s.part_of.find(from.part);
-  if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
-    throw Error(
-        fmt::format("{}: triangle {} comes from a part of the scene that the manifest does not name: the store "
-                    "is damaged; verify it, and repair it from its scene",
-                    s.name, triangle));
-  }
-  const store::PartInfo& info = s.manifest.parts[part->second];
-  auto file = recent.parts.find(part->second);
-  if (file == recent.parts.end()) {
-    const std::string name = store::part_file(info.file);
-    const std::vector<std::byte> bytes = s.bytes->whole(name, info.bytes);
-    if (store::sha256(bytes) != info.file) {
-      throw Error(fmt::format("{}/{} is damaged: it is not what it was when it was written", s.name, name));
-    }
-    if (recent.parts.size() >= State::Recent::kept) recent.parts.clear();
-    file = recent.parts.emplace(part->second, store::decode_part(bytes, s.name + "/" + name)).first;
-  }
-  return {info.name, from.number, s.first[part->second] + from.number, file->second.object(from.number)};
 }
 
 }  // namespace roam

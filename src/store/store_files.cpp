@@ -33,6 +33,11 @@ const char* reason(int error) {
       return "too many files are open (raise the limit: ulimit -n)";
     case ESTALE:
       return "the network file system has lost the file";
+    case is_a_link:
+      return "it, or the folder that it should be in, is a symbolic link, which no store has";
+    case is_a_folder:
+    case is_something_else:
+      return "it is no ordinary file";
     default:
       return "the operating system cannot read it";
   }
@@ -45,55 +50,48 @@ class Files : public StoreBytes {
     if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) most_open_ = limit.rlim_cur / 2;
   }
   ~Files() override {
-    for (const auto& [file, kept] : open_) ::close(kept.descriptor);
-    if (held_ >= 0) ::close(held_);
+    for (const auto& [file, descriptor] : open_) ::close(descriptor);
   }
 
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
-    if (file.starts_with("manifests/")) hold(folder_ / file);
-    return read_file(folder_ / file, limit);
+    if (file.starts_with("manifests/")) hold(file);
+    return read_file(folder_, file, limit);
   }
 
   const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
-    if (const Kept* kept = find(file)) {
-      if (is_removed(kept->descriptor)) open_again(*kept);
-      return fill(kept->descriptor, offset, out);
+    if (const int kept = find(file); kept >= 0) {
+      if (is_removed(kept)) open_again(file, kept);
+      return fill(kept, offset, out);
     }
-    fs::path path = folder_ / file;
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return reason(errno);
-    const char* problem = fill(descriptor, offset, out);
-    if (!keep(file, {descriptor, std::move(path)})) ::close(descriptor);
+    Descriptor opened = open_file(folder_, file, O_RDONLY);
+    if (!opened.is_open()) return reason(errno);
+    const char* problem = fill(opened.number(), offset, out);
+    keep(file, opened);
     return problem;
   }
 
  private:
   /// Locks a manifest until this goes: as long as it is locked no builder removes it, nor what it names. Where it is
   /// removed before, or cannot be opened, whoever reads it then learns that.
-  void hold(const fs::path& manifest) {
-    const int descriptor = ::open(manifest.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
+  void hold(const std::string& manifest) {
+    Descriptor opened = open_file(folder_, manifest, O_RDONLY);
+    if (!opened.is_open()) return;
     // Builders lock it for no longer than it takes to remove it. Some file systems know no locks.
-    while (::flock(descriptor, LOCK_SH) != 0 && errno == EINTR) {
+    while (::flock(opened.number(), LOCK_SH) != 0 && errno == EINTR) {
     }
     const std::lock_guard lock(mutex_);
-    if (held_ >= 0) ::close(held_);
-    held_ = descriptor;
+    held_ = std::move(opened);
   }
 
-  /// A file that stays open until this goes.
-  struct Kept {
-    int descriptor;
-    fs::path path;
-  };
-  [[nodiscard]] const Kept* find(const std::string& file) {
+  /// The descriptor of a file that stays open until this goes; -1: none.
+  [[nodiscard]] int find(const std::string& file) {
     const std::lock_guard lock(mutex_);
     const auto it = open_.find(file);
-    return it == open_.end() ? nullptr : &it->second;
+    return it == open_.end() ? -1 : it->second;
   }
-  bool keep(const std::string& file, Kept kept) {
+  void keep(const std::string& file, Descriptor& opened) {
     const std::lock_guard lock(mutex_);
-    return open_.size() < most_open_ && open_.emplace(file, std::move(kept)).second;
+    if (open_.size() < most_open_ && open_.emplace(file, opened.number()).second) (void)opened.release();
   }
 
   /// Whether no name leads to the file any more, or the network has lost it.
@@ -102,11 +100,10 @@ class Files : public StoreBytes {
     return ::fstat(descriptor, &status) != 0 || status.st_nlink == 0;
   }
   /// A pack that was repaired is another file of the same name. Where there is none, the old one is read on.
-  static void open_again(const Kept& kept) {
-    const int descriptor = ::open(kept.path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::dup3(descriptor, kept.descriptor, O_CLOEXEC);  // whoever reads from the old one just now is not disturbed
-    ::close(descriptor);
+  void open_again(const std::string& file, int kept) const {
+    const Descriptor opened = open_file(folder_, file, O_RDONLY);
+    if (!opened.is_open()) return;
+    ::dup3(opened.number(), kept, O_CLOEXEC);  // whoever reads from the old one just now is not disturbed
   }
 
   static const char* fill(int descriptor, std::uint64_t offset, std::span<std::byte> out) {
@@ -124,8 +121,8 @@ class Files : public StoreBytes {
   fs::path folder_;
   std::size_t most_open_ = 512;
   std::mutex mutex_;
-  std::unordered_map<std::string, Kept> open_;
-  int held_ = -1;  ///< the manifest
+  std::unordered_map<std::string, int> open_;
+  Descriptor held_;  ///< the manifest
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 void make_folders(const fs::path& store) {
   for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {
-    make_folder(store / name);
+    make_folder_in(store, name);
   }
 }
 
@@ -79,8 +79,7 @@ std::string mend_or_remove_root(const fs::path& store) {
   if (mending.wrong.empty()) return "";
   std::string sentence = fmt::format("{} was damaged: {}; ", store.string(), mending.wrong);
   if (mending.mended) return sentence + "a copy of its manifest was whole, and what that names is kept";
-  std::error_code error;
-  fs::remove(store / current_file, error);
+  remove_file(store, current_file);
   return sentence + "no copy of its manifest was whole, so all of it is built again";
 }
 
@@ -200,7 +199,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 
 void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   Work work(options);
-  const Plan plan = read_plan(work.store);
+  const Plan plan = read_plan(work.store, options.memory);
   describe(plan, report);
   const std::vector<std::size_t> numbers = plan.to_build();
   if (i >= numbers.size()) {
@@ -218,7 +217,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
                             error ? error.message() : ""));
   }
   const auto lock = locked(work.store, options.progress);
-  const Plan plan = read_plan(work.store);
+  const Plan plan = read_plan(work.store, options.memory);
   describe(plan, report);
   merge_locked(work, plan, report);
 }
@@ -255,9 +254,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   Work work(as_built);
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {
-    std::error_code error;
-    if (!fs::exists(work.store / file, error) ||
-        sha256_of_file(work.store / file, [&](std::uint64_t) { work.tick(); }) != hash) {
+    if (!size_of(work.store, file) || sha256_of_file(work.store, file, [&](std::uint64_t) { work.tick(); }) != hash) {
       damaged.insert(hash);
     }
   };

@@ -4,6 +4,8 @@
 #include <bit>
 #include <span>
 
+#include "roam/error.h"
+
 namespace roam::store {
 namespace {
 
@@ -55,6 +57,7 @@ class Divider {
     std::vector<PartCell> finer;
     if (bit < widest) {
       finer = refined(cells, widest);
+      if (finer.empty()) throw Error("the runs of a part do not hold what was counted; remove the folder scratch");
       cells = finer;
     }
     const CurveKey prefix = cells.front().key >> (bit + 1) << (bit + 1);

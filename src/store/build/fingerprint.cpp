@@ -11,9 +11,12 @@
 #include <cstring>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "roam/error.h"
+#include "store/build/layout.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
@@ -24,7 +27,8 @@ using Json = nlohmann::ordered_json;
 /// Nanoseconds. A file that is changed twice within what the file system's clock can tell apart (2 s on FAT) has the
 /// same time, but not the same content.
 constexpr std::int64_t kClockSteps = 3'000'000'000;
-constexpr std::uint64_t kSourcesLimit = 1u << 30;
+/// Of what is remembered of files: some 100,000 of them. More is forgotten.
+constexpr std::uint64_t kSourcesMemory = 128u << 20;
 
 std::uint64_t hash_of_file(const fs::path& file, const std::function<void()>& tick) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -83,12 +87,17 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
-Sources::Sources(fs::path file) : file_(std::move(file)) {
-  std::error_code error;
-  if (!fs::exists(file_, error)) return;
-  const std::vector<std::byte> bytes = read_file(file_, kSourcesLimit);
-  const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
-                                reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
+Sources::Sources(fs::path store) : store_(std::move(store)) {
+  if (!size_of(store_, sources_file)) return;
+  if (*size_of(store_, sources_file) > kSourcesMemory / 4) return;
+  const std::vector<std::byte> bytes = read_file(store_, sources_file, kSourcesMemory / 4);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  try {
+    check_json(text, sources_file, kSourcesMemory);
+  } catch (const Error&) {
+    return;
+  }
+  const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, item] : json.items()) {
     if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
@@ -163,7 +172,7 @@ void Sources::save() const {
   Json json = Json::object();
   for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
   // A path that is no UTF-8 is not found again, and its file read again.
-  write_file(file_, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace roam::store

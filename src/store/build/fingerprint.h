@@ -23,8 +23,8 @@ void read_as(const std::string& text, ImportOptions& options);
 /// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same.
 class Sources {
  public:
-  /// `file`: where it is remembered. What is damaged there is forgotten.
-  explicit Sources(std::filesystem::path file);
+  /// It is remembered in the folder of a store. What is damaged there is forgotten.
+  explicit Sources(std::filesystem::path store);
 
   /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw.
   void look(const std::vector<ScenePart>& parts, const std::function<void()>& tick);
@@ -44,7 +44,7 @@ class Sources {
   };
   static Seen status(const std::filesystem::path& file);
 
-  std::filesystem::path file_;
+  std::filesystem::path store_;
   std::map<std::string, Seen> known_, seen_;
 };
 

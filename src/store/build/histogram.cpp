@@ -7,7 +7,7 @@
 namespace roam::store {
 namespace {
 
-constexpr std::size_t kMostCells = 1u << 18;
+constexpr std::size_t kMostCells = most_cells;
 constexpr std::size_t kFewCells = 256;
 /// Plans of scenes of 10^10 triangles must fit the memory of a small machine: some 100 MB of cells.
 constexpr std::uint64_t kTrianglesPerCell = 2048;

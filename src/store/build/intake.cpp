@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "store/build/histogram.h"
 #include "store/build/layout.h"
 #include "store/build/run.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
@@ -18,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kRecordLimit = 1u << 30;
+/// Bytes. A record has a line for each half a million triangles.
+constexpr std::uint64_t record_memory = 64u << 20;
 
 /// Takes the pieces of a part and writes runs; sorts one while the next one fills, where memory allows.
 class Intake {
@@ -73,7 +76,7 @@ class Intake {
   void sort() {
     work_.arena.execute([&] {
       const std::vector<RunItem> items = sort_run(full_);
-      write_run(run_file(work_.store, id_, runs_.size()), full_, items);
+      write_run(work_.store, run_file(id_, runs_.size()), full_, items);
       runs_.push_back({items.front().key, items.back().key});
       histogram_.add(items);
     });
@@ -141,23 +144,24 @@ CurveKey parse_key(const std::string& text) {
 
 std::string record_id(const std::string& name, const std::string& fingerprint) {
   const std::string text = name + "\n" + fingerprint;
-  return sha256(std::as_bytes(std::span(text))).substr(0, 24);
+  return sha256(std::as_bytes(std::span(text))).substr(0, record_digits);
 }
 
 std::optional<PartRecord> find_record(const fs::path& store, const std::string& id) {
-  const fs::path file = record_file(store, id);
-  std::error_code error;
-  if (!fs::exists(file, error)) return {};
-  const std::vector<std::byte> bytes = read_file(file, kRecordLimit);
+  const std::string file = record_file(id);
+  if (!size_of(store, file)) return {};
+  const std::vector<std::byte> bytes = read_file(store, file, record_memory);
   PartRecord record;
   record.id = id;
   try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(text, text + bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check_json(text, file, record_memory);
+    const Json json = Json::parse(text);
     if (json.at("scratch_version").get<int>() != scratch_version) return {};
     record.info.name = json.at("name").get<std::string>();
     record.info.fingerprint = json.at("fingerprint").get<std::string>();
     record.info.file = json.at("file").get<std::string>();
+    if (!is_digits(record.info.file, 64)) return {};
     record.info.bytes = json.at("bytes").get<std::uint64_t>();
     record.info.triangles = json.at("triangles").get<std::uint64_t>();
     record.info.objects = json.at("objects").get<std::uint64_t>();
@@ -169,9 +173,9 @@ std::optional<PartRecord> find_record(const fs::path& store, const std::string& 
     return {};  // it is read again
   }
   for (std::size_t i = 0; i < record.runs.size(); ++i) {
-    if (!fs::exists(run_file(store, id, i), error)) return {};
+    if (!size_of(store, run_file(id, i))) return {};
   }
-  if (fs::file_size(store / part_file(record.info.file), error) != record.info.bytes || error) return {};
+  if (size_of(store, part_file(record.info.file)) != record.info.bytes) return {};
   record.has_runs = true;
   return record;
 }
@@ -202,13 +206,13 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   record.has_runs = true;
   for (const std::string& note : report.notes) record.notes.push_back(valid(note_of(part, note)));
   const std::vector<std::byte> bytes = encode_part(file);
-  NewFile out(work.store / part_file("new"));
+  NewFile out(work.store, part_file("new"));
   out.write(bytes);
   record.info.file = out.commit_by_hash();
   record.info.bytes = bytes.size();
   record.info.triangles = file.triangles;
   record.info.objects = file.objects.size();
-  write_file(record_file(work.store, record.id), to_text(record));
+  write_file(work.store, record_file(record.id), to_text(record));
   work.add_bytes(std::max(told, part.bytes) - told);
   work.tick();
   return record;

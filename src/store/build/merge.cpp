@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstring>
 #include <map>
 #include <mutex>
 
@@ -35,9 +37,7 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   for (std::size_t i = 0; i < plan.shards.size(); ++i) {
     if (!plan.shards[i].there) continue;
     const auto old = before.find(plan.shards[i].key);
-    std::error_code error;
-    if (old == before.end() || fs::file_size(work.store / pack_file(old->second.pack), error) != old->second.bytes ||
-        error) {
+    if (old == before.end() || size_of(work.store, pack_file(old->second.pack)) != old->second.bytes) {
       throw Error(fmt::format("{} has been changed since the plan was made; plan again", work.store.string()));
     }
     shards[i] = old->second;
@@ -48,10 +48,9 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
       const auto shard = built_shard(work.store, planned.key);
       if (!shard) {
         wrong[b] = "missing";
-      } else if (sha256_of_file(work.store / pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) !=
+      } else if (sha256_of_file(work.store, pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) !=
                  shard->pack) {
-        std::error_code error;
-        fs::remove(shard_file(work.store, planned.key), error);
+        remove_file(work.store, shard_file(planned.key));
         wrong[b] = "damaged";
       } else {
         shards[built[b]] = *shard;
@@ -75,15 +74,28 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
 
 /// Removes a manifest unless a process reads the store by it, which then holds a shared lock on it. It is removed while
 /// it is locked here: who waits for the lock finds it gone, and looks at CURRENT again. Returns whether it was removed.
-bool remove_unless_read(const fs::path& manifest) {
+bool remove_unless_read(const fs::path& store, const std::string& manifest) {
   // Network file systems lock against readers only what may be written.
-  const int descriptor = ::open(manifest.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool read = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  std::error_code error;
-  const bool removed = !read && fs::remove(manifest, error);
-  ::close(descriptor);
-  return removed;
+  const Descriptor opened = open_file(store, manifest, O_RDWR);
+  if (!opened.is_open()) return false;
+  const bool read = ::flock(opened.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  return !read && remove_file(store, manifest);
+}
+
+/// Whether a build puts a file of this name into the scratch folder.
+bool is_scratch(std::string_view file) {
+  if (file == plan_file) return true;
+  const auto is = [&](std::string_view start, std::string_view extension, std::size_t digits) {
+    if (!file.starts_with(start) || !file.ends_with(extension)) return false;
+    return is_digits(file.substr(start.size(), file.size() - start.size() - extension.size()), digits);
+  };
+  if (is("scratch/parts/", ".json", record_digits) || is("scratch/shards/", ".json", 64)) return true;
+  constexpr std::string_view runs = "scratch/runs/";
+  if (!file.starts_with(runs) || !file.ends_with(".run")) return false;
+  file = file.substr(runs.size(), file.size() - runs.size() - 4);
+  const std::size_t dot = std::min(file.find('.'), file.size());
+  return is_digits(file.substr(0, dot), record_digits) && dot + 1 < file.size() &&
+         file.substr(dot + 1).find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 void keep(const Manifest& manifest, std::set<std::string>& files) {
@@ -98,34 +110,43 @@ std::string tidy(const fs::path& store) {
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
   std::set<std::string> needed;
   keep(manifest, needed);
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(store / "manifests", error)) {
-    if (entry.path() == store / manifest_file(hash) || remove_unless_read(entry.path())) continue;
-    const std::string name = "manifests/" + entry.path().filename().string();
-    const std::vector<std::byte> bytes = read_file(entry.path(), 1ull << 30);
-    keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name), needed);
+  for (const std::string& file : files_in(store, "manifests")) {
+    if (is_temporary(file, [](auto name) { return name == manifest_file("new"); })) remove_file(store, file);
+    if (!is_named_by_hash(file, ".json") || file == manifest_file(hash) || remove_unless_read(store, file)) continue;
+    const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
+    keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file), needed);
   }
   needed.insert(spare_file(keep_spare(store, manifest)));
-  for (const char* folder : {"packs", "parts", "spare"}) {
-    for (const auto& entry : fs::directory_iterator(store / folder, error)) {
-      const std::string name = std::string(folder) + "/" + entry.path().filename().string();
-      if (!needed.contains(name)) fs::remove(entry.path(), error);
+  constexpr std::array<std::pair<const char*, const char*>, 3> kinds{
+      {{"packs", ".pack"}, {"parts", ".part"}, {"spare", ".json"}}};
+  for (const auto& [folder, extension] : kinds) {
+    const std::string unnamed = std::string(folder) + "/new" + extension;
+    const auto is_final = [&, end = extension](std::string_view name) {
+      return is_named_by_hash(name, end) || name == unnamed;
+    };
+    for (const std::string& file : files_in(store, folder)) {
+      const bool ours = is_named_by_hash(file, extension) || is_temporary(file, is_final);
+      if (ours && !needed.contains(file)) remove_file(store, file);
     }
   }
-  for (const auto& entry : fs::directory_iterator(store, error)) {
-    if (entry.path().filename().string().ends_with(temporary_suffix)) fs::remove(entry.path(), error);
+  for (const std::string& file : files_in(store, "")) {
+    if (is_temporary_of_root(file)) remove_file(store, file);
   }
   return remove_scratch(store);
 }
 
 std::string remove_scratch(const fs::path& store) {
-  std::error_code error;
   // The plan first: without it nothing of the rest is taken for a build in progress.
-  fs::remove(plan_file(store), error);
-  fs::remove_all(scratch_folder(store), error);
-  if (!error) return "";
+  remove_file(store, plan_file);
+  for (const char* folder : {"scratch", "scratch/parts", "scratch/runs", "scratch/shards"}) {
+    for (const std::string& file : files_in(store, folder)) {
+      if (is_scratch(file) || is_temporary(file, is_scratch)) remove_file(store, file);
+    }
+    if (std::string(folder) != scratch_folder) remove_folder(store, folder);
+  }
+  if (remove_folder(store, scratch_folder) || errno == ENOENT) return "";
   return fmt::format("{} could not be removed ({}): nothing needs it; remove it, or the next build tries again",
-                     scratch_folder(store).string(), error.message());
+                     (store / scratch_folder).string(), std::strerror(errno));
 }
 
 std::string merge(Work& work, const Plan& plan) {

@@ -16,19 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* lock_name = "LOCK";
-
 /// Whether a build puts something of this name into the folder of a store.
 bool is_ours(const std::string& name) {
-  static const std::set<std::string> ours{current_file, lock_name, "manifests",    "packs",
-                                          "parts",      "scratch", "sources.json", "spare"};
-  return ours.contains(name) || name.ends_with(temporary_suffix);
+  static const std::set<std::string> ours{current_file, lock_file, "manifests",  "packs",
+                                          "parts",      "scratch", sources_file, "spare"};
+  return ours.contains(name) || is_temporary_of_root(name);
 }
 
 /// Whether there is anything that read_part, build_shard or merge has finished.
 bool holds_results(const fs::path& store) {
   std::error_code error;
-  if (fs::exists(fs::symlink_status(store / current_file, error)) || fs::exists(plan_file(store), error)) return true;
+  if (fs::exists(fs::symlink_status(store / current_file, error)) || fs::exists(store / plan_file, error)) return true;
   for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
     for (const auto& entry : fs::directory_iterator(store / folder, error)) {
       if (!entry.path().filename().string().ends_with(temporary_suffix)) return true;
@@ -73,7 +71,7 @@ OutputFolder::OutputFolder(fs::path store, const BuildProgress& progress) : stor
     made_.insert(path);
     path = path.parent_path();
   }
-  const bool had_lock = fs::exists(store_ / lock_name, error);
+  const bool had_lock = fs::exists(store_ / lock_file, error);
   try {
     make_folder(store_);
     lock_ = locked(store_, progress);
@@ -82,7 +80,7 @@ OutputFolder::OutputFolder(fs::path store, const BuildProgress& progress) : stor
     throw;
   }
   for (const auto& entry : fs::directory_iterator(store_, error)) there_.insert(entry.path().filename().string());
-  if (!had_lock) there_.erase(lock_name);
+  if (!had_lock) there_.erase(lock_file);
 }
 
 OutputFolder::~OutputFolder() {

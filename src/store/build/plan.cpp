@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "roam/error.h"
 #include "store/build/layout.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
@@ -16,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kPlanLimit = 1u << 30;
 /// What a shard's tiles depend on beside its triangles: goes up with every change of what the builder makes of them.
 constexpr int kBuilderVersion = 1;
 
@@ -50,6 +51,9 @@ PartRecord record_of(const Json& json) {
   record.info.triangles = json.at("triangles").get<std::uint64_t>();
   record.info.objects = json.at("objects").get<std::uint64_t>();
   record.id = json.at("id").get<std::string>();
+  if (!is_digits(record.info.file, 64) || !is_digits(record.id, record_digits)) {
+    throw std::runtime_error("the name of a file is not what it should be");
+  }
   for (const Json& run : json.at("runs")) {
     record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
   }
@@ -95,19 +99,18 @@ void write_plan(const fs::path& store, const Plan& plan) {
                      {"lossless", plan.lossless},
                      {"parts", std::move(parts)},
                      {"shards", std::move(shards)}};
-  write_file(plan_file(store), json.dump(1) + "\n");
+  write_file(store, plan_file, json.dump(1) + "\n");
 }
 
-Plan read_plan(const fs::path& store) {
-  const fs::path file = plan_file(store);
-  std::error_code error;
-  if (!fs::exists(file, error)) {
+Plan read_plan(const fs::path& store, std::uint64_t memory) {
+  if (!size_of(store, plan_file)) {
     throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
   }
-  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
+  const std::vector<std::byte> bytes = read_file(store, plan_file, memory / 4);
   try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(text, text + bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check_json(text, plan_file, memory / 2);
+    const Json json = Json::parse(text);
     if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
     Plan plan;
     plan.options = json.at("options").get<std::string>();
@@ -123,6 +126,7 @@ Plan read_plan(const fs::path& store) {
       shard.stretch.parts = item.at("parts").get<std::vector<std::uint32_t>>();
       shard.key = item.at("key").get<std::string>();
       shard.there = item.at("there").get<bool>();
+      if (shard.stretch.triangles > ShardLimits{}.shard) throw std::runtime_error("a shard is too large");
       for (const std::uint32_t p : shard.stretch.parts) {
         if (p >= plan.parts.size()) throw std::runtime_error("a part is out of range");
       }
@@ -131,7 +135,7 @@ Plan read_plan(const fs::path& store) {
     }
     return plan;
   } catch (const std::exception& e) {
-    throw Error(fmt::format("{} cannot be used ({}); plan again", file.string(), e.what()));
+    throw Error(fmt::format("{} cannot be used ({}); plan again", (store / plan_file).string(), e.what()));
   }
 }
 
@@ -152,12 +156,12 @@ std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
 }
 
 std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
-  const fs::path file = shard_file(store, key);
-  std::error_code error;
-  if (!fs::exists(file, error)) return {};
-  const std::vector<std::byte> bytes = read_file(file, kPlanLimit);
-  ShardInfo shard = parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file.string());
-  if (shard.key != key || fs::file_size(store / pack_file(shard.pack), error) != shard.bytes || error) return {};
+  const std::string file = shard_file(key);
+  if (!size_of(store, file)) return {};
+  const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
+  ShardInfo shard =
+      parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), (store / file).string());
+  if (shard.key != key || size_of(store, pack_file(shard.pack)) != shard.bytes) return {};
   return shard;
 }
 

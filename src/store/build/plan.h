@@ -33,8 +33,9 @@ struct Plan {
 /// scene is read, and of which stretch of which parts.
 [[nodiscard]] std::string key_of(const Stretch& stretch, const Plan& plan);
 
-/// The plan in the scratch folder. Throws roam::Error when there is none that can be used.
-[[nodiscard]] Plan read_plan(const std::filesystem::path& store);
+/// The plan in the scratch folder. Throws roam::Error when there is none that can be used, or it takes more than half
+/// of the memory.
+[[nodiscard]] Plan read_plan(const std::filesystem::path& store, std::uint64_t memory);
 void write_plan(const std::filesystem::path& store, const Plan& plan);
 
 /// The manifest in force, if there is a store.

@@ -1,5 +1,7 @@
 // The first step of a build: what has changed is read, and the shards are decided.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kPartFileLimit = 1ull << 32;
-
 fs::path whole_path(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::weakly_canonical(path, error);
@@ -38,7 +38,7 @@ bool is_inside(const fs::path& inner, const fs::path& outer) {
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
-      : work_(work), damaged_(damaged), report_(report), sources_(sources_file(work.store)) {}
+      : work_(work), damaged_(damaged), report_(report), sources_(work.store) {}
 
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
@@ -97,14 +97,10 @@ class Planner {
   }
 
   [[nodiscard]] bool is_there(const PartInfo& info) const {
-    std::error_code error;
-    return !damaged_.contains(info.file) && fs::file_size(work_.store / part_file(info.file), error) == info.bytes &&
-           !error;
+    return !damaged_.contains(info.file) && size_of(work_.store, part_file(info.file)) == info.bytes;
   }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {
-    std::error_code error;
-    return !damaged_.contains(shard.pack) && fs::file_size(work_.store / pack_file(shard.pack), error) == shard.bytes &&
-           !error;
+    return !damaged_.contains(shard.pack) && size_of(work_.store, pack_file(shard.pack)) == shard.bytes;
   }
 
   [[nodiscard]] bool unchanged() const {
@@ -175,12 +171,35 @@ class Planner {
   void lay_out() {
     missing_.clear();
     std::vector<PartCell> cells;
+    std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
       const std::string file = part_file(plan_.parts[i].info.file);
-      const PartFile part = decode_part(read_file(work_.store / file, kPartFileLimit), file);
-      for (const Cell& cell : part.cells) {
-        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), part.cell_bits});
-      }
+      int bits = 0;
+      PartVisitor visitor;
+      visitor.counts = [&](const PartCounts& counts) {
+        bits = counts.cell_bits;
+        if (counts.triangles > most_triangles - triangles) {
+          throw Error(fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
+                                  (work_.store / file).string()));
+        }
+        triangles += counts.triangles;
+        if (counts.cells > most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) {
+          throw Error(fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
+                                  work_.store.string()));
+        }
+      };
+      visitor.cell = [&](const Cell& cell) {
+        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), bits});
+      };
+      const Descriptor opened = open_file(work_.store, file, O_RDONLY);
+      if (!opened.is_open()) fail("read", work_.store, file, errno);
+      visit_part(
+          [&](std::span<std::byte> out) {
+            const ssize_t got = again([&] { return ::read(opened.number(), out.data(), out.size()); });
+            if (got < 0) fail("read", work_.store, file, errno);
+            return static_cast<std::size_t>(got);
+          },
+          file, visitor);
       work_.tick();
     }
     if (cells.empty()) {
@@ -206,12 +225,18 @@ class Planner {
     }
   }
 
+  /// Of a scene. Some 100,000 shards.
+  static constexpr std::uint64_t most_triangles = 1ull << 38;
+  /// Half of the memory, in a list that grows.
+  [[nodiscard]] std::size_t most_cells_of_plan() const {
+    return static_cast<std::size_t>(work_.options.memory / (6 * sizeof(PartCell)));
+  }
+
   /// Of a scene of which nothing can be made, nothing is kept.
   void remove_results() const {
     if (in_force_) return;
     remove_scratch(work_.store);
-    std::error_code error;
-    for (const PartRecord& part : plan_.parts) fs::remove(work_.store / part_file(part.info.file), error);
+    for (const PartRecord& part : plan_.parts) remove_file(work_.store, part_file(part.info.file));
   }
 
   /// See Refine. Counts in the runs of the part; a part without runs is noted down and counted as if in one place.
@@ -225,7 +250,7 @@ class Planner {
     RunBlock block;
     for (std::size_t r = 0; r < record.runs.size(); ++r) {
       if (record.runs[r].last < cell.key || cell.last() < record.runs[r].first) continue;
-      const RunReader run(run_file(work_.store, record.id, r));
+      const RunReader run(work_.store, run_file(record.id, r));
       const RunReader::Range range = run.blocks(cell.key, cell.last());
       for (std::size_t b = range.begin; b < range.end; ++b) {
         run.read(b, block);

@@ -13,21 +13,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kManifestLimit = 1u << 30;
-
 /// Manifests that are what they were when they were written, the newest first.
-std::vector<fs::path> whole_manifests(const fs::path& store) {
-  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+std::vector<std::string> whole_manifests(const fs::path& store) {
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
   for (const char* folder : {"manifests", "spare"}) {
-    for (const auto& entry : fs::directory_iterator(store / folder, error)) {
-      if (!entry.is_regular_file(error) || entry.path().extension() != ".json") continue;
-      if (sha256_of_file(entry.path()) != entry.path().stem().string()) continue;
-      found.emplace_back(entry.last_write_time(error), entry.path());
+    for (std::string& file : files_in(store, folder)) {
+      if (!is_named_by_hash(file, ".json") || sha256_of_file(store, file) != fs::path(file).stem().string()) continue;
+      found.emplace_back(fs::last_write_time(store / file, error), std::move(file));
     }
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<fs::path> files;
+  std::vector<std::string> files;
   for (auto& [time, file] : found) files.push_back(std::move(file));
   return files;
 }
@@ -59,11 +56,10 @@ std::string wrong_with_root(const fs::path& store) {
 std::string keep_spare(const fs::path& store, const Manifest& manifest) {
   const std::string text = to_text(manifest);
   const std::string hash = sha256(std::as_bytes(std::span(text)));
-  const fs::path file = store / spare_file(hash);
-  std::error_code error;
-  if (!fs::exists(file, error) || sha256_of_file(file) != hash) {
-    make_folder(store / "spare");
-    write_file(file, text);
+  const std::string file = spare_file(hash);
+  if (!size_of(store, file) || sha256_of_file(store, file) != hash) {
+    make_folder_in(store, "spare");
+    write_file(store, file, text);
   }
   return hash;
 }
@@ -77,11 +73,11 @@ RootMending mend_root(const fs::path& store) {
     throw Error(
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
-  for (const fs::path& copy : whole_manifests(store)) {
-    const std::vector<std::byte> bytes = read_file(copy, kManifestLimit);
+  for (const std::string& copy : whole_manifests(store)) {
+    const std::vector<std::byte> bytes = read_file(store, copy, Store::usual_memory);
     std::optional<Manifest> manifest;
     try {
-      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, copy.string());
+      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string());
     } catch (const NewerFormat&) {
       throw;
     } catch (const Error&) {

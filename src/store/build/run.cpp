@@ -29,6 +29,13 @@ struct BlockHeader {
 };
 static_assert(sizeof(BlockHeader) == 8);
 
+std::size_t block_bytes(const BlockHeader& header) {
+  const std::size_t vertex = 3 * (header.floats != 0 ? sizeof(float) : sizeof(double));
+  return sizeof header + header.vertices * vertex + header.triangles * std::size_t{3 * 2 + 4};
+}
+/// Of a block of triangles that share no vertex.
+constexpr std::size_t most_block_bytes = sizeof(BlockHeader) + block_triangles * std::size_t{3 * 24 + 3 * 2 + 4};
+
 bool all_floats(std::span<const Vec3> vertices) {
   for (const Vec3& v : vertices) {
     for (int k = 0; k < 3; ++k) {
@@ -82,8 +89,7 @@ std::vector<std::byte> encode_block(const RunContent& run, std::span<const RunIt
   const bool floats = all_floats(local.vertices);
   const BlockHeader header{static_cast<std::uint32_t>(items.size()),
                            static_cast<std::uint32_t>(local.vertices.size()) & 0x7fffffffU, floats};
-  std::vector<std::byte> bytes(sizeof header + local.vertices.size() * 3 * (floats ? 4 : 8) + corners.size() * 2 +
-                               numbers.size() * 4);
+  std::vector<std::byte> bytes(block_bytes(header));
   std::byte* at = bytes.data();
   const auto put = [&at](const void* from, std::size_t size) {
     std::memcpy(at, from, size);
@@ -127,8 +133,9 @@ std::vector<RunItem> sort_run(const RunContent& run) {
   return items;
 }
 
-void write_run(const std::filesystem::path& file, const RunContent& run, std::span<const RunItem> items) {
-  NewFile out(file);
+void write_run(const std::filesystem::path& store, const std::string& name, const RunContent& run,
+               std::span<const RunItem> items) {
+  NewFile out(store, name);
   const std::size_t blocks = (items.size() + block_triangles - 1) / block_triangles;
   std::vector<RunReader::Entry> index(blocks);
   std::vector<std::vector<std::byte>> encoded(kBlocksAtOnce);
@@ -159,33 +166,32 @@ void write_run(const std::filesystem::path& file, const RunContent& run, std::sp
   out.commit();
 }
 
-RunReader::RunReader(const std::filesystem::path& file) : file_(file) {
-  descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) refuse(std::strerror(errno));
-  try {
-    struct stat status {};
-    Footer footer{};
-    if (::fstat(descriptor_, &status) != 0) refuse(std::strerror(errno));
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size < sizeof footer) refuse("it is too short");
-    get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
-    if (std::memcmp(footer.magic, kMagic, sizeof kMagic) != 0 ||
-        footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
-        footer.blocks > size / sizeof(Entry)) {
-      refuse("its end is damaged");
-    }
-    first_number_ = footer.first_number;
-    index_.resize(static_cast<std::size_t>(footer.blocks));
-    const auto bytes = std::as_writable_bytes(std::span(index_));
-    get(footer.index_offset, bytes);
-    if (xxh3(bytes) != footer.index_hash) refuse("its index is damaged");
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
+RunReader::RunReader(const std::filesystem::path& store, const std::string& name)
+    : file_(store / name), descriptor_(open_file(store, name, O_RDONLY)) {
+  if (!descriptor_.is_open()) {
+    if (is_foreign(errno)) fail("read", store, name, errno);
+    refuse(std::strerror(errno));
+  }
+  struct stat status {};
+  Footer footer{};
+  if (::fstat(descriptor_.number(), &status) != 0) refuse(std::strerror(errno));
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size < sizeof footer) refuse("it is too short");
+  get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
+  if (std::memcmp(footer.magic, kMagic, sizeof kMagic) != 0 ||
+      footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
+      footer.blocks > size / sizeof(Entry)) {
+    refuse("its end is damaged");
+  }
+  first_number_ = footer.first_number;
+  index_.resize(static_cast<std::size_t>(footer.blocks));
+  const auto bytes = std::as_writable_bytes(std::span(index_));
+  get(footer.index_offset, bytes);
+  if (xxh3(bytes) != footer.index_hash) refuse("its index is damaged");
+  for (const Entry& entry : index_) {
+    if (entry.bytes > most_block_bytes) refuse("its index is damaged");
   }
 }
-
-RunReader::~RunReader() { ::close(descriptor_); }
 
 RunReader::Range RunReader::blocks(CurveKey first, CurveKey last) const {
   // A block that begins at or before `first` may reach beyond it; several may begin at `first`.
@@ -208,7 +214,12 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
     at += size;
   };
   BlockHeader header{};
+  if (out.bytes.size() < sizeof header) refuse("a block of it is damaged");
   take(&header, sizeof header);
+  if (header.triangles > block_triangles || header.vertices > 3 * block_triangles ||
+      out.bytes.size() != block_bytes(header)) {
+    refuse("a block of it is damaged");
+  }
   out.vertices.resize(header.vertices);
   for (Vec3& v : out.vertices) {
     if (header.floats != 0) {
@@ -225,7 +236,10 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
   for (Triangle& t : out.triangles) {
     std::uint16_t corners[3];
     take(corners, sizeof corners);
-    for (int c = 0; c < 3; ++c) t[c] = out.vertices[corners[c]];
+    for (int c = 0; c < 3; ++c) {
+      if (corners[c] >= out.vertices.size()) refuse("a block of it is damaged");
+      t[c] = out.vertices[corners[c]];
+    }
   }
   out.numbers.resize(header.triangles);
   for (std::uint64_t& n : out.numbers) {
@@ -237,7 +251,7 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
 
 void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
   while (!out.empty()) {
-    const ssize_t got = ::pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
+    const ssize_t got = ::pread(descriptor_.number(), out.data(), out.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) refuse(std::strerror(errno));
     if (got == 0) refuse("it is too short");

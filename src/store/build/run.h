@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "roam/mesh.h"
+#include "store/folder.h"
 #include "store/part.h"
 
 namespace roam::store {
@@ -41,8 +42,9 @@ struct RunItem {
 /// By key, then in the order in which they came. On all threads of the arena that it is called in.
 [[nodiscard]] std::vector<RunItem> sort_run(const RunContent& run);
 
-/// Publishes the file. `items`: of sort_run.
-void write_run(const std::filesystem::path& file, const RunContent& run, std::span<const RunItem> items);
+/// Publishes the file of a store. `items`: of sort_run.
+void write_run(const std::filesystem::path& store, const std::string& name, const RunContent& run,
+               std::span<const RunItem> items);
 
 /// Triangles of a block, and their numbers in the part.
 struct RunBlock {
@@ -56,10 +58,7 @@ struct RunBlock {
 /// written, with what to do.
 class RunReader {
  public:
-  explicit RunReader(const std::filesystem::path& file);
-  ~RunReader();
-  RunReader(const RunReader&) = delete;
-  RunReader& operator=(const RunReader&) = delete;
+  RunReader(const std::filesystem::path& store, const std::string& name);
 
   struct Range {
     std::size_t begin = 0, end = 0;
@@ -78,13 +77,13 @@ class RunReader {
   };
   static_assert(sizeof(Entry) == 48);
   struct Footer;
-  friend void write_run(const std::filesystem::path&, const RunContent&, std::span<const RunItem>);
+  friend void write_run(const std::filesystem::path&, const std::string&, const RunContent&, std::span<const RunItem>);
 
   void get(std::uint64_t offset, std::span<std::byte> out) const;
   [[noreturn]] void refuse(const char* why) const;
 
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   std::uint64_t first_number_ = 0;
   std::vector<Entry> index_;
 };

@@ -217,7 +217,7 @@ std::function<void()> make_shard(Work& work, const Plan& plan, const PlannedShar
   work.add_written(info.bytes);
   return [pack, info, store = work.store]() mutable {
     info.pack = pack->commit();
-    write_file(shard_file(store, info.key), to_text(info));
+    write_file(store, shard_file(info.key), to_text(info));
   };
 }
 

@@ -40,7 +40,7 @@ class Blocks {
   template <class F>
   void for_each_run(F&& f) const {
     tbb::parallel_for(std::size_t{0}, runs_.size(), [&](std::size_t i) {
-      const RunReader run(run_file(work_.store, plan_.parts[runs_[i].part].id, runs_[i].run));
+      const RunReader run(work_.store, run_file(plan_.parts[runs_[i].part].id, runs_[i].run));
       f(i, run, run.blocks(first_, last_));
     });
   }

@@ -59,7 +59,7 @@ std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::
     if (!read_number(coded, 28, *n)) refuse();
   }
   // No tile's numbers take more; so nobody makes this allocate without measure.
-  const std::uint64_t most = 64 * (std::uint64_t{triangles} + 1);
+  const std::uint64_t most = most_number_bytes(triangles);
   const std::uint64_t size = part_bytes + triangles + jump_bytes + bit_bytes;
   if (size > most || part_bytes % kPartBytes != 0 || !is_one_frame(coded)) refuse();
   std::vector<std::byte> raw(size + 2 * sizeof(std::uint64_t));  // bits are read in words

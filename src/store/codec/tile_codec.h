@@ -68,6 +68,10 @@ struct SourceNumber {
 
 /// The source numbers of a tile's triangles, in the order of the tile, as bytes; and back. decode throws roam::Error
 /// for bytes that are not those of `triangles` numbers.
+/// Bytes: no tile's numbers take more, packed or not.
+[[nodiscard]] constexpr std::uint64_t most_number_bytes(std::uint32_t triangles) {
+  return 64 * (std::uint64_t{triangles} + 1);
+}
 [[nodiscard]] std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers);
 [[nodiscard]] std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::uint32_t triangles);
 

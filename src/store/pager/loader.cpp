@@ -26,6 +26,8 @@ const char* check_solid(const store::PageView& view, const Box& page) {
   return nullptr;
 }
 
+constexpr const char* unnamed_reason = "whatever reads it has failed";
+
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 }  // namespace
@@ -39,6 +41,7 @@ Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& 
                  Names& names, int count)
     : store_(std::move(store)), arena_(arena), handover_(handover), names_(names), planner_(planner) {
   for (int i = 0; i < count; ++i) tools_.push_back(std::make_unique<Tools>());
+  threads_.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     try {
       threads_.emplace_back([this, i] { run(i); });
@@ -46,6 +49,9 @@ Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& 
       end();
       throw Error(fmt::format("cannot start loading thread {} of {}: {}; give the pager fewer, or end other programs",
                               i + 1, count, error.what()));
+    } catch (...) {
+      end();
+      throw;
     }
   }
 }
@@ -87,10 +93,29 @@ void Loaders::run(int number) {
   }
 }
 
-Outcome Loaders::load(const Work& work, Tools& tools) const {
+Outcome Loaders::load(const Work& work, Tools& tools) noexcept {
   Outcome outcome;
-  outcome.why = work.thing.is_page() ? load_page(work, outcome) : load_tile(work, tools, outcome);
+  try {
+    outcome.why = work.thing.is_page() ? load_page(work, outcome) : load_tile(work, tools, outcome);
+  } catch (const std::bad_alloc&) {
+    outcome.why = "there is no memory left to read it";
+  } catch (const std::exception& error) {
+    outcome.why = reasons_.keep(error.what());
+  } catch (...) {
+    outcome.why = unnamed_reason;
+  }
   return outcome;
+}
+
+const char* Loaders::Reasons::keep(const char* text) noexcept {
+  try {
+    const std::lock_guard lock(mutex_);
+    const auto known = texts_.find(text);
+    if (known != texts_.end()) return known->c_str();
+    return texts_.size() < most ? texts_.emplace(text).first->c_str() : unnamed_reason;
+  } catch (...) {
+    return unnamed_reason;
+  }
 }
 
 const char* Loaders::read(const Work& work, std::span<std::byte> out, Outcome& outcome) const {
@@ -150,13 +175,13 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   return nullptr;
 }
 
-/// Nothing where it cannot be found out now.
+/// Nothing where it cannot be found out now, and never an exception.
 std::optional<std::string> Loaders::name(TriangleId triangle) {
   try {
     if ((triangle & unknown_bit) == 0) return store_->source(triangle).object;
     const std::lock_guard lock(planning_);
     return planner_.reason(unknown_thing(triangle));
-  } catch (const std::exception&) {
+  } catch (...) {
     return std::nullopt;
   }
 }

@@ -6,6 +6,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -27,9 +29,21 @@ class Loaders {
 
  private:
   struct Tools;
+  /// Texts of exceptions, which live as long as the loaders: a few, because a reader may make each of its own.
+  class Reasons {
+   public:
+    [[nodiscard]] const char* keep(const char* text) noexcept;
+
+   private:
+    static constexpr std::size_t most = 64;
+    std::mutex mutex_;
+    std::set<std::string, std::less<>> texts_;
+  };
+
   void run(int number);
   void end();
-  [[nodiscard]] Outcome load(const Work& work, Tools& tools) const;
+  /// Whatever is thrown meanwhile is a failure like that of a disk.
+  [[nodiscard]] Outcome load(const Work& work, Tools& tools) noexcept;
   [[nodiscard]] const char* read(const Work& work, std::span<std::byte> out, Outcome& outcome) const;
   [[nodiscard]] const char* load_tile(const Work& work, Tools& tools, Outcome& outcome) const;
   [[nodiscard]] const char* load_page(const Work& work, Outcome& outcome) const;
@@ -40,6 +54,7 @@ class Loaders {
   std::byte* arena_;
   Handover& handover_;
   Names& names_;
+  Reasons reasons_;
   std::mutex planning_;
   Planner& planner_;  ///< under `planning_`
   std::mutex sleeping_;

@@ -57,18 +57,19 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
   for (const Store::State::Page& p : store.pages) {
     page = std::max<std::uint64_t>(page, Planner::page_bytes(p.ref.bytes, p.ref.tiles) + unit_bytes);
   }
-  const std::uint64_t least = std::max(2 * tables, tables + 4 * page + 8 * store::kTileBytes) + threads + fixed_cost;
+  const std::uint64_t least =
+      std::max(2 * tables, tables + 4 * page + 8 * store::kTileBytes) + threads + fixed_cost + store.memory;
   if (options.memory < least) {
     throw Error(
         fmt::format("{}: {} MiB of memory are not enough for its index and {} loading threads; give the pager "
                     "{} MiB",
                     store.name, options.memory >> 20, options.loaders, (least >> 20) + 1));
   }
-  const std::uint64_t rest = options.memory - threads - tables - fixed_cost;
+  const std::uint64_t rest = options.memory - threads - tables - fixed_cost - store.memory;
   Plan plan;
   plan.units = static_cast<std::uint32_t>(std::min<std::uint64_t>(rest / (unit_bytes + Units::unit_cost),
                                                                   UINT32_MAX / (unit_bytes / sizeof(index::Block))));
-  plan.memory = threads + tables + fixed_cost + plan.units * (unit_bytes + Units::unit_cost);
+  plan.memory = threads + tables + fixed_cost + store.memory + plan.units * (unit_bytes + Units::unit_cost);
   return plan;
 }
 

@@ -1,0 +1,227 @@
+#include "store/folder.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(is_a_link == ELOOP && is_a_folder == EISDIR && is_something_else == ESPIPE);
+
+/// What a person can do about it.
+const char* advice(int error, bool reading) {
+  if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "make room there or choose another output, and start again: what is complete is kept";
+    case EACCES:
+    case EPERM:
+      return "give yourself the right to write there or choose another output";
+    case EROFS:
+      return "the file system can only be read; choose another output";
+    case EIO:
+      return "the disk or the network does not work; see the system's log";
+    case EMFILE:
+    case ENFILE:
+      return "too many files are open; raise the limit (ulimit -n)";
+    default:
+      return "";
+  }
+}
+
+/// A component of a name as the system calls want it.
+class Component {
+ public:
+  explicit Component(std::string_view text) {
+    const std::size_t size = std::min(text.size(), text_.size() - 1);
+    std::memcpy(text_.data(), text.data(), size);
+    fits_ = size == text.size() && text != "..";
+  }
+  [[nodiscard]] const char* get() const { return text_.data(); }
+  [[nodiscard]] bool fits() const { return fits_; }
+
+ private:
+  std::array<char, 256> text_{};
+  bool fits_;
+};
+
+int kind(mode_t mode) {
+  if (S_ISLNK(mode)) return is_a_link;
+  return S_ISDIR(mode) ? is_a_folder : is_something_else;
+}
+
+/// What is in the place of a file or folder, where open(2) said `error`.
+int kind_at(int folder, const Component& name, int error, mode_t wanted) {
+  struct stat status {};
+  if (::fstatat(folder, name.get(), &status, AT_SYMLINK_NOFOLLOW) != 0 || (status.st_mode & S_IFMT) == wanted) {
+    return error;
+  }
+  return kind(status.st_mode);
+}
+
+Descriptor open_component(int folder, std::string_view text, int flags, mode_t wanted) {
+  const Component name(text);
+  if (!name.fits()) {
+    errno = ENAMETOOLONG;
+    return Descriptor();
+  }
+  // Without O_NONBLOCK a pipe would be waited for.
+  Descriptor opened(again(
+      [&] { return ::openat(folder, name.get(), flags | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666); }));
+  if (!opened.is_open()) {
+    errno = kind_at(folder, name, errno, wanted);
+    return opened;
+  }
+  struct stat status {};
+  int error = ::fstat(opened.number(), &status) != 0 ? errno : 0;
+  if (error == 0 && (status.st_mode & S_IFMT) != wanted) error = kind(status.st_mode);
+  if (error == 0) return opened;
+  opened = Descriptor();
+  errno = error;
+  return opened;
+}
+
+/// The first part of the name that is a link, or the name.
+fs::path in_the_way(const fs::path& store, const std::string& name) {
+  fs::path path = store;
+  std::error_code error;
+  for (const fs::path& part : fs::path(name)) {
+    path /= part;
+    if (fs::is_symlink(path, error)) break;
+  }
+  return path;
+}
+
+struct CloseFolder {
+  void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
+bool remove(const fs::path& store, const std::string& name, int flags) noexcept {
+  const std::size_t slash = name.rfind('/');
+  const bool nested = slash != std::string::npos;
+  const Descriptor folder = open_folder(store, std::string_view(name).substr(0, nested ? slash : 0));
+  if (!folder.is_open()) return false;
+  const Component last(std::string_view(name).substr(nested ? slash + 1 : 0));
+  return last.fits() && ::unlinkat(folder.number(), last.get(), flags) == 0;
+}
+
+}  // namespace
+
+void fail(const char* what, const fs::path& store, const std::string& name, int error) {
+  const bool reading = std::strcmp(what, "read") == 0;
+  const fs::path file = name.empty() ? store : store / name;
+  if (error == is_a_link) {
+    throw FileError(fmt::format("cannot {} {}: {} is a symbolic link, and what a store consists of lies in its own "
+                                "folder; remove the link, and put there what it leads to",
+                                what, file.string(), in_the_way(store, name).string()),
+                    error);
+  }
+  if (is_foreign(error)) {
+    throw FileError(fmt::format("cannot {} {}: it is {}, which no store has there; remove it", what, file.string(),
+                                error == is_a_folder ? "a folder" : "no ordinary file"),
+                    error);
+  }
+  const std::string advised = advice(error, reading);
+  throw FileError(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
+                              advised.empty() ? "" : "; ", advised),
+                  error);
+}
+
+Descriptor::~Descriptor() {
+  if (number_ < 0) return;
+  const int error = errno;
+  ::close(number_);
+  errno = error;
+}
+
+Descriptor open_folder(const fs::path& store, std::string_view name) noexcept {
+  Descriptor folder(again([&] { return ::open(store.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  while (folder.is_open() && !name.empty()) {
+    const std::size_t slash = std::min(name.find('/'), name.size());
+    folder = open_component(folder.number(), name.substr(0, slash), O_RDONLY, S_IFDIR);
+    name.remove_prefix(std::min(slash + 1, name.size()));
+  }
+  return folder;
+}
+
+Descriptor open_file(const fs::path& store, std::string_view name, int flags) noexcept {
+  const std::size_t slash = name.rfind('/');
+  const bool nested = slash != std::string_view::npos;
+  const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
+  if (!folder.is_open()) return Descriptor();
+  return open_component(folder.number(), name.substr(nested ? slash + 1 : 0), flags, S_IFREG);
+}
+
+std::pair<std::string, std::string> split(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  if (slash == std::string::npos) return {"", name};
+  return {name.substr(0, slash), name.substr(slash + 1)};
+}
+
+std::optional<std::uint64_t> size_of(const fs::path& store, const std::string& name) {
+  const auto [folder_name, last] = split(name);
+  const Descriptor folder = open_folder(store, folder_name);
+  struct stat status {};
+  if (!folder.is_open() || ::fstatat(folder.number(), last.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (errno == ENOENT) return std::nullopt;
+    fail("read", store, name, errno);
+  }
+  if (!S_ISREG(status.st_mode)) fail("read", store, name, kind(status.st_mode));
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::vector<std::string> files_in(const fs::path& store, const std::string& folder) {
+  Descriptor opened = open_folder(store, folder);
+  if (!opened.is_open()) {
+    if (errno == ENOENT) return {};
+    fail("read", store, folder, errno);
+  }
+  const std::unique_ptr<DIR, CloseFolder> entries(::fdopendir(opened.number()));
+  if (!entries) fail("read", store, folder, errno);
+  const int number = opened.release();  // which `entries` closes
+  std::vector<std::string> names;
+  while (const dirent* entry = ::readdir(entries.get())) {
+    struct stat status {};
+    if (::fstatat(number, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode)) continue;
+    names.push_back(folder.empty() ? entry->d_name : folder + "/" + entry->d_name);
+  }
+  return names;
+}
+
+void make_folder_in(const fs::path& store, const std::string& name) {
+  Descriptor above = open_folder(store, "");
+  if (!above.is_open()) fail("open", store, "", errno);
+  for (const fs::path& part : fs::path(name)) {
+    Descriptor next = open_component(above.number(), part.native(), O_RDONLY, S_IFDIR);
+    if (!next.is_open() && errno == ENOENT) {
+      if (::mkdirat(above.number(), part.c_str(), 0777) != 0 && errno != EEXIST) {
+        fail("make the folder", store, name, errno);
+      }
+      sync_folder(above.number(), store);
+      next = open_component(above.number(), part.native(), O_RDONLY, S_IFDIR);
+    }
+    if (!next.is_open()) fail("use the folder", store, name, errno);
+    above = std::move(next);
+  }
+}
+
+bool remove_file(const fs::path& store, const std::string& name) noexcept { return remove(store, name, 0); }
+bool remove_folder(const fs::path& store, const std::string& name) noexcept {
+  return remove(store, name, AT_REMOVEDIR);
+}
+
+}  // namespace roam::store

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The bytes of a part file of an open store, for visit_part.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "roam/error.h"
+#include "store/files.h"
+#include "store/opened.h"
+#include "store/part.h"
+
+namespace roam::store {
+
+/// Hands out the bytes of a part file in turn, and hashes them.
+class PartBytes {
+ public:
+  PartBytes(const Store::State& store, const PartInfo& part)
+      : store_(store), part_(part), file_(part_file(part.file)) {}
+
+  std::size_t operator()(std::span<std::byte> out) {
+    out = out.first(static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), part_.bytes - at_)));
+    if (out.empty()) return 0;
+    if (const char* problem = store_.bytes->read(file_, at_, out)) {
+      throw Error(fmt::format("{}/{} cannot be used: {}", store_.name, file_, problem));
+    }
+    hash_.add(out);
+    at_ += out.size();
+    return out.size();
+  }
+  /// Whether all that was handed out is what was written.
+  [[nodiscard]] bool is_whole() { return at_ == part_.bytes && hash_.digits() == part_.file; }
+  [[nodiscard]] std::string name() const { return store_.name + "/" + file_; }
+
+ private:
+  const Store::State& store_;
+  const PartInfo& part_;
+  std::string file_;
+  std::uint64_t at_ = 0;
+  Sha256 hash_;
+};
+
+}  // namespace roam::store

@@ -1,0 +1,117 @@
+#pragma once
+/// \file
+/// What reports have read of a store: a little of it, so that they need not read the same again.
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "store/opened.h"
+#include "store/part.h"
+#include "store/tile_reader.h"
+
+namespace roam {
+
+namespace store {
+
+/// The source numbers of a tile in a quarter of the memory, where they are of one part and below 2^32.
+class TileNumbers {
+ public:
+  explicit TileNumbers(std::vector<SourceNumber> numbers) {
+    if (!numbers.empty()) part_ = numbers.front().part;
+    small_.resize(numbers.size());
+    std::uint64_t other = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      other |= (numbers[i].part ^ part_) | numbers[i].number >> 32;
+      small_[i] = static_cast<std::uint32_t>(numbers[i].number);
+    }
+    if (other == 0) return;
+    small_ = {};
+    any_ = std::move(numbers);
+  }
+  [[nodiscard]] std::size_t size() const { return any_.size() + small_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return any_.size() * sizeof(SourceNumber) + small_.size() * 4; }
+  [[nodiscard]] SourceNumber operator[](std::size_t i) const {
+    return small_.empty() ? any_[i] : SourceNumber{part_, small_[i]};
+  }
+
+ private:
+  std::uint64_t part_ = 0;
+  std::vector<std::uint32_t> small_;
+  std::vector<SourceNumber> any_;
+};
+
+}  // namespace store
+
+struct Store::State::Recent {
+  explicit Recent(const State& state) : store(state), reader(state) {}
+
+  /// Bytes that are kept at most. The largest page and the largest tile's numbers fit together.
+  static constexpr std::size_t most = 1U << 20;
+
+  /// The numbers of a tile's triangles. Throws what TileReader does, and no_such() where there is no such tile.
+  template <class NoSuch>
+  [[nodiscard]] const store::TileNumbers& numbers_of(std::uint64_t page, std::uint32_t tile, const NoSuch& no_such) {
+    const TriangleId id = store::stored_id(page, tile, 0);
+    const auto known = numbers.find(id);
+    if (known != numbers.end()) return known->second;
+    auto in = pages.find(page);
+    if (in == pages.end()) {
+      store::LoadedPage loaded = reader.page(page);
+      make_room(store.pages[page].ref.bytes);
+      in = pages.emplace(page, std::move(loaded)).first;
+    }
+    if (tile >= in->second.view.tiles.size()) throw no_such();
+    store::TileNumbers read(reader.numbers(page, in->second.view.tiles[tile], tile));
+    make_room(read.bytes());
+    const auto& kept = numbers.emplace(id, std::move(read)).first->second;
+    try {
+      oldest.push_back(id);
+    } catch (...) {
+      numbers.erase(id);
+      throw;
+    }
+    return kept;
+  }
+  /// The name of the object of a triangle of a part. Throws roam::Error for a part file that is damaged.
+  [[nodiscard]] std::string object(std::uint32_t part, std::uint64_t triangle);
+
+ private:
+  /// An object whose part has more of them than are kept.
+  struct Object {
+    std::uint32_t part;
+    std::uint64_t first, end;  ///< of its triangles
+    std::string name;
+  };
+
+  /// The numbers of tiles go first: there are many of them, and none helps with another.
+  void make_room(std::size_t size) {
+    for (; used + size > most && !oldest.empty(); oldest.pop_front()) {
+      const auto gone = numbers.find(oldest.front());
+      used -= gone->second.bytes();
+      numbers.erase(gone);
+    }
+    if (used + size > most) {
+      pages.clear();
+      parts.clear();
+      objects.clear();
+      used = 0;
+    }
+    used += size;
+  }
+
+  const State& store;
+  store::TileReader reader;
+  std::size_t used = 0;  ///< bytes, or a little more
+  std::map<std::uint64_t, store::LoadedPage> pages;
+  std::map<TriangleId, store::TileNumbers> numbers;  ///< of a tile, by the id of its first triangle
+  std::deque<TriangleId> oldest;                     ///< of these, the first that came first
+  std::map<std::uint32_t, store::PartFile> parts;
+  std::vector<Object> objects;
+};
+
+}  // namespace roam

@@ -1,0 +1,124 @@
+// What a program that reads a store takes in all: --memory, and 24 MiB for itself and its libraries.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "store/files.h"
+#include "store_builds.h"
+
+// Instrumented programs take more, of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+using roam::Vec3;
+namespace fs = std::filesystem;
+using store_builds::field;
+using store_builds::write_ply;
+
+ProgramResult run(const std::vector<std::string>& arguments, const std::string& input = {}) {
+  return run_program(ROAM_PROGRAM, arguments, {.input = input});
+}
+
+/// MiB of a program beside what --memory says.
+constexpr long own = 24;
+
+/// Three stores, made once: by the program, so that this process stays small.
+class StoreMemory : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TestFolder;
+    for (const char* kind : {"gallery", "terrain"}) {
+      const std::string scene = folder_->file(std::string(kind) + ".ply");
+      ASSERT_EQ(run({"make", kind, "-o", scene, "--triangles", kind[0] == 'g' ? "2M" : "6M"}).status, 0);
+      const ProgramResult built = run({"build", scene, "-o", folder_->file(kind)});
+      ASSERT_EQ(built.status, 0) << built.err;
+    }
+    std::vector<std::string> build{"build", "-o", folder_->file("parts")};
+    for (std::uint32_t i = 0; i < 300; ++i) {
+      const Vec3 corner(20.0 * (i % 20), 20.0 * (i / 20), 0.0);
+      build.push_back(write_ply(folder_->file("part" + std::to_string(i) + ".ply"), field(20, 1.0, corner)));
+    }
+    const ProgramResult built = run(build);
+    ASSERT_EQ(built.status, 0) << built.err;
+    folder_->write("gallery.way", "-13739 253 182\n-12504 1566 182\n");
+    folder_->write("terrain.way", "5 5 60\n500 500 60\n5 500 60\n");
+    folder_->write("parts.way", "5 5 3\n395 295 3\n5 295 3\n");
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  /// Sweeps all over a store.
+  static std::string queries(const Vec3& lower, const Vec3& upper) {
+    std::mt19937 random(1);
+    const auto between = [&](double a, double b) {
+      return std::to_string(std::uniform_real_distribution(a, b)(random));
+    };
+    std::string rows;
+    for (int i = 0; i < 200; ++i) {
+      for (int k = 0; k < 3; ++k) rows += between(lower[k], upper[k]) + ',';
+      for (int k = 0; k < 3; ++k) rows += between(-30.0, 30.0) + ',';
+      rows += "0.3\n";
+    }
+    return rows;
+  }
+
+  static inline TestFolder* folder_ = nullptr;
+};
+
+TEST_F(StoreMemory, IsWhatMemorySaysAndLittleMore) {
+  const struct {
+    const char* name;
+    Vec3 lower, upper;
+  } stores[] = {{"gallery", {-13739.0, 253.0, 182.0}, {-12504.0, 1566.0, 183.0}},
+                {"terrain", {0.0, 0.0, 20.0}, {600.0, 600.0, 45.0}},
+                {"parts", {0.0, 0.0, 1.0}, {400.0, 300.0, 4.0}}};
+  for (const auto& store : stores) {
+    const std::string folder = folder_->file(store.name);
+    for (const long mebibytes : {8, 64, 200}) {
+      const std::string memory = std::to_string(mebibytes) + "M";
+      const ProgramResult walked =
+          run({"walk", folder, "--path", folder + ".way", "--mode", "fly", "--speed", "60", "--memory", memory});
+      const ProgramResult swept = run({"sweep", folder, "--memory", memory}, queries(store.lower, store.upper));
+      ASSERT_EQ(walked.status, 0) << walked.err;
+      ASSERT_EQ(swept.status, 0) << swept.err;
+      for (const ProgramResult* r : {&walked, &swept}) {
+        EXPECT_LE(r->peak, (mebibytes + own) << 10)
+            << store.name << ' ' << memory << (r == &walked ? " walk" : " sweep");
+        EXPECT_GE(r->peak, mebibytes << 10) << "this does not measure what it says";
+      }
+    }
+    for (const char* verb : {"info", "verify"}) EXPECT_LE(run({verb, folder}).peak, 2 * own << 10) << verb;
+  }
+}
+
+TEST_F(StoreMemory, IsKeptWhateverTheStoreSays) {
+  const TestFolder hostile;
+  const std::string store = hostile.file("s");
+  fs::copy(folder_->file("parts"), store, fs::copy_options::recursive);
+  for (const auto& [start, piece] :
+       {std::pair<std::string, std::string>{"{\"x\": ", "["}, {"{\"notes\": [\"\"", ",\"\""}}) {
+    roam::store::NewFile file(store, roam::store::manifest_file("new"));
+    // Little by little: this process must stay small.
+    std::string some;
+    for (int i = 0; i < 10'000; ++i) some += piece;
+    file.write(std::as_bytes(std::span(start)));
+    while (file.size() < 50'000'000) file.write(std::as_bytes(std::span(some)));
+    roam::store::write_file(store, "CURRENT", "roam store 1\n" + file.commit_by_hash() + "\n");
+    for (const std::vector<std::string>& call :
+         {std::vector<std::string>{"sweep", store, "--memory", "64M"},
+          {"walk", store, "--path", folder_->file("parts.way"), "--memory", "64M"},
+          {"probe", store, "--from=5,5,3", "--to=6,6,3"},
+          {"info", store},
+          {"verify", store}}) {
+      const ProgramResult r = run(call);
+      EXPECT_NE(r.status, 0) << call[0];
+      const bool limited = call.back() == "64M";
+      // Without --memory a manifest may take 256 MiB.
+      EXPECT_LE(r.peak, ((limited ? 64 : 256) + own) << 10) << call[0] << r.err;
+    }
+  }
+}
+
+}  // namespace
+
+#endif

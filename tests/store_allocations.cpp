@@ -1,0 +1,146 @@
+// Where memory runs out, in whatever thread, a store ends no program: what was asked for throws, or fails and is tried
+// again. Instrumented builds have an operator new of their own, and test the rest.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <stdexcept>
+
+#include "counted_allocations.h"
+#include "pager_made.h"
+
+namespace {
+
+using namespace roam;
+
+Mesh bumpy_square() {
+  Mesh mesh;
+  mesh.name = "square";
+  for (std::uint32_t i = 0; i < 900; ++i) mesh.vertices.emplace_back(i % 30, i / 30, (i * 7919U) % 5);
+  for (std::uint32_t i = 0; i + 31 < 900; ++i) mesh.triangles.push_back({i, i + 1, i + 30});
+  return mesh;
+}
+
+class StoreAllocations : public testing::Test {
+ protected:
+  StoreAllocations() : folder_("allocations"), mesh_(bumpy_square()) {
+    store_ = made::store(folder_.path(), {&mesh_, 1}, {.page_tiles = 4, .tile_triangles = 100});
+  }
+
+  /// Does the work again and again, each time with another allocation that fails, until none of the first `margin`
+  /// after the last does; how many there were.
+  static long fail_each(const std::function<void()>& work, int margin = 1) {
+    long failed = 0;
+    for (int without = 0; without < margin;) {
+      allocations = 0;
+      failing_allocation = ++failed;
+      try {
+        work();
+      } catch (const Error&) {
+      } catch (const std::bad_alloc&) {
+      }
+      without = allocations < failed ? without + 1 : 0;
+      failing_allocation = 0;
+    }
+    return failed;
+  }
+
+  const made::Folder folder_;
+  const Mesh mesh_;
+  std::shared_ptr<const Store> store_;
+};
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+TEST_F(StoreAllocations, OpeningReturnsWhereverOneFails) {
+  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())); }), 30);
+  // And of a manifest that is refused in the middle.
+  store::Manifest manifest = store::read_manifest(*store::files_of(folder_.path()), "s");
+  manifest.shards[0].pages[1].tiles = 0;
+  store::publish(folder_.path(), manifest);
+  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())); }), 30);
+}
+
+TEST_F(StoreAllocations, VerifyingReturnsWhereverOneFails) {
+  EXPECT_GT(fail_each([&] { static_cast<void>(verify_store(folder_.path())); }, 20), 100);
+}
+
+TEST_F(StoreAllocations, FindingTheSourceOfATriangleReturnsWhereverOneFails) {
+  TriangleId some = 0;
+  store_->for_each_triangle(store_->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())->source(some)); }), 40);
+}
+
+TEST_F(StoreAllocations, APagerIsMadeOrRefusedWhereverOneFails) {
+  EXPECT_GT(fail_each([&] { const Pager pager(store_, {.memory = Pager::least_memory, .loaders = 3}); }, 20), 10);
+}
+
+TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
+  for (long failing = 1; failing < 60; ++failing) {
+    const auto bytes = std::make_shared<made::TroubledBytes>(folder_.path());  // which has no file open yet
+    const auto opened = Store::open(bytes, "s");
+    bytes->hold();
+    Pager pager(opened, {.memory = Pager::least_memory});
+    spared = true;
+    ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] { return bytes->waiting() > 0; }));
+    allocations = 0;
+    failing_allocation = failing;
+    bytes->let_go();
+    const bool all = made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] {
+      static_cast<void>(pager.object_name(0));
+      return pager.stats().tiles == opened->info().tiles;
+    });
+    failing_allocation = 0;
+    ASSERT_TRUE(all) << failing;
+    // The name, too, comes in the end.
+    EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(),
+                                   [&] { return pager.object_name(0) == "square"; }));
+    spared = false;
+  }
+}
+
+#endif
+
+/// Throws where it should answer.
+class ThrowingBytes : public StoreBytes {
+ public:
+  explicit ThrowingBytes(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
+  std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
+    return files_->whole(file, limit);
+  }
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+    switch (throws.load()) {
+      case 1:
+        throw std::runtime_error("the tape is torn in metre " + std::to_string(++count_));
+      case 2:
+        throw std::bad_alloc();
+      case 3:
+        throw 42;
+      default:
+        return files_->read(file, offset, out);
+    }
+  }
+  std::atomic<int> throws{0};
+
+ private:
+  std::shared_ptr<StoreBytes> files_;
+  std::atomic<int> count_{0};
+};
+
+TEST_F(StoreAllocations, BytesThatThrowAreLikeBytesThatCannotBeRead) {
+  const auto bytes = std::make_shared<ThrowingBytes>(folder_.path());
+  const auto opened = Store::open(bytes, "s");
+  for (const int throws : {1, 2, 3}) {
+    bytes->throws = throws;
+    Pager pager(opened, {.memory = Pager::least_memory, .loaders = 2});
+    const Vec3 middle = pager.bounds().center();
+    ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, middle, [&] { return pager.stats().failures > 3; }));
+    const std::string why = pager.stats().last_failure;
+    EXPECT_NE(why.find(throws == 1 ? "the tape is torn in metre" : "cannot be used: "), std::string::npos) << why;
+    EXPECT_TRUE(pager.sweep({0.3, 0.0}, middle + Vec3(0.0, 0.0, 20.0), {0.0, 0.0, -40.0}).unknown);
+    static_cast<void>(pager.object_name(0));
+    bytes->throws = 0;
+    ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,92 @@
+// What a stranger may have left for a builder: it is refused or forgotten, in little memory.
+#include <gtest/gtest.h>
+
+#include "memory_cost.h"
+#include "store/build/plan.h"
+#include "store/files.h"
+#include "store/part.h"
+#include "store_builds.h"
+
+namespace {
+
+using namespace store_builds;
+using memory_cost::Cost;
+using memory_cost::cost_of;
+using roam::Vec3;
+
+TEST(StoreBuildHostile, FilesOfABuilderAreReadWithinLimits) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0))), store = folder.file("s");
+  const auto o = options({scene}, store);
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_shard(o, 0, report);
+  // All that a builder writes as JSON, and finds there the next time.
+  std::vector<fs::path> files{store + "/sources.json"};
+  for (const auto& entry : fs::recursive_directory_iterator(store + "/scratch")) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  ASSERT_EQ(files.size(), 4U) << "the files, the plan, a part, a shard";
+  std::string values;
+  for (int i = 0; i < 10'000'000; ++i) values += "[],";
+  for (const fs::path& file : files) {
+    std::string good;
+    if (fs::exists(file)) {
+      std::ifstream in(file);
+      good.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    for (const std::string& text : {std::string(60'000'000, '['), "{\"x\": [" + values + "1]}"}) {
+      std::ofstream(file) << text;
+      // Merging reads the plan and the shard, building all of them but the plan.
+      const Cost merging = cost_of([&] { roam::merge_store(o, report); });
+      EXPECT_LT(merging.mebibytes, 200U) << file << merging.said;
+      const bool merges = file.filename() == "plan.json" || file.parent_path().filename() == "shards";
+      EXPECT_EQ(!merging.said.empty(), merges) << file << ": " << merging.said;
+      if (!merges) {
+        const Cost planning = cost_of([&] { static_cast<void>(roam::plan_store(o, report)); });
+        EXPECT_LT(planning.mebibytes, 250U) << file << planning.said;
+        EXPECT_EQ(planning.said, "") << file;
+        // As it was: planned, and built.
+        fs::remove_all(store);
+        ASSERT_EQ(roam::plan_store(o, report), 1U);
+        roam::build_shard(o, 0, report);
+      }
+    }
+    std::ofstream(file) << good;
+  }
+}
+
+TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0))), store = folder.file("s");
+  const auto o = options({scene}, store);
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  const roam::store::Plan good = roam::store::read_plan(store, o.memory);
+  roam::store::Plan plan = good;
+  plan.shards[0].stretch.triangles = 1ULL << 34;
+  plan.shards[0].key = roam::store::key_of(plan.shards[0].stretch, plan);
+  roam::store::write_plan(store, plan);
+  const Cost cost = cost_of([&] { roam::build_shard(o, 0, report); });
+  EXPECT_NE(cost.said.find("too large"), std::string::npos) << cost.said;
+  EXPECT_LT(cost.mebibytes, 16U);
+  // The part of a published store, which is what the builder takes for the scene's.
+  roam::store::write_plan(store, good);
+  roam::build_store(o);
+  roam::store::PartFile part;
+  part.triangles = 1ULL << 40;
+  part.cells.push_back({0, part.triangles});
+  roam::store::Manifest manifest = *roam::store::manifest_in_force(store);
+  const auto bytes = roam::store::encode_part(part);
+  roam::store::NewFile file(store, "parts/new.part");
+  file.write(bytes);
+  manifest.parts[0].file = file.commit_by_hash();
+  manifest.parts[0].bytes = bytes.size();
+  fs::remove_all(store + "/packs");  // so that something is to be built
+  roam::store::publish(store, manifest);
+  const Cost planning = cost_of([&] { static_cast<void>(roam::plan_store(o, report)); });
+  EXPECT_NE(planning.said.find("more triangles than any scene has"), std::string::npos) << planning.said;
+  EXPECT_LT(planning.mebibytes, 200U);
+}
+
+}  // namespace

@@ -1,0 +1,177 @@
+// A store that says what cannot be: it is refused, or read, in little memory.
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <cstring>
+
+#include "memory_cost.h"
+#include "store_made.h"
+
+namespace {
+
+using namespace roam;
+
+using memory_cost::Cost;
+using memory_cost::cost_of;
+
+class HostileStore : public testing::Test {
+ protected:
+  HostileStore() : folder_("hostile") {
+    mesh_.name = "square";
+    for (std::uint32_t i = 0; i < 900; ++i) mesh_.vertices.emplace_back(i % 30, i / 30, (i * 7919U) % 5);
+    for (std::uint32_t i = 0; i + 31 < 900; ++i) mesh_.triangles.push_back({i, i + 1, i + 30});
+    made::Maker(folder_.path(), {&mesh_, 1}, {.page_tiles = 4, .tile_triangles = 100}).run();
+  }
+
+  [[nodiscard]] store::Manifest manifest() const { return store::read_manifest(*store::files_of(folder_.path()), "s"); }
+  /// Puts any text in force.
+  void publish(const std::string& text) const {
+    store::NewFile file(folder_.path(), store::manifest_file("new"));
+    file.write(std::as_bytes(std::span(text)));
+    store::write_file(folder_.path(), store::current_file, "roam store 1\n" + file.commit_by_hash() + "\n");
+  }
+  /// Puts a part file of these many objects and this content in force.
+  void publish_part(std::uint64_t objects, const std::string& content) const {
+    store::Manifest m = manifest();
+    std::vector<std::byte> bytes(48 + ZSTD_compressBound(content.size()));
+    const std::uint64_t header[6] = {0, m.parts[0].triangles, objects, 1, 0, content.size()};
+    std::memcpy(bytes.data(), header, sizeof header);
+    std::memcpy(bytes.data(), "ROAMPART", 8);
+    bytes.resize(48 + ZSTD_compress(bytes.data() + 48, bytes.size() - 48, content.data(), content.size(), 3));
+    store::NewFile file(folder_.path(), store::part_file("new"));
+    file.write(bytes);
+    m.parts[0].file = file.commit_by_hash();
+    m.parts[0].bytes = bytes.size();
+    m.parts[0].objects = objects;
+    store::publish(folder_.path(), m);
+  }
+  /// One cell of all triangles, as a part's content ends.
+  [[nodiscard]] std::string cell() const {
+    std::string text(1, '\0');
+    std::uint64_t n = mesh_.triangles.size();
+    for (; n >= 128; n >>= 7) text.push_back(static_cast<char>(n | 128U));
+    text.push_back(static_cast<char>(n));
+    return text;
+  }
+  [[nodiscard]] static std::string damage(const StoreVerification& found) {
+    std::string text;
+    for (const StoreDamage& d : found.damage) text += d.what + ": " + d.why + "\n";
+    return text;
+  }
+
+  const made::Folder folder_;
+  Mesh mesh_;
+};
+
+TEST_F(HostileStore, APartOfVeryManyObjectsIsReadInLittleMemory) {
+  constexpr std::uint64_t objects = 100'000'000;  // of which an honest part may have that many: in 10 kB
+  publish_part(objects, std::string(2 * objects, '\0') + cell());
+  EXPECT_LT(std::filesystem::file_size(folder_.path() / store::part_file(manifest().parts[0].file)), 50'000U);
+  std::string found;
+  EXPECT_LT(cost_of([&] { found = damage(verify_store(folder_.path())); }).mebibytes, 32U);
+  EXPECT_EQ(found, "");
+  const auto opened = Store::open(folder_.path());
+  TriangleId some = 0;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  const Cost cost = cost_of([&] { EXPECT_EQ(opened->source(some).object, ""); });
+  EXPECT_LT(cost.mebibytes, 16U) << cost.said;
+}
+
+TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
+  const std::string name(200'000'000, 'a');
+  std::string content = {'\0'};
+  for (std::uint64_t n = name.size(); n > 0; n >>= 7)
+    content.push_back(static_cast<char>((n & 127U) | (n >= 128 ? 128U : 0U)));
+  publish_part(1, content + name + cell());
+  const auto opened = Store::open(folder_.path());
+  TriangleId some = 0;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  std::string object;
+  EXPECT_LT(cost_of([&] { object = opened->source(some).object; }).mebibytes, 16U);
+  EXPECT_EQ(object, std::string(store::longest_name, 'a'));
+}
+
+TEST_F(HostileStore, AManifestIsRefusedBeforeItTakesMemory) {
+  const std::string good = store::to_text(manifest());
+  const std::size_t notes = good.find("\"notes\": [") + 10;
+  const auto with_notes = [&](const std::string& text) { return std::string(good).insert(notes, text); };
+  std::string many_notes = "\"\"", many_parts, deep_members;
+  for (int i = 0; i < 12'000'000; ++i) many_notes += ",\"\"";
+  for (int i = 0; i < 2'000'000; ++i) many_parts += "{\"name\":\"\"},";
+  const std::size_t parts = good.find("\"parts\": [") + 10;
+  const struct {
+    std::string what, text, said;
+  } cases[] = {{"lists in lists", "{\"x\": " + std::string(50'000'000, '['), "deeper"},
+               {"lists in lists where a note should be", with_notes(std::string(40'000'000, '[')), "notes"},
+               {"many notes", with_notes(many_notes), "memory"},
+               {"many parts", std::string(good).insert(parts, many_parts), "part"},
+               {"a long text", with_notes("\"" + std::string(50'000'000, 'x') + "\""), "longer"},
+               {"more than may be read", std::string(300'000'000, ' ') + good, "memory"},
+               {"a key like a path", "{\"shards/*/pages/*/offset\": 1}", ""},
+               {"a list with the names of its elements", "{\"shards\": {\"*\": {\"pages\": 1}}}", ""}};
+  for (const auto& c : cases) {
+    publish(c.text);
+    const Cost cost = cost_of([&] { static_cast<void>(Store::open(folder_.path())); });
+    EXPECT_LT(cost.mebibytes, (Store::usual_memory >> 20) + 64) << c.what;
+    EXPECT_NE(cost.said, "") << c.what;
+    EXPECT_NE(cost.said.find(c.said), std::string::npos) << c.what << ": " << cost.said;
+    // Where less may be taken, less is.
+    const Cost small = cost_of([&] { static_cast<void>(Store::open(folder_.path(), 4 << 20)); });
+    EXPECT_LT(small.mebibytes, 16U) << c.what;
+    EXPECT_NE(small.said, "") << c.what;
+  }
+}
+
+TEST_F(HostileStore, SizesThatCannotBeAreRefusedBeforeAnythingIsAllocated) {
+  const auto refused = [&](const std::function<void(store::Manifest&)>& spoil) {
+    store::Manifest m = manifest();
+    spoil(m);
+    const Cost cost = cost_of([&] { static_cast<void>(store::parse_manifest(store::to_text(m), "m")); });
+    EXPECT_LT(cost.mebibytes, 16U);
+    return cost.said;
+  };
+  EXPECT_EQ(refused([](store::Manifest&) {}), "");
+  EXPECT_NE(refused([](store::Manifest& m) {
+              m.shards[0].bytes = 1ULL << 40;
+              m.shards[0].pages[0].bytes = UINT32_MAX;
+            }).find("'bytes' of a page"),
+            std::string::npos);
+  // Sums that wrap would agree.
+  EXPECT_NE(refused([](store::Manifest& m) {
+              m.parts.push_back(m.parts[0]);
+              m.parts[0].triangles = UINT64_MAX;
+              m.parts[1].triangles = m.shards[0].triangles + 1;
+            }),
+            "");
+  EXPECT_NE(refused([](store::Manifest& m) {
+              m.parts[0].triangles = m.shards[0].triangles = m.shards[0].tiles * 16384 + 1;
+            }).find("'triangles' of a shard"),
+            std::string::npos);
+}
+
+TEST_F(HostileStore, ATileOfMoreBytesThanATileMayHaveIsRefusedWithItsPage) {
+  const store::Manifest m = manifest();
+  const store::PageRef& ref = m.shards[0].pages[0];
+  std::vector<std::byte> bytes(ref.bytes);
+  ASSERT_EQ(store::files_of(folder_.path())->read(store::pack_file(m.shards[0].pack), ref.offset, bytes), nullptr);
+  const auto view_of = [&](std::uint32_t tile, std::uint32_t numbers) {
+    auto spoiled = bytes;
+    store::TileEntry entry{};
+    std::byte* const at = spoiled.data() + spoiled.size() - sizeof entry;
+    std::memcpy(&entry, at, sizeof entry);
+    entry.bytes += tile;
+    entry.number_bytes += numbers;
+    std::memcpy(at, &entry, sizeof entry);
+    const auto memory = std::make_unique<index::Block[]>(spoiled.size() / sizeof(index::Block) + 1);
+    std::memcpy(memory.get(), spoiled.data(), spoiled.size());
+    store::PageView view;
+    const char* const problem =
+        store::view_page({reinterpret_cast<const std::byte*>(memory.get()), spoiled.size()}, 1ULL << 40, view);
+    return std::string(problem != nullptr ? problem : "");
+  };
+  EXPECT_EQ(view_of(0, 0), "");
+  EXPECT_NE(view_of(1U << 30, 0).find("more bytes than a tile"), std::string::npos);
+  EXPECT_NE(view_of(0, 1U << 30).find("more bytes than a tile"), std::string::npos);
+}
+
+}  // namespace
