@@ -29,8 +29,18 @@ Json import_report(const ImportReport& report) {
                {"bad_objects", left_out(report.bad_objects)},
                {"ignored_objects", left_out(report.ignored_objects)},
                {"missing_page_files", report.missing_page_files},
+               {"outside_references", report.outside_references},
+               {"outside_files", report.outside_files},
+               {"reader", nullptr},
                {"georeference", nullptr},
                {"notes", report.notes}};
+  if (const auto& walls = report.confinement) {
+    json["reader"] = {{"landlock", walls->landlock},
+                      {"seccomp", walls->system_calls},
+                      {"no_new_privs", walls->no_new_privileges},
+                      {"limits", walls->limits},
+                      {"empty_folder", walls->empty_folder}};
+  }
   if (report.georeference) {
     json["georeference"] = {{"srs", report.georeference->srs}, {"origin", to_json(report.georeference->origin)}};
   }

@@ -1,5 +1,9 @@
 // The command line `roam`: its verbs, and what is said of all of them.
+#include <string>
+
 #include "command_line.h"
+#include "roam/error.h"
+#include "roam/import.h"
 #include "roam/version.h"
 
 namespace {
@@ -16,12 +20,28 @@ constexpr const char* help =
     "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
     "  roam info mine.dae --json\n";
 
+/// The version, and which walls stand around readers of scenes on this machine.
+std::string version() {
+  std::string text = "roam " ROAM_VERSION_STRING "\nscenes are read behind: ";
+  try {
+    const roam::Confinement walls = roam::reader_confinement();
+    text += walls.landlock > 0 ? "Landlock " + std::to_string(walls.landlock) : std::string("no Landlock");
+    text += walls.system_calls ? ", seccomp" : ", no seccomp";
+    text += walls.no_new_privileges ? ", no_new_privs" : ", privileges as they are";
+    text += walls.limits ? ", limits" : ", no limits";
+    text += walls.empty_folder ? ", an empty folder" : ", the root folder";
+  } catch (const roam::Error& error) {
+    text += std::string("nothing; ") + error.what();
+  }
+  return text;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program{description, "roam"};
   program.footer(help);
-  program.set_version_flag("--version", "roam " ROAM_VERSION_STRING);
+  program.set_version_flag("--version", version);
   program.require_subcommand(1);
   roam::app::Run chosen;
   roam::app::add_view(program, chosen);

@@ -57,6 +57,10 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->type_name("PATTERN")
       ->expected(1)
       ->take_all();
+  verb.add_option("--allow", allow, "Let files of the scene refer to files in this folder, too; may be repeated")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
   verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
@@ -67,10 +71,13 @@ ImportOptions SceneOptions::import_options() const {
   if (!up.empty()) how.up = parse_up_axis(up);
   how.unit = parse_length_unit(unit);
   how.ignore = ignore;
+  how.allow = allow;
   return how;
 }
 
-bool SceneOptions::says_how_to_read() const { return !up.empty() || unit != "m" || !ignore.empty() || lossless; }
+bool SceneOptions::says_how_to_read() const {
+  return !up.empty() || unit != "m" || !ignore.empty() || !allow.empty() || lossless;
+}
 
 void SceneOptions::check_there() const {
   std::error_code none;

@@ -18,13 +18,14 @@ struct SceneOptions {
   std::string up;
   std::string unit = "m";
   std::vector<std::string> ignore;
+  std::vector<std::filesystem::path> allow;
   bool lossless = false;
   int threads = 0;
   bool identify = false;  ///< no option of the command line: whether LoadedScene::identity is wanted
 
-  /// Adds SCENE..., --up, --unit, --ignore, --lossless and --threads.
+  /// Adds SCENE..., --up, --unit, --ignore, --allow, --lossless and --threads.
   void add_to(CLI::App& verb);
-  /// Adds --up, --unit, --ignore and --threads.
+  /// Adds --up, --unit, --ignore, --allow and --threads.
   void add_reading_to(CLI::App& verb);
   /// What the options mean to import_scene and the like.
   [[nodiscard]] ImportOptions import_options() const;

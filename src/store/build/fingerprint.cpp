@@ -60,7 +60,12 @@ std::string name_in(const ScenePart& part, const fs::path& file) {
 std::string text_of(const ImportOptions& options) {
   Json json = {{"up", nullptr}, {"metres_per_unit", metres_per(options.unit)}, {"ignore", options.ignore}};
   if (options.up) json["up"] = std::string(1, "xyz"[static_cast<int>(*options.up)]);
-  return json.dump();
+  if (!options.allow.empty()) {
+    json["allow"] = Json::array();
+    for (const fs::path& folder : options.allow)
+      json["allow"].push_back(fs::absolute(folder).lexically_normal().string());
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void read_as(const std::string& text, ImportOptions& options) {
@@ -76,6 +81,10 @@ void read_as(const std::string& text, ImportOptions& options) {
       if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
     }
     read.ignore = json.at("ignore").get<std::vector<std::string>>();
+    // Which folders a scene may refer to is the user's word, never a store's.
+    if (json.value("allow", Json::array()) != Json::parse(text_of(options)).value("allow", Json::array())) {
+      throw Error("the store was built with other folders allowed (--allow): repair it with the same");
+    }
     known = text_of(read) == text;
   } catch (const Json::exception&) {
     known = false;
