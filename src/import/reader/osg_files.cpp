@@ -74,21 +74,22 @@ bool names_files(std::string_view extension) {
 }
 
 /// Where a name leads that another file has: as it stands, or by its last part alone, in the folders of the files that
-/// name it. The first that is there; else where it would lie.
+/// name it. The first that is there; else a place outside of the scene, if it names one; else where it would lie.
 fs::path place_of(const std::string& name, const osgDB::Options* options, const SceneFiles& files) {
   std::string spelling = name;
   std::replace(spelling.begin(), spelling.end(), '\\', '/');
   const fs::path path(spelling);
   if (path.is_absolute()) return path;
-  fs::path first;
+  fs::path first, outside;
   for (const fs::path& wanted : {path, path.filename()}) {
     for (const std::string& folder : options == nullptr ? osgDB::FilePathList() : options->getDatabasePathList()) {
       const fs::path place = fs::path(folder) / wanted;
       if (first.empty()) first = place;
+      if (outside.empty() && !files.resolve(place)) outside = place;
       if (!files.find(place).empty()) return place;
     }
   }
-  return first;
+  return outside.empty() ? first : outside;
 }
 
 class GuardedReading : public osgDB::ReadFileCallback {
@@ -98,12 +99,13 @@ class GuardedReading : public osgDB::ReadFileCallback {
   Result readNode(const std::string& name, const osgDB::Options* options) override {
     const bool main = std::exchange(next_is_main_, false);
     const fs::path place = place_of(name, options, files_);
-    osgDB::ReaderWriter* reader = reader_for(place);
-    if (name.find("://") != std::string::npos || reader == nullptr || place.empty()) return missing(name);
+    if (name.find("://") != std::string::npos || place.empty()) return missing(name);
     if (!files_.resolve(place)) {
       files_.leave_out(place);
       return Result::FILE_NOT_FOUND;
     }
+    osgDB::ReaderWriter* reader = reader_for(place);
+    if (reader == nullptr) return missing(name);
     const fs::path file = files_.open(place);
     // A file that is named while it is read is a circle.
     const bool circle = std::find(reading_.begin(), reading_.end(), file) != reading_.end();

@@ -1,0 +1,284 @@
+// Scenes whose authors want more than to be read: code of theirs, a network, files of others, all the time and memory.
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "hostile_scene.h"
+#include "messages.h"
+#include "program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+/// Runs the program in a folder, as somebody who works there.
+ProgramResult roam_in(const std::string& folder, const std::string& arguments) {
+  return run_program("/bin/sh", {"-c", "cd " + quoted(folder) + " && exec '" ROAM_PROGRAM "' " + arguments});
+}
+
+json info_of(const std::string& scene, const std::string& options = "") {
+  const ProgramResult result =
+      run_program("/bin/sh", {"-c", "exec '" ROAM_PROGRAM "' info --json " + options + " " + quoted(scene)});
+  json report = json::parse(result.out, nullptr, false);
+  return report.is_object() ? report : json{{"error", result.err}};
+}
+
+/// An OSGT file: a class may name the library that brings it.
+std::string osgt_of_class(const std::string& name) {
+  return "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\n" + name + " {\n  UniqueID 1\n}\n";
+}
+
+/// The ways in, as files of a scene.
+std::vector<std::string> write_ways_in(const TestFolder& folder) {
+  std::vector<std::string> scenes;
+  std::vector<std::string> proxies, pages;
+  for (const std::string& name : hostile_names()) {
+    proxies.push_back(proxy_of(name));
+    pages.push_back(page_of(name));
+  }
+  proxies.push_back(hostile_triangle("0"));
+  scenes.push_back(folder.write("scene/proxies.osg", hostile_group(proxies)));
+  scenes.push_back(folder.write("scene/pages.osg", hostile_group(pages)));
+  scenes.push_back(folder.write("scene/class.osgt", osgt_of_class("xyz::Foo")));
+  scenes.push_back(folder.write("scene/class.osg", "xyz::Foo {\n}\n"));
+  scenes.push_back(folder.write("scene/class_in_group.osg", hostile_group({hostile_triangle("0"), "xyz::Foo {\n}\n"})));
+  return scenes;
+}
+
+class ImportHostile : public testing::TestWithParam<const char*> {};
+
+TEST_P(ImportHostile, RunsNoCodeOfAScene) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("scene"));
+  fs::create_directories(folder.file("elsewhere"));
+  write_bait(folder.file("scene"), HOSTILE_PLUGIN);
+  write_bait(folder.file("elsewhere"), HOSTILE_PLUGIN);
+  const std::vector<std::string> scenes = write_ways_in(folder);
+  for (const std::string& scene : scenes) {
+    for (const char* place : {"scene", "elsewhere"}) {
+      std::string arguments = GetParam();
+      arguments.replace(arguments.find("SCENE"), 5, quoted(scene));
+      if (const auto at = arguments.find("OUT"); at != std::string::npos) {
+        arguments.replace(at, 3, quoted(folder.file("out")));
+      }
+      const ProgramResult result = roam_in(folder.file(place), arguments);
+      EXPECT_LT(result.status, 128) << arguments << result.err;
+      EXPECT_EQ(marks_in(folder.file("")), std::vector<std::string>()) << arguments << " in " << place;
+      fs::remove_all(folder.file("out"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Verbs, ImportHostile,
+                         testing::Values("info SCENE", "walk SCENE --wander 1", "build SCENE -o OUT",
+                                         "view SCENE --headless --size 160x120 --mode fly --at 0,0,2,0,-30 "
+                                         "--screenshot OUT.png"));
+
+TEST(ImportHostile, ReachesNoNetwork) {
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(listen(listener, 8), 0);
+  getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::string host = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  const TestFolder folder;
+  fs::create_directories(folder.file("scene"));
+  const std::string scene = folder.write(
+      "scene/net.osg", hostile_group({hostile_triangle("0"), proxy_of(host + "/a.osgt.curl"),
+                                      proxy_of("http://" + host + "/a.osg"), page_of(host + "/b.osgt.curl")}));
+  json report = info_of(scene);
+  EXPECT_EQ(report["triangles"], 2) << report;
+  EXPECT_LT(accept(listener, nullptr, nullptr), 0);
+  close(listener);
+}
+
+/// The files below `folder` that strace saw a reader open once the walls stood.
+std::set<std::string> opened_behind_walls(const std::string& trace) {
+  std::set<std::string> files;
+  std::set<std::string> walled;
+  std::istringstream lines(trace);
+  const std::regex opened("^(\\d+) +open(?:at)?\\((?:AT_FDCWD, )?\"([^\"]*)\".*= \\d+$");
+  for (std::string line; std::getline(lines, line);) {
+    const std::string process = line.substr(0, line.find(' '));
+    if (contains(line, "landlock_restrict_self(") || contains(line, "syscall_0x1be(")) walled.insert(process);
+    std::smatch found;
+    if (walled.contains(process) && std::regex_search(line, found, opened)) files.insert(found[2]);
+  }
+  return files;
+}
+
+TEST(ImportHostile, OpensTheFilesOfTheSceneAndNoOthers) {
+  if (run_program("/bin/sh", {"-c", "strace -o /dev/null true"}).status != 0) {
+    GTEST_SKIP() << "strace is not there, or may not trace here";
+  }
+  const TestFolder folder;
+  fs::create_directories(folder.file("scene/inner"));
+  fs::create_directories(folder.file("secret"));
+  write_bait(folder.file("scene"), HOSTILE_PLUGIN);
+  folder.write("secret/outside.osg", hostile_triangle("1"));
+  folder.write("scene/inner/inside.osg", hostile_triangle("2"));
+  fs::create_symlink(folder.file("secret/outside.osg"), folder.file("scene/link.osg"));
+  fs::create_directory_symlink(folder.file("secret"), folder.file("scene/door"));
+  fs::create_symlink(folder.file("scene/inner/inside.osg"), folder.file("scene/good_link.osg"));
+  std::vector<std::string> children{hostile_triangle("0")};
+  for (const std::string& name : hostile_names()) children.push_back(proxy_of(name));
+  for (const std::string& name :
+       {std::string("../secret/outside.osg"), folder.file("secret/outside.osg"), std::string("link.osg"),
+        std::string("door/outside.osg"), std::string("/etc/passwd"), std::string("../../../../../../etc/hostname"),
+        std::string("good_link.osg"), std::string("/proc/self/environ"), std::string("/dev/zero")}) {
+    children.push_back(proxy_of(name));
+  }
+  const std::string scene = folder.write("scene/all.osg", hostile_group(children));
+  const ProgramResult result =
+      run_program("/bin/sh", {"-c", "exec strace -f -s 4096 -o " + quoted(folder.file("trace")) +
+                                        " -e trace=open,openat,landlock_restrict_self '" ROAM_PROGRAM "' info --json " +
+                                        quoted(scene)});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string real = fs::canonical(folder.file("scene")).string();
+  EXPECT_EQ(opened_behind_walls(folder.read("trace")),
+            (std::set<std::string>{real + "/all.osg", real + "/inner/inside.osg"}));
+  json report = json::parse(result.out);
+  EXPECT_EQ(report["triangles"], 2);
+  EXPECT_EQ(report["import"]["outside_references"], 7) << report["import"]["outside_files"];
+}
+
+// --- references that lead out
+
+TEST(ImportHostile, LeavesOutWhatLiesOutsideAndLetsItInWhenToldSo) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("scene"));
+  fs::create_directories(folder.file("shared"));
+  folder.write("shared/part.osg", hostile_triangle("1"));
+  fs::create_symlink(folder.file("shared/part.osg"), folder.file("scene/link.osg"));
+  for (const std::string& name : {std::string("../shared/part.osg"), folder.file("shared/part.osg"),
+                                  std::string("link.osg"), std::string("..\\\\shared\\\\part.osg")}) {
+    const std::string scene = folder.write("scene/house.osg", hostile_group({hostile_triangle("0"), proxy_of(name)}));
+    json alone = info_of(scene);
+    EXPECT_EQ(alone["triangles"], 1) << name << alone;
+    EXPECT_EQ(alone["import"]["outside_references"], 1) << name;
+    EXPECT_TRUE(contains(alone["import"]["outside_files"].dump(), name == "link.osg" ? "link.osg" : "shared/part.osg"));
+    EXPECT_TRUE(contains(alone["import"]["notes"].dump(), "--allow")) << alone["import"]["notes"];
+    json allowed = info_of(scene, "--allow " + quoted(folder.file("shared")));
+    EXPECT_EQ(allowed["triangles"], 2) << name << allowed;
+    EXPECT_EQ(allowed["import"]["outside_references"], 0);
+  }
+  const std::string gltf = folder.write(
+      "scene/out.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{)"
+      R"("attributes":{"POSITION":0}}]}],"buffers":[{"uri":"../shared/out.bin","byteLength":36}],"bufferViews":[{)"
+      R"("buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+      R"("min":[0,0,0],"max":[1,1,0]}]})");
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder.write("shared/out.bin", std::string(reinterpret_cast<const char*>(corners), sizeof(corners)));
+  json refused = info_of(gltf);
+  EXPECT_TRUE(contains(refused.dump(), "outside of its folder")) << refused;
+  EXPECT_TRUE(contains(refused.dump(), "--allow")) << refused;
+  EXPECT_EQ(info_of(gltf, "--allow " + quoted(folder.file("shared")))["triangles"], 1);
+  EXPECT_TRUE(contains(info_of(gltf, "--allow " + quoted(folder.file("nowhere"))).dump(), "no such folder"));
+}
+
+TEST(ImportHostile, OpensASceneThatTheUserNamesByALink) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("real"));
+  folder.write("real/house.osg", hostile_triangle("0"));
+  fs::create_symlink(folder.file("real/house.osg"), folder.file("link.osg"));
+  fs::create_directory_symlink(folder.file("real"), folder.file("folder"));
+  EXPECT_EQ(info_of(folder.file("link.osg"))["triangles"], 1);
+  EXPECT_EQ(info_of(folder.file("folder/house.osg"))["triangles"], 1);
+}
+
+TEST(ImportHostile, NamesTheSceneAsTheUserDoes) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("real"));
+  folder.write("real/broken.obj", "v 0 0 zero\n");
+  const ProgramResult result = roam_in(folder.file(""), "info real/broken.obj");
+  EXPECT_TRUE(result.err.starts_with("roam: real/broken.obj:1: ")) << result.err;
+}
+
+// --- time and memory
+
+/// Seconds of processor that the budget gives a small file, and what a busy machine needs to start and end a reader.
+constexpr double small_budget = 10.0, beside = 20.0;
+
+double seconds_of(const std::function<void()>& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(ImportHostile, ReadsAFileThatNamesItselfOnce) {
+  const TestFolder folder;
+
+  const std::string scene = folder.write("self.osg", "Group {\nnum_children 3\n" + hostile_triangle("0") +
+                                                         proxy_of("self.osg") + proxy_of("self.osg") + "}\n");
+  const std::string pages = folder.write("pages.osg", hostile_group({page_of("pages.osg"), page_of("pages.osg")}));
+  json report;
+  EXPECT_LT(seconds_of([&] { report = info_of(scene); }), beside);
+  EXPECT_EQ(report["triangles"], 1) << report;
+  EXPECT_LT(seconds_of([&] { report = info_of(pages); }), beside);
+  EXPECT_EQ(report["triangles"], 2) << report;
+  EXPECT_EQ(report["import"]["missing_pages"], 2);
+}
+
+TEST(ImportHostile, EndsChainsThatDouble) {
+  const TestFolder folder;
+  constexpr int links = 40;
+  for (int i = 0; i < links; ++i) {
+    const std::string next = std::to_string(i + 1) + ".osg";
+    folder.write("proxy" + std::to_string(i) + ".osg",
+                 hostile_group({proxy_of("proxy" + next), proxy_of("proxy" + next)}));
+    folder.write("page" + std::to_string(i) + ".osg", hostile_group({page_of("page" + next), page_of("page" + next)}));
+  }
+  folder.write("proxy40.osg", hostile_triangle("0"));
+  folder.write("page40.osg", hostile_triangle("0"));
+  for (const char* first : {"proxy0.osg", "page0.osg"}) {
+    json report;
+    EXPECT_LT(seconds_of([&] { report = info_of(folder.file(first)); }), 2 * small_budget + beside) << first;
+    EXPECT_TRUE(contains(report.dump(), "refers to itself over and over") || contains(report.dump(), "of memory"))
+        << report;
+  }
+}
+
+TEST(ImportHostile, GrantsNoTimeForBytesThatAreNotRead) {
+  const TestFolder folder;
+  // The file says that it is a terabyte long, and has nothing on the disk.
+  const std::string scene = folder.write("large.osg", hostile_group({proxy_of("chain.osg")}));
+  fs::resize_file(scene, std::uintmax_t{1} << 40);
+  constexpr int links = 40;
+  for (int i = 0; i < links; ++i) {
+    const std::string next = i + 1 < links ? "chain" + std::to_string(i + 1) + ".osg" : "end.osg";
+    folder.write(i == 0 ? "chain.osg" : "chain" + std::to_string(i) + ".osg",
+                 hostile_group({proxy_of(next), proxy_of(next)}));
+  }
+  json report;
+  EXPECT_LT(seconds_of([&] { report = info_of(scene); }), 2 * small_budget + beside);
+  EXPECT_TRUE(report.contains("error")) << report;
+}
+
+TEST(ImportHostile, ParsesTextOfAnyDepthWithinTheMemory) {
+  const TestFolder folder;
+  const std::string deep(60u << 20, '[');
+  for (const char* name : {"deep.gltf", "deep.json.gltf"}) {
+    const std::string scene = folder.write(name, name[4] == '.' && name[5] == 'g' ? deep : "{\"buffers\":" + deep);
+    const ProgramResult result =
+        run_program(ROAM_PROGRAM, {"build", scene, "-o", folder.file("store"), "--memory", "256M"});
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_LT(result.peak, (256 + 24) * 1024) << result.err;
+  }
+}
+
+}  // namespace
