@@ -7,6 +7,7 @@
 
 #include "import/assembler.h"
 #include "import/read_all.h"
+#include "math/floating_point.h"
 
 namespace roam {
 namespace {
@@ -46,6 +47,7 @@ LengthUnit parse_length_unit(std::string_view text) {
 double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)].metres; }
 
 Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
+  const DefaultFloatingPoint guard;
   Scene scene;
   reader::read_all(
       reader::sources(paths), options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {

@@ -9,6 +9,7 @@
 #include "import/find_reader.h"
 #include "import/gltf_buffers.h"
 #include "import/read_all.h"
+#include "math/floating_point.h"
 #include "roam/import.h"
 
 namespace roam {
@@ -145,6 +146,7 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
 }  // namespace
 
 std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const ImportOptions& options) {
+  const DefaultFloatingPoint guard;
   const std::vector<reader::Source> sources = reader::sources(paths);
   reader::check(sources, options);
   const fs::path program = reader::find_reader(options.reader);

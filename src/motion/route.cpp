@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "math/floating_point.h"
 #include "motion/opening.h"
 #include "roam/error.h"
 
@@ -128,6 +129,7 @@ const char* name(Outcome outcome) {
 
 Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
     : walker_(&walker), waypoints_(waypoints.begin(), waypoints.end()), options_(options) {
+  const DefaultFloatingPoint guard;
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
   result_.least_clearance = start.least_clearance;
@@ -165,6 +167,7 @@ void Route::turn_to_next(bool hindered) {
 }
 
 const StepReport& Route::advance() {
+  const DefaultFloatingPoint guard;
   if (done_)
     throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);

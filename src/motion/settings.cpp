@@ -3,6 +3,7 @@
 #include <sstream>
 #include <string>
 
+#include "math/floating_point.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
@@ -38,6 +39,7 @@ void demand(const char* what, double value, const char* unit, const Range& range
 }  // namespace
 
 void check(const WalkerSettings& s) {
+  const DefaultFloatingPoint guard;
   demand("radius", s.radius, "m", {0.0, length_limit, true}, "");
   demand("support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no foot of its own");
   demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
@@ -56,6 +58,7 @@ void check(const WalkerSettings& s) {
 }
 
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) {
+  const DefaultFloatingPoint guard;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const SizeRegion& r = regions[i];
     const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
@@ -71,6 +74,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) 
 }
 
 Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {
+  const DefaultFloatingPoint guard;
   const double length = glm::length(direction);
   if (!std::isfinite(length)) throw Error("the wished direction is not a finite vector");
   const double speed = settings.speed * (fast ? settings.fast_factor : 1.0);

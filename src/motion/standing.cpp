@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "math/floating_point.h"
 #include "roam/error.h"
 #include "roam/walker.h"
 
@@ -31,6 +32,7 @@ std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings
 }  // namespace
 
 std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& settings) {
+  const DefaultFloatingPoint guard;
   std::vector<Vec3> centres(feet.begin(), feet.end());
   for (Vec3& place : centres) place.z += 0.5 * settings.height;
   return centres;
@@ -38,6 +40,7 @@ std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& set
 
 std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& settings, const Vec3& near,
                                    double within) {
+  const DefaultFloatingPoint guard;
   check(settings);
   if (!std::isfinite(near.x + near.y + near.z)) throw Error("the place to stand near to is not a finite point");
   if (!(within > 0.0 && within <= Space::reach_limit)) {

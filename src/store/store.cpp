@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "math/floating_point.h"
 #include "store/files.h"
 #include "store/tile_reader.h"
 
@@ -40,6 +41,7 @@ std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder) {
 }
 
 std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name) {
+  const DefaultFloatingPoint guard;
   auto state = std::make_unique<State>();
   State& s = *state;
   s.name = name;
@@ -95,6 +97,7 @@ void Store::for_each_triangle(
 void Store::for_each_triangle(const Box& box,
                               const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
                               const std::function<void(const std::string&)>& missing) const {
+  const DefaultFloatingPoint guard;
   const auto apart = [&](const Box& other) {
     for (int k = 0; k < 3; ++k) {
       if (other.upper[k] < box.lower[k] || other.lower[k] > box.upper[k]) return true;
@@ -139,6 +142,7 @@ void Store::for_each_triangle(const Box& box,
 }
 
 std::vector<Vec3> Store::sample(std::uint64_t count) const {
+  const DefaultFloatingPoint guard;
   store::TileReader reader(*state_);
   std::vector<Vec3> places;
   const std::uint64_t tiles = state_->info.tiles;
@@ -159,6 +163,7 @@ std::vector<Vec3> Store::sample(std::uint64_t count) const {
 }
 
 SourceTriangle Store::source(TriangleId triangle) const {
+  const DefaultFloatingPoint guard;
   const State& s = *state_;
   const std::uint64_t page_number = triangle >> (store::triangle_bits + store::tile_bits);
   const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "math/floating_point.h"
 #include "math/largest.h"
 #include "roam/error.h"
 #include "sweep/certified.h"
@@ -59,6 +60,7 @@ const char* name(Feature feature) {
 }
 
 SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
+  const DefaultFloatingPoint guard;
   check(body, from, motion, triangle);
   const certified::LocalTriangle local = seen_from(from, triangle);
   SweepResult result = certified::sweep(body, motion, local, 0.0, 1.0, 0.0);
@@ -71,6 +73,7 @@ SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const 
 }
 
 Proximity proximity(const Body& body, const Vec3& place, const Triangle& triangle) {
+  const DefaultFloatingPoint guard;
   check(body, place, Vec3(0.0), triangle);
   Proximity result = certified::proximity(body, seen_from(place, triangle));
   result.point += place;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "math/floating_point.h"
 #include "roam/profile.h"
 
 namespace roam {
@@ -27,6 +28,7 @@ void demand_vertices(const Mesh& mesh, std::size_t number, std::size_t triangle)
 }  // namespace
 
 SceneIdentity identity_of(std::span<const Mesh> meshes) {
+  const DefaultFloatingPoint guard;
   SceneIdentity identity;
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());
