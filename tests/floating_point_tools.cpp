@@ -70,7 +70,7 @@ TEST(FloatingPoint, WaysAndTraining) {
     const roam::Training trained = roam::train(survey, training);
     bits(trained.radius);
     bits(trained.smallest);
-    bits(trained.largest);
+    bits(trained.largest.value_or(-1.0));
     for (const roam::ProbeAnswer& answer : roam::probe(survey, question, sizes)) {
       bits(static_cast<std::uint64_t>(answer.passable));
       bits(answer.missing);
@@ -88,7 +88,7 @@ TEST(FloatingPoint, MadeScenes) {
   };
   expect_same([&](Bits& bits) {
     all(bits, roam::generate::gallery({.triangles = 20000}));
-    all(bits, roam::generate::terrain({.triangles = 5000}));
+    all(bits, roam::generate::terrain({.triangles = 10000}));
     all(bits, roam::generate::city({.triangles = 20000}));
   });
 }
@@ -97,13 +97,18 @@ TEST(FloatingPoint, Stores) {
   const made::Folder folder("floating_point");
   const std::string scene =
       store_builds::write_ply(folder.path() / "field.ply", store_builds::field(120, 0.37, Vec3(0.1)));
-  std::string first;
-  int count = 0;
+  // The library of C++ reckons when it joins paths, so that is done before.
+  std::vector<roam::StoreBuildOptions> builds;
+  for (std::size_t i = 0; i <= host::environments().size(); ++i) {
+    builds.push_back(store_builds::options({scene}, folder.path() / ("store" + std::to_string(i))));
+  }
+  std::size_t count = 0;
   const roam::Body body{0.3, 0.5};
   const Vec3 place(12.3, 21.7, 1.9), motion(1.3, 0.7, -2.9);
   expect_same([&](Bits& bits) {
-    const std::string output = folder.path() / ("store" + std::to_string(count++));
-    static_cast<void>(roam::build_store(store_builds::options({scene}, output)));
+    const roam::StoreBuildOptions& build = builds.at(count++);
+    const auto& output = build.output;
+    static_cast<void>(roam::build_store(build));
     bits(static_cast<std::uint64_t>(roam::verify_store(output).whole()));
     const auto store = roam::Store::open(output);
     bits(store->info().bounds.lower);
@@ -118,9 +123,7 @@ TEST(FloatingPoint, Stores) {
     roam::Contact contacts[8];
     for (std::size_t i = pager.contacts(body, place, motion, 2.0, contacts); i-- > 0;) bits(contacts[i]);
   });
-  for (int i = 1; i < count; ++i) {
-    store_builds::expect_same(folder.path() / "store0", folder.path() / ("store" + std::to_string(i)));
-  }
+  for (const roam::StoreBuildOptions& build : builds) store_builds::expect_same(builds[0].output, build.output);
 }
 
 }  // namespace
