@@ -10,6 +10,7 @@
 #include <string>
 
 #include "import/reader_process.h"
+#include "text/printable.h"
 
 namespace roam::reader {
 namespace {
@@ -64,9 +65,7 @@ std::string last_words(const std::string& complaints) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
   if (const auto line = text.find_last_of('\n'); line != std::string::npos) text.erase(0, line + 1);
   constexpr std::size_t length_limit = 200;
-  if (text.size() > length_limit) text.resize(length_limit);
-  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return text.empty() ? "" : " (its last words: " + text + ")";
+  return text.empty() ? "" : " (its last words: " + printable(text, length_limit) + ")";
 }
 
 /// Why a reader ended before it was done.
@@ -91,7 +90,7 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
-  const auto fail = [&](const std::string& what) -> Error { return Error(path + ": " + what + "."); };
+  const auto fail = [&](const std::string& what) -> Error { return Error(printable(path) + ": " + what + "."); };
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;

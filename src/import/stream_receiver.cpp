@@ -3,6 +3,8 @@
 #include <cstring>
 #include <utility>
 
+#include "text/printable.h"
+
 namespace roam::reader {
 namespace {
 
@@ -89,12 +91,12 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       break;
     }
     case FrameKind::note: {
-      std::string sentence = fields.take_text();
+      std::string sentence = printable(fields.take_text(), longest_sentence);
       if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
       break;
     }
     case FrameKind::failure: {
-      Failure failure{fields.take_text()};
+      Failure failure{printable(fields.take_text(), longest_sentence)};
       if (!fields.complete()) break;
       throw failure;
     }

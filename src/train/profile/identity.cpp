@@ -7,6 +7,7 @@
 
 #include "math/floating_point.h"
 #include "roam/profile.h"
+#include "text/printable.h"
 
 namespace roam {
 
@@ -17,11 +18,11 @@ namespace {
 void demand_vertices(const Mesh& mesh, std::size_t number, std::size_t triangle) {
   for (const std::uint32_t vertex : mesh.triangles[triangle]) {
     if (vertex < mesh.vertices.size()) continue;
-    throw Error(
-        fmt::format("cannot identify the scene: triangle {} of mesh {}{} uses vertex {}, but the mesh has {} "
-                    "vertices; correct the mesh",
-                    triangle, number, mesh.name.empty() ? std::string() : fmt::format(" (\"{}\")", mesh.name), vertex,
-                    mesh.vertices.size()));
+    throw Error(fmt::format(
+        "cannot identify the scene: triangle {} of mesh {}{} uses vertex {}, but the mesh has {} "
+        "vertices; correct the mesh",
+        triangle, number, mesh.name.empty() ? std::string() : fmt::format(" (\"{}\")", printable(mesh.name)), vertex,
+        mesh.vertices.size()));
   }
 }
 
