@@ -119,6 +119,7 @@ NewFile::NewFile(fs::path final_path) : path_(std::move(final_path)) {
   static std::atomic<std::uint64_t> number{0};
   temporary_ = path_;
   temporary_ += fmt::format(".{}.{}{}", ::getpid(), number++, temporary_suffix);
+  listed_.begin(temporary_);
   descriptor_ = again([&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
   if (descriptor_ < 0) fail("write", temporary_, errno);
 }

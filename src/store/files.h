@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "files/unfinished.h"
 #include "roam/store.h"
 #include "store/sha256.h"
 
@@ -52,6 +53,7 @@ class NewFile {
   void rename_to(const std::filesystem::path& path);
 
   std::filesystem::path path_, temporary_;
+  files::Unfinished listed_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   Sha256 hash_;
