@@ -8,6 +8,7 @@
 #include "math/floating_point.h"
 #include "motion/opening.h"
 #include "roam/error.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -89,7 +90,7 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
   const auto positive = [](const char* what, double value, const char* unit) {
     if (!(value > 0.0) || !std::isfinite(value)) {
-      throw Error(std::string("the route's ") + what + " is " + std::to_string(value) + " " + unit +
+      throw Error(std::string("the route's ") + what + " is " + number_text(value) + " " + unit +
                   "; it must be more than 0");
     }
   };
@@ -100,7 +101,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   }
   positive("patience", options.patience, "s");
   if (!(options.wait >= 0.0) || !std::isfinite(options.wait)) {
-    throw Error("the route's longest wait is " + std::to_string(options.wait) + " s; it must be at least 0");
+    throw Error("the route's longest wait is " + number_text(options.wait) + " s; it must be at least 0");
   }
   if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
   for (std::size_t i = 0; i < waypoints.size(); ++i) {

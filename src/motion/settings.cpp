@@ -1,12 +1,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <sstream>
 #include <string>
 
 #include "math/floating_point.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
+#include "text/number.h"
+#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -29,11 +30,11 @@ struct Range {
 void demand(const char* what, double value, const char* unit, const Range& range, const char* hint) {
   const bool above = range.open ? value > range.lower : value >= range.lower;
   if (above && value <= range.upper) return;  // written so that NaN is refused
-  std::ostringstream text;
-  text << "the walker's " << what << " is " << value << " " << unit << "; it must be "
-       << (range.open ? "more than " : "at least ") << range.lower << " and at most " << range.upper << " " << unit;
-  if (*hint) text << ": " << hint;
-  throw Error(text.str());
+  std::string text = std::string("the walker's ") + what + " is " + number_text(value) + " " + unit + "; it must be " +
+                     (range.open ? "more than " : "at least ") + number_text(range.lower) + " and at most " +
+                     number_text(range.upper) + " " + unit;
+  if (*hint) text += std::string(": ") + hint;
+  throw Error(text);
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) 
   const DefaultFloatingPoint guard;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const SizeRegion& r = regions[i];
-    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
+    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + printable(r.why) + ")");
     if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
       throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
     }

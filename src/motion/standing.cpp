@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "math/floating_point.h"
 #include "roam/error.h"
 #include "roam/walker.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -44,10 +44,8 @@ std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& set
   check(settings);
   if (!std::isfinite(near.x + near.y + near.z)) throw Error("the place to stand near to is not a finite point");
   if (!(within > 0.0 && within <= Space::reach_limit)) {
-    std::ostringstream text;
-    text << "a place to stand is looked for within " << within << " m; it must be more than 0 and at most "
-         << Space::reach_limit << " m";
-    throw Error(text.str());
+    throw Error("a place to stand is looked for within " + number_text(within) +
+                " m; it must be more than 0 and at most " + number_text(Space::reach_limit) + " m");
   }
   // Evenly over the disc by the golden angle, from the middle outwards.
   const double parts = within / settings.radius, turn = std::numbers::pi * (3.0 - std::sqrt(5.0));

@@ -14,6 +14,7 @@
 #include "motion/slide.h"
 #include "motion/walking.h"
 #include "roam/error.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -224,7 +225,7 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
   const DefaultFloatingPoint guard;
   if (!finite(input.velocity)) throw Error("the wished velocity is not a finite vector");
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
-    throw Error("the time step is " + std::to_string(dt) + " s; it must be finite and not negative");
+    throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
   }
   begin();
   if (mode_ == Mode::ghost) {

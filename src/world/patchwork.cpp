@@ -9,6 +9,7 @@
 #include "index/margin.h"
 #include "math/floating_point.h"
 #include "math/largest.h"
+#include "text/number.h"
 #include "world/box_tree.h"
 #include "world/patches.h"
 #include "world/query.h"
@@ -191,8 +192,8 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
 
 void Patchwork::deliver(PatchId patch, World world) {
   if (world.largest_error() > error_limit) {
-    throw Error("cannot deliver " + number(patch) + ": its world is stored to " +
-                std::to_string(world.largest_error()) + " m, which is more than 1 mm; build it in smaller parts");
+    throw Error("cannot deliver " + number(patch) + ": its world is stored to " + number_text(world.largest_error()) +
+                " m, which is more than 1 mm; build it in smaller parts");
   }
   if (world.stats().triangles > kFirstSide) {
     throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");

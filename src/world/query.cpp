@@ -9,6 +9,7 @@
 #include "math/floating_point.h"
 #include "math/largest.h"
 #include "roam/error.h"
+#include "text/number.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
 
@@ -26,7 +27,7 @@ constexpr double kMotionLimit = 1e6;
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot answer a query: " + what); }
 
 [[noreturn]] void refuse_length(double value, double limit, const char* name) {
-  refuse(std::string(name) + " is " + std::to_string(value) + " m; it must be between 0 and " +
+  refuse(std::string(name) + " is " + number_text(value) + " m; it must be between 0 and " +
          std::to_string(static_cast<long>(limit)) + " m");
 }
 
