@@ -4,8 +4,10 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 #include <system_error>
 #include <thread>
@@ -21,12 +23,19 @@ namespace {
 constexpr std::chrono::milliseconds grace_of_children{100};
 
 volatile std::sig_atomic_t signal_came = 0;  ///< its number
+std::atomic<std::int64_t> came_at{0};        ///< of the steady clock, nanoseconds
 sem_t signals;                               ///< one for each that came
 
 extern "C" void take_signal(int number) {
   const int error = errno;
   // The third does what signals do, should the watchdog itself be stuck.
-  if (signal_came != 0) std::signal(number, SIG_DFL);
+  if (signal_came != 0) {
+    std::signal(number, SIG_DFL);
+  } else {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    came_at = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  }
   signal_came = number;
   sem_post(&signals);
   errno = error;
@@ -95,6 +104,12 @@ bool interrupted() { return signal_came != 0; }
 
 void stop_if_interrupted() {
   if (interrupted()) throw Cancelled();
+}
+
+bool has_time() {
+  if (!interrupted()) return true;
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return now - std::chrono::nanoseconds(came_at) < longest_good_order / 2;
 }
 
 }  // namespace roam::app

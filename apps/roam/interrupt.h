@@ -21,4 +21,8 @@ void catch_signals();
 /// Throws roam::Cancelled when a signal came.
 void stop_if_interrupted();
 
+/// Whether there is time to go on with what ends well when it is ended early: no signal came, or it did less than half
+/// of longest_good_order ago.
+[[nodiscard]] bool has_time();
+
 }  // namespace roam::app

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "interrupt.h"
 #include "progress.h"
 #include "report.h"
 #include "roam/error.h"
@@ -89,10 +90,14 @@ ExitStatus view(const ViewOptions& options) {
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");
-    // A second Ctrl-C ends the program at once.
-    report.verified = verified(report, options, [&](std::uint64_t checked) {
-      return progress.goes_on(checked, report.pieces.size()) || cancelled;
-    });
+    try {
+      report.verified = verified(report, options, [&](std::uint64_t checked) {
+        return progress.goes_on(checked, report.pieces.size()) || has_time();
+      });
+    } catch (const Cancelled&) {
+      cancelled = true;
+      tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", report.pieces.size()));
+    }
   }
   if (options.json) {
     print(json_report(report));
