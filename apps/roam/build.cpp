@@ -13,6 +13,7 @@
 #include "roam/store_build.h"
 #include "scene_options.h"
 #include "store_name.h"
+#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -104,12 +105,12 @@ Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double s
 }
 
 void tell_notes(const StoreBuildReport& report) {
-  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  for (const std::string& note : report.notes) tell("note: " + note);
 }
 
 /// What is to be done after a plan.
 void tell_shards(const BuildVerb& verb, std::uint64_t count) {
-  const std::string store = verb.output.string();
+  const std::string store = printable_part(verb.output.string());
   if (count == 0) {
     print(fmt::format("no shards to build: go on with --merge ({})\n", store));
   } else if (count == 1) {
@@ -132,13 +133,14 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
     json["hash"] = info.hash;
     print(json);
   } else if (report.unchanged) {
-    print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", verb.output.string(), info.triangles));
+    print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", printable_part(verb.output.string()),
+                      info.triangles));
   } else {
     print(fmt::format(
         "{}: {} triangles in {} tiles, {}B, {:.2f} bytes a triangle\n"
         "read {} of {} parts, built {} of {} shards, in {}\n",
-        verb.output.string(), info.triangles, info.tiles, short_count(static_cast<double>(info.bytes)), per_triangle,
-        report.parts_read, report.parts, report.shards_built, report.shards, short_time(seconds)));
+        printable_part(verb.output.string()), info.triangles, info.tiles, short_count(static_cast<double>(info.bytes)),
+        per_triangle, report.parts_read, report.parts, report.shards_built, report.shards, short_time(seconds)));
   }
 }
 
@@ -167,7 +169,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
       if (verb.json) {
         print(json_report(verb, report, seconds()));
       } else {
-        print(fmt::format("shard {} of {} is {}\n", *verb.shard, verb.output.string(),
+        print(fmt::format("shard {} of {} is {}\n", *verb.shard, printable_part(verb.output.string()),
                           report.shards_built > 0 ? "built" : "there already"));
       }
       return done;
@@ -216,8 +218,8 @@ ExitStatus build(BuildVerb verb) {
   } catch (const std::exception&) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the scene.
     if (!interrupted()) throw;
-    fmt::print(stderr, "roam: stopped; what was done is kept in {}: the same command again goes on from there\n",
-               verb.output.string());
+    tell(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
+                     verb.output.string()));
     return failed;
   }
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include "interrupt.h"
 #include "report.h"
 #include "roam/error.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -26,7 +26,7 @@ std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     what = std::string("unknown option or argument:") +
            std::string(extras->what()).substr(std::string(what).find(':') + 1);
   }
-  return fmt::format("{}: {}\n`{} --help` lists what it takes.\n", verb, what, verb);
+  return fmt::format("{}: {}\n`{} --help` lists what it takes.\n", verb, printable_part(what), verb);
 }
 
 int run(CLI::App& program, const Run& chosen, int argc, char** argv) {
@@ -43,34 +43,27 @@ int run(CLI::App& program, const Run& chosen, int argc, char** argv) {
   return chosen();
 }
 
-/// A message that cannot be written either, to a log on the disk that is full, is lost: the exit status still tells.
-void tell(const CLI::App& program, const char* message) {
-  std::fputs(program.get_name().c_str(), stderr);
-  std::fputs(": ", stderr);
-  std::fputs(message, stderr);
-  std::fputs("\n", stderr);
-}
-
 }  // namespace
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
   catch_signals();
+  const std::string name = program.get_name();
   try {
     return run(program, chosen, argc, argv);
   } catch (const UsageError& error) {
-    tell(program, error.what());
+    tell(error.what(), name);
     return bad_usage;
   } catch (const BrokenPipe&) {
     return failed;
   } catch (const Cancelled&) {
-    tell(program, "cancelled");
+    tell("cancelled", name);
     return failed;
   } catch (const std::bad_alloc&) {
-    tell(program, "out of memory; take a smaller scene or a machine with more memory");
+    tell("out of memory; take a smaller scene or a machine with more memory", name);
     return failed;
   } catch (const std::exception& error) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the file.
-    tell(program, interrupted() ? "cancelled" : error.what());
+    tell(interrupted() ? "cancelled" : error.what(), name);
     return failed;
   }
 }

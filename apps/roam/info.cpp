@@ -6,6 +6,7 @@
 #include "roam/profile.h"
 #include "roam/store.h"
 #include "scene_options.h"
+#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -68,7 +69,7 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
   const Vec3 size = scene.bounds.size();
   const auto& [low, high] = scene.bounds;
-  std::string text = fmt::format("{}\n", options.names());
+  std::string text = printable_part(options.names()) + "\n";
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<16}{}\n", what, value);
   };
@@ -113,7 +114,7 @@ std::string text_report(const Store& store) {
   const auto triangles = static_cast<double>(i.triangles);
   const Vec3 size = i.bounds.size();
   const auto& [low, high] = i.bounds;
-  std::string text = fmt::format("{}\n", store.name());
+  std::string text = printable_part(store.name()) + "\n";
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<16}{}\n", what, value);
   };

@@ -1,23 +1,99 @@
 #include "interrupt.h"
 
-#include <csignal>
+#include <pthread.h>
+#include <semaphore.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <system_error>
+#include <thread>
+
+#include "children.h"
+#include "files/unfinished.h"
 #include "roam/error.h"
 
 namespace roam::app {
 namespace {
 
-volatile std::sig_atomic_t signal_came = 0;
+/// For children to end in order: Xvfb removes its lock and its socket.
+constexpr std::chrono::milliseconds grace_of_children{100};
 
-extern "C" void remember_signal(int) { signal_came = 1; }
+volatile std::sig_atomic_t signal_came = 0;  ///< its number
+std::atomic<std::int64_t> came_at{0};        ///< of the steady clock, nanoseconds
+sem_t signals;                               ///< one for each that came
+
+extern "C" void take_signal(int number) {
+  const int error = errno;
+  // The third does what signals do, should the watchdog itself be stuck.
+  if (signal_came != 0) {
+    std::signal(number, SIG_DFL);
+  } else {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    came_at = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  }
+  signal_came = number;
+  sem_post(&signals);
+  errno = error;
+}
+
+void wait_for_signal() {
+  while (sem_wait(&signals) != 0 && errno == EINTR) {
+  }
+}
+
+/// Until another signal comes, or so long.
+void wait_for_signal(std::chrono::milliseconds longest) {
+  timespec until{};
+  clock_gettime(CLOCK_REALTIME, &until);
+  const auto nanoseconds = until.tv_nsec + std::chrono::nanoseconds(longest).count();
+  until.tv_sec += nanoseconds / 1'000'000'000;
+  until.tv_nsec = nanoseconds % 1'000'000'000;
+  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR) {
+  }
+}
+
+[[noreturn]] void end_at_once(int number) {
+  end_children(grace_of_children);
+  files::Unfinished::remove_all();
+  constexpr char words[] = "roam: cancelled\n";
+  [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words, sizeof words - 1);
+  std::signal(number, SIG_DFL);
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, number);
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  std::raise(number);
+  _exit(128 + number);
+}
+
+void watch() {
+  wait_for_signal();
+  wait_for_signal(longest_good_order);
+  end_at_once(signal_came);
+}
+
+/// Its thread blocks all signals, so that they go to others and interrupt what these wait for.
+void start_watchdog() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread(watch).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
 
 }  // namespace
 
 void catch_signals() {
+  sem_init(&signals, 0, 0);
+  start_watchdog();
   struct sigaction action {};
-  action.sa_handler = remember_signal;
-  // Once, so that the second signal does what signals do; no SA_RESTART, so that a read from a terminal ends.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = take_signal;
+  // No SA_RESTART, so that a read from a terminal ends.
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -28,6 +104,12 @@ bool interrupted() { return signal_came != 0; }
 
 void stop_if_interrupted() {
   if (interrupted()) throw Cancelled();
+}
+
+bool has_time() {
+  if (!interrupted()) return true;
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return now - std::chrono::nanoseconds(came_at) < longest_good_order / 2;
 }
 
 }  // namespace roam::app

@@ -1,10 +1,18 @@
 #pragma once
 /// \file
-/// Ctrl-C: work that reports progress is cancelled in good order; a second Ctrl-C ends the program at once.
+/// Ctrl-C: work that reports progress is cancelled in good order; a second Ctrl-C ends the program at once. So does a
+/// watchdog when good order takes too long: other people's code, such as a graphics driver, reports no progress.
+
+#include <chrono>
 
 namespace roam::app {
 
-/// Catches SIGINT and SIGTERM from now on, and lets a closed standard output be an error instead of a signal.
+/// From the signal to the program's end, at most, but for what the watchdog itself then does.
+inline constexpr std::chrono::milliseconds longest_good_order{800};
+
+/// Catches SIGINT and SIGTERM from now on, and lets a closed standard output be an error instead of a signal. Ending at
+/// once is ending the children, removing the unfinished files (files/unfinished.h), and then what the signal does to a
+/// program that does not catch it.
 void catch_signals();
 
 /// A signal came: what runs should end.
@@ -12,5 +20,9 @@ void catch_signals();
 
 /// Throws roam::Cancelled when a signal came.
 void stop_if_interrupted();
+
+/// Whether there is time to go on with what ends well when it is ended early: no signal came, or it did less than half
+/// of longest_good_order ago.
+[[nodiscard]] bool has_time();
 
 }  // namespace roam::app

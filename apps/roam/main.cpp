@@ -13,7 +13,8 @@ constexpr const char* description = "roam: walk and fly through any 3D scene wit
 constexpr const char* help =
     "\n`roam VERB --help` explains a verb, with examples.\n\n"
     "Results go to standard output, progress and notes to standard error.\n"
-    "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 the answer is no.\n\n"
+    "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 the answer is no.\n"
+    "Ctrl-C ends every verb in good order (1), or after 0.8 s at once (130).\n\n"
     "Examples:\n"
     "  roam view mine.dae\n"
     "  roam make gallery -o gallery.ply\n"

@@ -9,6 +9,7 @@
 #include "report.h"
 #include "roam/error.h"
 #include "roam/generate.h"
+#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -70,9 +71,9 @@ ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool g
     return done;
   }
   std::string text =
-      fmt::format("{}: {} triangles in {} objects, {}B, made in {}\n", options.output.string(), scene.triangles(),
-                  scene.objects(), short_count(static_cast<double>(bytes)), short_time(seconds));
-  for (const std::string& path : paths) text += path + "\n";
+      fmt::format("{}: {} triangles in {} objects, {}B, made in {}\n", printable_part(options.output.string()),
+                  scene.triangles(), scene.objects(), short_count(static_cast<double>(bytes)), short_time(seconds));
+  for (const std::string& path : paths) text += printable_part(path) + "\n";
   print(text);
   return done;
 }

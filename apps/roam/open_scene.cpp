@@ -15,6 +15,7 @@
 #include "store/build/fingerprint.h"
 #include "store/opened.h"
 #include "store_start.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -170,9 +171,8 @@ std::string OpenScene::why_unknown(TriangleId unknown) const {
 }
 
 Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {
-  return read_triangles(*store_, box_of(pieces).grown(reach), [](const std::string& what) {
-    fmt::print(stderr, "roam: note: left out of the picture: {}\n", what);
-  });
+  return read_triangles(*store_, box_of(pieces).grown(reach),
+                        [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); });
 }
 
 Verification OpenScene::verified(std::span<const Piece> pieces,
@@ -225,8 +225,8 @@ Verification verify_against(const SceneOptions& scene, std::uint64_t triangles, 
     first += piece.triangles.size();
   });
   if (first != triangles) {
-    fmt::print(stderr, "roam: note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?\n",
-               scene.names(), first, triangles);
+    tell(fmt::format("note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?", scene.names(),
+                     first, triangles));
   }
   return verifier.result();
 }

@@ -17,6 +17,7 @@
 #include "progress.h"
 #include "roam/path_file.h"
 #include "surveyed.h"
+#include "tell.h"
 #include "validators.h"
 #include "verbs.h"
 
@@ -169,8 +170,7 @@ ExitStatus probe(ProbeOptions o) {
   const ProbeAnswer& first = answers.front();
   Unwritten unwritten;
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
-  if (o.path && !first.wide_enough)
-    fmt::print(stderr, "roam: {}: there is no way, so it was not written\n", o.path->string());
+  if (o.path && !first.wide_enough) tell(fmt::format("{}: there is no way, so it was not written", o.path->string()));
   if (drawing) {
     unwritten.attempt([&] { drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first)); });
   }

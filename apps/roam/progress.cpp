@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "interrupt.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -37,8 +38,8 @@ std::string short_time(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(std::string what, std::string unit)
-    : what_(std::move(what)), unit_(std::move(unit)), terminal_(isatty(STDERR_FILENO) != 0) {
+Progress::Progress(const std::string& what, std::string unit)
+    : what_(printable_part(what)), unit_(std::move(unit)), terminal_(isatty(STDERR_FILENO) != 0) {
   next_ = start_ + (terminal_ ? Clock::duration(terminal_period) : Clock::duration(log_period));
 }
 

@@ -20,7 +20,7 @@ class Progress {
  public:
   /// `what` is being done, counted in `unit`, e.g. "reading mine.dae" and "B" or "indexing" and "triangles"; empty:
   /// only what share of it is done is told.
-  Progress(std::string what, std::string unit);
+  Progress(const std::string& what, std::string unit);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

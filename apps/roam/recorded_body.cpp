@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <locale>
 #include <sstream>
 
 #include "roam/error.h"
@@ -47,6 +48,7 @@ std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
   for (int number = 1; std::getline(in, line); ++number) {
     if (!line.starts_with(mark)) continue;
     std::istringstream words(line.substr(std::string(mark).size()));
+    words.imbue(std::locale::classic());
     std::string word;
     words >> word;
     const std::optional<Mode> mode = parse_mode(word);

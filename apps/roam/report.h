@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 /// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
 /// written, e.g. to a disk that is full.
 void print(const Json& report);
+/// The same of lines for people, made printable.
 void print(const std::string& text);
 
 }  // namespace roam::app

@@ -9,6 +9,7 @@
 #include "progress.h"
 #include "roam/error.h"
 #include "roam/store.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -109,7 +110,7 @@ LoadedScene load(const SceneOptions& options, Source source) {
   options.check_there();
   const auto start = std::chrono::steady_clock::now();
   Scene scene = read(options);
-  for (const std::string& note : scene.report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  for (const std::string& note : scene.report.notes) tell("note: " + note);
   LoadedScene loaded;
   loaded.read_seconds = seconds_since(start);
   stop_if_interrupted();

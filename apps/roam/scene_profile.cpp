@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tell.h"
+
 namespace roam::app {
 
 std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode mode,
@@ -21,7 +23,7 @@ std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode m
   }
   if (!profile) return std::nullopt;
   if (profile->mode == Mode::fly && mode == Mode::walk) {
-    fmt::print(stderr, "roam: note: {} was trained for flying: it is not used on foot\n", file.string());
+    tell(fmt::format("note: {} was trained for flying: it is not used on foot", file.string()));
     return std::nullopt;
   }
   const bool same =

@@ -12,6 +12,7 @@
 #include "loose_triangles.h"
 #include "progress.h"
 #include "roam/store.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -67,7 +68,7 @@ std::vector<Mesh> read_scene(const SceneOptions& options) {
   Progress progress("reading " + options.names(), "B");
   how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
   Scene scene = import_scene(options.scenes, how);
-  for (const std::string& note : scene.report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  for (const std::string& note : scene.report.notes) tell("note: " + note);
   return std::move(scene.meshes);
 }
 
@@ -121,10 +122,10 @@ void check_spacing(const Surveyed& scene, double spacing, double width) {
         spacing, longest, usual));
   }
   if (overlooked * spacing > width) {
-    fmt::print(stderr,
-               "roam: note: with --spacing {:g} openings under {:.2g} m may be overlooked; to find those of {:.2g} m "
-               "say --spacing {:.2g} or less\n",
-               spacing, overlooked * spacing, width, std::floor(100.0 * width / overlooked) / 100.0);
+    tell(
+        fmt::format("note: with --spacing {:g} openings under {:.2g} m may be overlooked; to find those of {:.2g} m "
+                    "say --spacing {:.2g} or less",
+                    spacing, overlooked * spacing, width, std::floor(100.0 * width / overlooked) / 100.0));
   }
 }
 

@@ -21,6 +21,7 @@
 #include "paged_sweep.h"
 #include "roam/error.h"
 #include "sweep_rows.h"
+#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -161,16 +162,16 @@ class Missing {
     incomplete_ += answers.missing.size();
     for (const auto& [line, what] : answers.missing) {
       if (told_.size() == most_told || !told_.insert(what).second) continue;
-      fmt::print(stderr, "roam: note: line {}: {}\n", line, what);
+      tell(fmt::format("note: line {}: {}", line, what));
     }
   }
   /// Whether any answer is not complete, which is then told.
   [[nodiscard]] bool any(const SceneOptions& options) const {
     if (incomplete_ == 0) return false;
-    fmt::print(stderr,
-               "roam: {} of {} answers are not complete, because what they need cannot be read: there a way ends "
-               "(feature unknown) or the triangle is not told (-1); `roam verify {}` names all that is damaged\n",
-               incomplete_, rows_, options.names());
+    tell(
+        fmt::format("{} of {} answers are not complete, because what they need cannot be read: there a way ends "
+                    "(feature unknown) or the triangle is not told (-1); `roam verify {}` names all that is damaged",
+                    incomplete_, rows_, options.names()));
     return true;
   }
 

@@ -14,6 +14,7 @@
 #include "progress.h"
 #include "roam/error.h"
 #include "surveyed.h"
+#include "tell.h"
 #include "train_report.h"
 #include "validators.h"
 #include "verbs.h"
@@ -79,9 +80,9 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   if (file.empty() || t.places == 0) return;
   const bool learned = t.complete || !t.paths.empty();
   if (!learned) {
-    fmt::print(stderr, "roam: {} was not written: this training ended before it had learned anything\n", file.string());
+    tell(fmt::format("{} was not written: this training ended before it had learned anything", file.string()));
   } else if (!t.complete && !o.profile && std::filesystem::exists(file)) {
-    fmt::print(stderr, "roam: {} is left as it is: this training ended early\n", file.string());
+    tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {
     save_profile(profile_of(t, identity), file);
     report.profile = file;
@@ -124,7 +125,7 @@ ExitStatus train(TrainVerbOptions o) {
     print(text_report(report));
   }
   if (drawing && interrupted()) {
-    fmt::print(stderr, "roam: {} was not drawn: this training ended early\n", o.picture->string());
+    tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
     const std::vector<picture::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.

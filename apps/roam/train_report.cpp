@@ -8,6 +8,7 @@
 #include <map>
 
 #include "progress.h"
+#include "tell.h"
 
 namespace roam::app {
 namespace {
@@ -134,7 +135,7 @@ std::string text_report(const TrainReport& report) {
   const Training& t = report.training;
   std::string text = t.answer + "\n";
   const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("  {:<17}{}\n", what, value);
+    text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
   std::string body =
       fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::name(report.options.mode), t.radius, t.height);

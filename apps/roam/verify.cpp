@@ -7,6 +7,7 @@
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
+#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -34,7 +35,7 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, s
 }
 
 std::string text_report(const VerifyOptions& options, const StoreVerification& found) {
-  const std::string store = options.store.string();
+  const std::string store = printable_part(options.store.string());
   if (!found.complete) {
     return fmt::format(
         "{0}: not complete: its build has not ended; `roam build` with its scene, and `-o {0}`, goes on "
@@ -43,7 +44,7 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
   }
   std::string text;
   for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
-    text += fmt::format("{}: {}\n", found.damage[i].what, found.damage[i].why);
+    text += fmt::format("{}: {}\n", printable_part(found.damage[i].what), printable_part(found.damage[i].why));
   }
   if (found.damage.size() > most_lines) {
     text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
@@ -76,7 +77,7 @@ std::uint64_t repair(const VerifyOptions& options) {
     };
     report = repair_store(build);
   }
-  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  for (const std::string& note : report.notes) tell("note: " + note);
   return report.shards_built;
 }
 

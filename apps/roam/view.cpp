@@ -6,10 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "interrupt.h"
 #include "progress.h"
 #include "report.h"
 #include "roam/error.h"
+#include "tell.h"
 #include "verbs.h"
+#include "view/notices.h"
 #include "view/session.h"
 
 namespace roam::app {
@@ -56,6 +59,7 @@ Verification verified(const ViewReport& report, const ViewOptions& options,
 }
 
 ExitStatus view(const ViewOptions& options) {
+  make_notices_printable();
   const ViewSettings settings = read_settings_for(options);
   const std::string keys = keys_of(settings);
   if (options.keys) {
@@ -83,13 +87,17 @@ ExitStatus view(const ViewOptions& options) {
     }
     report = session.finish();
   }
-  for (const std::string& note : report.notes) fmt::print(stderr, "roam: note: {}\n", note);
+  for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");
-    // A second Ctrl-C ends the program at once.
-    report.verified = verified(report, options, [&](std::uint64_t checked) {
-      return progress.goes_on(checked, report.pieces.size()) || cancelled;
-    });
+    try {
+      report.verified = verified(report, options, [&](std::uint64_t checked) {
+        return progress.goes_on(checked, report.pieces.size()) || has_time();
+      });
+    } catch (const Cancelled&) {
+      cancelled = true;
+      tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", report.pieces.size()));
+    }
   }
   if (options.json) {
     print(json_report(report));

@@ -16,6 +16,7 @@
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
+#include "tell.h"
 #include "verbs.h"
 #include "walk_options.h"
 #include "walk_record.h"
@@ -74,8 +75,8 @@ class Recorder {
     finish();
     progress_.reset();  // its line on the terminal goes away before
     const Vec3 end = walker.position();
-    fmt::print(stderr, "roam: note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}\n", length_,
-               time_, steps_, end.x, end.y, end.z, trace_ ? "; " + options_.trace.string() + " has its trace" : "");
+    tell(fmt::format("note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}", length_, time_, steps_,
+                     end.x, end.y, end.z, trace_ ? "; " + options_.trace.string() + " has its trace" : ""));
   }
   [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -206,7 +207,7 @@ ExitStatus walk(WalkOptions options) {
   if (!options.path.empty()) path = positions(load_path(options.path));
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
-    if (!other.empty()) fmt::print(stderr, "roam: note: {}\n", other);
+    if (!other.empty()) tell("note: " + other);
   }
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
@@ -220,10 +221,10 @@ ExitStatus walk(WalkOptions options) {
   if (options.profile) {
     demand_belongs(*options.profile, scene.store() ? identity_of(scene.store()->info()) : scene.loaded().identity,
                    options.scene.names());
-    fmt::print(stderr, "roam: {}\n", describe(*options.profile));
+    tell(describe(*options.profile));
   }
   const std::string size = note_on_size(options.settings, scene.bounds());
-  if (!size.empty()) fmt::print(stderr, "roam: note: {}\n", size);
+  if (!size.empty()) tell("note: " + size);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
   Recorder recorder(options, scene, seconds / options.route.dt);

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "progress.h"
+#include "tell.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 std::string at(const Vec3& p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
 
 std::string quoted(const std::string& object) {
-  return object.empty() ? "an object without a name" : "\"" + object + "\"";
+  return object.empty() ? "an object without a name" : fmt::format("\"{}\"", printable(object));
 }
 
 /// Where the first event of a kind was.
@@ -47,7 +49,8 @@ std::string explain_wait(const WalkReport& report) {
                        at(result.end));
   }
   return fmt::format("at {} what lies ahead is solid until it is read, from {} on: {}", at(result.end),
-                     at(result.blocked_at->point), report.object.empty() ? "not loaded yet" : report.object);
+                     at(result.blocked_at->point),
+                     report.object.empty() ? "not loaded yet" : printable_part(report.object));
 }
 
 std::string spans(const Box& box) { return fmt::format("{} to {}", at(box.lower), at(box.upper)); }
@@ -219,7 +222,7 @@ std::string text_report(const WalkReport& report) {
   const RouteResult& result = report.result;
   std::string text = fmt::format("{}: {}\n", name(result.outcome), explain(report));
   const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("  {:<17}{}\n", what, value);
+    text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
   if (const auto freed = first(result, EventKind::freed)) {
     line("start",

@@ -19,6 +19,11 @@
 ///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
 ///     `unknown`.
 ///
+/// Whatever floating-point environment the host has set (rounding, subnormal numbers, trapped exceptions), the
+/// functions of this library that are not inline in a header reckon in the default one and then set the host's again:
+/// the answers are the same bits and raise no signal. Callbacks, and spaces of the host's own, run in the default one
+/// too.
+///
 /// Queries are const, never allocate, never wait, and may run at the same time, unless an implementation's own header
 /// says otherwise. They throw roam::Error for non-finite input and for bodies or distances beyond Space::reach_limit.
 

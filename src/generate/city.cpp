@@ -9,6 +9,7 @@
 #include "generate/noise.h"
 #include "generate/scene.h"
 #include "generate/tube.h"
+#include "math/floating_point.h"
 
 namespace roam::generate {
 namespace {
@@ -209,6 +210,7 @@ City fit(const CityOptions& options) {
 }  // namespace
 
 Scene city(const CityOptions& options) {
+  const DefaultFloatingPoint guard;
   check_options("city", options.triangles, options.origin);
   const City city = fit(options);
   // Of each block: its street, four buildings with their insides, and a bridge or nothing.

@@ -4,6 +4,7 @@
 
 #include "generate/gallery_parts.h"
 #include "generate/scene.h"
+#include "math/floating_point.h"
 
 namespace roam::generate {
 namespace {
@@ -78,6 +79,7 @@ GalleryDetail detail_for(const GalleryOptions& options) {
 }  // namespace
 
 Scene gallery(const GalleryOptions& options) {
+  const DefaultFloatingPoint guard;
   check_options("gallery", options.triangles, options.origin);
   Scene::Plan plan = plan_of(options, detail_for(options));
   plan.bounds = gallery_bounds();

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "math/floating_point.h"
 #include "roam/error.h"
 
 namespace roam::generate {
@@ -15,6 +16,7 @@ std::uint64_t Scene::objects() const { return plan_->objects; }
 const Box& Scene::bounds() const { return plan_->bounds; }
 
 void Scene::stream(const Sink& sink, const Progress& progress) const {
+  const DefaultFloatingPoint guard;
   std::uint64_t done = 0;
   Mesh mesh;
   for (std::uint64_t i = 0; i < plan_->parts; ++i) {

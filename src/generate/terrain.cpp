@@ -5,6 +5,7 @@
 
 #include "generate/noise.h"
 #include "generate/scene.h"
+#include "math/floating_point.h"
 #include "roam/error.h"
 
 namespace roam::generate {
@@ -59,6 +60,7 @@ constexpr double highest_per_wavelength = 2.25 * height_per_wavelength;
 }  // namespace
 
 Scene terrain(const TerrainOptions& options) {
+  const DefaultFloatingPoint guard;
   check_options("terrain", options.triangles, options.origin);
   if (!(options.size >= least_size && options.size <= most_size)) {
     throw Error(

@@ -13,6 +13,7 @@
 #include <limits>
 #include <string>
 
+#include "files/unfinished.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 
@@ -30,6 +31,7 @@ class NewFile {
       temporary_.clear();
       fail("created");
     }
+    listed_.begin(temporary_);
   }
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -69,6 +71,7 @@ class NewFile {
 
   std::filesystem::path path_;
   std::string temporary_;
+  files::Unfinished listed_;
   int descriptor_ = -1;
 };
 

@@ -7,6 +7,7 @@
 #include <osg/StateSet>
 
 #include "graphics/pipeline.h"
+#include "text/number.h"
 
 namespace roam::graphics {
 namespace {
@@ -20,12 +21,12 @@ const osg::Vec4 background(0.45f, 0.49f, 0.53f, 1.0f);
 
 void check_near(double near) {
   if (near > 0.0 && near <= largest_near) return;
-  throw Error("a near plane of " + std::to_string(near) + " m cannot be used: it must be in (0, 1000]");
+  throw Error("a near plane of " + number_text(near) + " m cannot be used: it must be in (0, 1000]");
 }
 
 void check_vertical_fov(double degrees) {
   if (degrees >= 10.0 && degrees <= 150.0) return;
-  throw Error("a vertical field of view of " + std::to_string(degrees) +
+  throw Error("a vertical field of view of " + number_text(degrees) +
               " degrees cannot be used: it must be in [10, 150]");
 }
 

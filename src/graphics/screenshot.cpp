@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "files/unfinished.h"
 #include "graphics/capture.h"
 #include "graphics/unfinished_file.h"
 
@@ -37,6 +38,7 @@ void write_image(const osg::Image& image, const fs::path& path) {
     throw Error("cannot write the picture " + path.string() + ": there is no folder " + folder.string());
   }
   const fs::path unfinished = unfinished_name(path);
+  const files::Unfinished listed(unfinished);
   const auto result = osgDB::Registry::instance()->writeImage(image, unfinished.string(), nullptr);
   if (!result.success()) {
     fs::remove(unfinished, problem);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "files/unfinished.h"
 #include "graphics/capture.h"
 #include "graphics/child_process.h"
 #include "graphics/unfinished_file.h"
@@ -114,6 +115,7 @@ class Video::Encoder {
   Encoder(fs::path path, int width, int height, int rate)
       : path_(std::move(path)),
         unfinished_(unfinished_name(path_)),
+        listed_(unfinished_),
         width_(width),
         height_(height),
         rate_(rate),
@@ -218,6 +220,7 @@ class Video::Encoder {
   }
 
   const fs::path path_, unfinished_;
+  const files::Unfinished listed_;
   const int width_, height_, rate_;
   Line line_;
   ChildProcess process_;

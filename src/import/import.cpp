@@ -8,6 +8,7 @@
 #include "import/assembler.h"
 #include "import/find_reader.h"
 #include "import/read_all.h"
+#include "math/floating_point.h"
 
 namespace roam {
 namespace {
@@ -51,6 +52,7 @@ Confinement reader_confinement(const ImportOptions& options) {
 }
 
 Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
+  const DefaultFloatingPoint guard;
   Scene scene;
   reader::read_all(
       reader::sources(paths), options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {

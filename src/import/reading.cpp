@@ -12,6 +12,7 @@
 
 #include "import/processor_budget.h"
 #include "import/reader_process.h"
+#include "text/printable.h"
 
 namespace roam::reader {
 namespace {
@@ -103,9 +104,7 @@ std::string last_words(const std::string& complaints) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
   if (const auto line = text.find_last_of('\n'); line != std::string::npos) text.erase(0, line + 1);
   constexpr std::size_t length_limit = 200;
-  if (text.size() > length_limit) text.resize(length_limit);
-  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return text.empty() ? "" : " (its last words: " + text + ")";
+  return text.empty() ? "" : " (its last words: " + printable(text, length_limit) + ")";
 }
 
 std::string without_slash(std::string path) {
@@ -175,7 +174,7 @@ std::unique_ptr<ReaderProcess> start(const Reading& reading) {
 void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
-  const auto fail = [&](const std::string& what) -> Error { return Error(path + ": " + what + "."); };
+  const auto fail = [&](const std::string& what) -> Error { return Error(printable(path) + ": " + what + "."); };
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "text/printable.h"
+
 namespace roam::reader {
 namespace {
 
@@ -13,8 +15,8 @@ constexpr std::size_t listed_names = 3;
 std::string listed(const std::vector<LeftOutObject>& objects) {
   std::string text;
   for (std::size_t i = 0; i < objects.size() && i < listed_names; ++i) {
-    text += fmt::format("{}'{}' ({} vertices, {} triangles)", i == 0 ? "" : ", ", objects[i].name, objects[i].vertices,
-                        objects[i].triangles);
+    text += fmt::format("{}'{}' ({} vertices, {} triangles)", i == 0 ? "" : ", ", printable(objects[i].name),
+                        objects[i].vertices, objects[i].triangles);
   }
   return objects.size() > listed_names ? text + " and others" : text;
 }
@@ -23,7 +25,7 @@ std::string listed(const std::vector<LeftOutObject>& objects) {
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < names.size() && i < listed_names; ++i) text += (i == 0 ? "" : ", ") + names[i];
+  for (std::size_t i = 0; i < names.size() && i < listed_names; ++i) text += (i == 0 ? "" : ", ") + printable(names[i]);
   return names.size() > listed_names ? text + " and others" : text;
 }
 
@@ -50,7 +52,7 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
   }
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (!matched[i])
-      notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", options.ignore[i]));
+      notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", printable(options.ignore[i])));
   }
   report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
 }

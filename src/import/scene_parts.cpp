@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 #include <system_error>
 
 #include "import/find_reader.h"
 #include "import/read_all.h"
+#include "math/floating_point.h"
 #include "roam/import.h"
+#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -72,26 +73,11 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// Bytes of the character of UTF-8 that a text begins with; 0 where it begins with none.
-std::size_t character_bytes(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return 1;
-  const std::size_t count = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < count) return 0;
-  std::uint32_t code = byte(0) & (0x7FU >> count);
-  for (std::size_t i = 1; i < count; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80) return 0;
-    code = code << 6 | (byte(i) & 0x3FU);
-  }
-  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-  return code < least[count] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000) ? 0 : count;
-}
-
 /// Names of files may be any bytes, names of parts are text: what is no UTF-8 becomes %XX, as in addresses.
 std::string readable(std::string_view bytes) {
   std::string text;
   while (!bytes.empty()) {
-    const std::size_t count = character_bytes(bytes);
+    const std::size_t count = first_character(bytes).bytes;
     text +=
         count > 0 ? std::string(bytes.substr(0, count)) : fmt::format("%{:02X}", static_cast<unsigned char>(bytes[0]));
     bytes.remove_prefix(std::max<std::size_t>(count, 1));
@@ -150,6 +136,7 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
 }  // namespace
 
 std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const ImportOptions& options) {
+  const DefaultFloatingPoint guard;
   const std::vector<reader::Source> sources = reader::sources(paths);
   reader::check(sources, options);
   const fs::path program = reader::find_reader(options.reader);

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "text/printable.h"
+
 namespace roam::reader {
 namespace {
 
@@ -100,12 +102,12 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       break;
     }
     case FrameKind::note: {
-      std::string sentence = spelt(fields.take_text());
+      std::string sentence = printable(spelt(fields.take_text()), longest_sentence);
       if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
       break;
     }
     case FrameKind::failure: {
-      Failure failure{spelt(fields.take_text())};
+      Failure failure{printable(spelt(fields.take_text()), longest_sentence)};
       if (!fields.complete()) break;
       ended_ = true;
       throw failure;

@@ -2,6 +2,7 @@
 
 #include "import/piece_receiver.h"
 #include "import/read_all.h"
+#include "math/floating_point.h"
 #include "roam/import.h"
 
 namespace roam {
@@ -23,10 +24,12 @@ ImportReport stream(std::span<const reader::Source> sources, const ImportOptions
 
 ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
                           const PieceSink& sink) {
+  const DefaultFloatingPoint guard;
   return stream(reader::sources(paths), options, sink);
 }
 
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink) {
+  const DefaultFloatingPoint guard;
   const reader::Source source{part.path, part.tile, part.frame, part.bytes};
   return stream(std::span(&source, 1), options, sink);
 }

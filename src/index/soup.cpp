@@ -8,12 +8,13 @@
 #include "math/largest.h"
 #include "roam/error.h"
 #include "roam/world.h"
+#include "text/printable.h"
 
 namespace roam::index {
 namespace {
 
 std::string title(std::span<const Mesh> meshes, std::size_t m) {
-  return "mesh " + std::to_string(m) + (meshes[m].name.empty() ? "" : " (\"" + meshes[m].name + "\")");
+  return "mesh " + std::to_string(m) + (meshes[m].name.empty() ? "" : " (\"" + printable(meshes[m].name) + "\")");
 }
 
 }  // namespace

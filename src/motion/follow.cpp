@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "math/floating_point.h"
 #include "roam/route.h"
 
 namespace roam {
@@ -85,6 +86,7 @@ class Attendant {
 }  // namespace
 
 RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints, const RouteOptions& options) {
+  const DefaultFloatingPoint guard;
   if (&walker.space() != &space) {
     throw Error("the walker moves in another space than the one that is to be updated; pass the walker's own");
   }

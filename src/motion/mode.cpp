@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "math/floating_point.h"
 #include "motion/recovery.h"
 #include "motion/sizes.h"
 #include "roam/walker.h"
@@ -11,6 +12,7 @@
 namespace roam {
 
 const StepReport& Walker::set_mode(Mode mode) {
+  const DefaultFloatingPoint guard;
   begin();
   const Mode before = mode_;
   mode_ = mode;

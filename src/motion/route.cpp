@@ -5,8 +5,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "math/floating_point.h"
 #include "motion/opening.h"
 #include "roam/error.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -88,7 +90,7 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
   const auto positive = [](const char* what, double value, const char* unit) {
     if (!(value > 0.0) || !std::isfinite(value)) {
-      throw Error(std::string("the route's ") + what + " is " + std::to_string(value) + " " + unit +
+      throw Error(std::string("the route's ") + what + " is " + number_text(value) + " " + unit +
                   "; it must be more than 0");
     }
   };
@@ -99,7 +101,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   }
   positive("patience", options.patience, "s");
   if (!(options.wait >= 0.0) || !std::isfinite(options.wait)) {
-    throw Error("the route's longest wait is " + std::to_string(options.wait) + " s; it must be at least 0");
+    throw Error("the route's longest wait is " + number_text(options.wait) + " s; it must be at least 0");
   }
   if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
@@ -128,6 +130,7 @@ const char* name(Outcome outcome) {
 
 Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
     : walker_(&walker), waypoints_(waypoints.begin(), waypoints.end()), options_(options) {
+  const DefaultFloatingPoint guard;
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
   result_.least_clearance = start.least_clearance;
@@ -165,6 +168,7 @@ void Route::turn_to_next(bool hindered) {
 }
 
 const StepReport& Route::advance() {
+  const DefaultFloatingPoint guard;
   if (done_)
     throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);

@@ -1,11 +1,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <sstream>
 #include <string>
 
+#include "math/floating_point.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
+#include "text/number.h"
+#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -28,16 +30,17 @@ struct Range {
 void demand(const char* what, double value, const char* unit, const Range& range, const char* hint) {
   const bool above = range.open ? value > range.lower : value >= range.lower;
   if (above && value <= range.upper) return;  // written so that NaN is refused
-  std::ostringstream text;
-  text << "the walker's " << what << " is " << value << " " << unit << "; it must be "
-       << (range.open ? "more than " : "at least ") << range.lower << " and at most " << range.upper << " " << unit;
-  if (*hint) text << ": " << hint;
-  throw Error(text.str());
+  std::string text = std::string("the walker's ") + what + " is " + number_text(value) + " " + unit + "; it must be " +
+                     (range.open ? "more than " : "at least ") + number_text(range.lower) + " and at most " +
+                     number_text(range.upper) + " " + unit;
+  if (*hint) text += std::string(": ") + hint;
+  throw Error(text);
 }
 
 }  // namespace
 
 void check(const WalkerSettings& s) {
+  const DefaultFloatingPoint guard;
   demand("radius", s.radius, "m", {0.0, length_limit, true}, "");
   demand("support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no foot of its own");
   demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
@@ -56,9 +59,10 @@ void check(const WalkerSettings& s) {
 }
 
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) {
+  const DefaultFloatingPoint guard;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const SizeRegion& r = regions[i];
-    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + r.why + ")");
+    const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + printable(r.why) + ")");
     if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
       throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
     }
@@ -71,6 +75,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) 
 }
 
 Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {
+  const DefaultFloatingPoint guard;
   const double length = glm::length(direction);
   if (!std::isfinite(length)) throw Error("the wished direction is not a finite vector");
   const double speed = settings.speed * (fast ? settings.fast_factor : 1.0);

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <sstream>
 
+#include "math/floating_point.h"
 #include "roam/error.h"
 #include "roam/walker.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -31,6 +32,7 @@ std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings
 }  // namespace
 
 std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& settings) {
+  const DefaultFloatingPoint guard;
   std::vector<Vec3> centres(feet.begin(), feet.end());
   for (Vec3& place : centres) place.z += 0.5 * settings.height;
   return centres;
@@ -38,13 +40,12 @@ std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& set
 
 std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& settings, const Vec3& near,
                                    double within) {
+  const DefaultFloatingPoint guard;
   check(settings);
   if (!std::isfinite(near.x + near.y + near.z)) throw Error("the place to stand near to is not a finite point");
   if (!(within > 0.0 && within <= Space::reach_limit)) {
-    std::ostringstream text;
-    text << "a place to stand is looked for within " << within << " m; it must be more than 0 and at most "
-         << Space::reach_limit << " m";
-    throw Error(text.str());
+    throw Error("a place to stand is looked for within " + number_text(within) +
+                " m; it must be more than 0 and at most " + number_text(Space::reach_limit) + " m");
   }
   // Evenly over the disc by the golden angle, from the middle outwards.
   const double parts = within / settings.radius, turn = std::numbers::pi * (3.0 - std::sqrt(5.0));

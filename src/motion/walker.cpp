@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "math/floating_point.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/recovery.h"
@@ -13,6 +14,7 @@
 #include "motion/slide.h"
 #include "motion/walking.h"
 #include "roam/error.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -39,19 +41,30 @@ Walker::Walker(const Space& space, const WalkerSettings& settings, Mode mode, co
       settings_(settings),
       outside_{settings.radius, settings.support_radius},
       mode_(mode) {
+  const DefaultFloatingPoint guard;
   check(settings);
   skin_ = least_skin + 2.0 * space.largest_error();
   slope_cosine_ = std::cos(settings.slope_degrees * (std::numbers::pi / 180.0));
   place(start);
 }
 
-Body Walker::body() const { return Body::capsule(settings_.radius, height_); }
+Body Walker::body() const {
+  const DefaultFloatingPoint guard;
+  return Body::capsule(settings_.radius, height_);
+}
 
-Vec3 Walker::feet() const { return position_ - Vec3(0.0, 0.0, 0.5 * height_); }
+Vec3 Walker::feet() const {
+  const DefaultFloatingPoint guard;
+  return position_ - Vec3(0.0, 0.0, 0.5 * height_);
+}
 
-Vec3 Walker::eye() const { return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height)); }
+Vec3 Walker::eye() const {
+  const DefaultFloatingPoint guard;
+  return feet() + Vec3(0.0, 0.0, settings_.eye * (height_ / settings_.height));
+}
 
 Vec3 Walker::velocity() const {
+  const DefaultFloatingPoint guard;
   Vec3 way(0.0), at = report_.from;
   for (const Corner& c : report_.corners) {
     if (!c.teleport) way += c.position - at;
@@ -209,9 +222,10 @@ void Walker::settle() {
 }
 
 const StepReport& Walker::step(const WalkerInput& input, double dt) {
+  const DefaultFloatingPoint guard;
   if (!finite(input.velocity)) throw Error("the wished velocity is not a finite vector");
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
-    throw Error("the time step is " + std::to_string(dt) + " s; it must be finite and not negative");
+    throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
   }
   begin();
   if (mode_ == Mode::ghost) {
@@ -310,6 +324,7 @@ walking::Ending Walker::fly(walking::Move& m, const Vec3& velocity, double dt) {
 }
 
 void Walker::set_regions(std::span<const SizeRegion> regions) {
+  const DefaultFloatingPoint guard;
   check(regions, given_);
   std::vector<SizeRegion> copies(regions.begin(), regions.end());
   std::vector<char> inside(regions.size(), char{0});
@@ -319,6 +334,7 @@ void Walker::set_regions(std::span<const SizeRegion> regions) {
 }
 
 bool Walker::resize(double radius, double support_radius) {
+  const DefaultFloatingPoint guard;
   check(walking::sized(given_, {radius, support_radius}));
   begin();
   outside_ = {radius, support_radius};
@@ -342,6 +358,7 @@ const StepReport& Walker::place_feet(const Vec3& feet) { return placed(feet, 0.5
 
 /// `lift`: how far the centre lies above `at`, part of the height.
 const StepReport& Walker::placed(const Vec3& at, double lift) {
+  const DefaultFloatingPoint guard;
   if (!finite(at)) throw Error("the place to put the walker to is not a finite point");
   begin();
   const double height = walking::sized(given_, outside_).height;

@@ -7,6 +7,7 @@
 
 #include "affine.h"
 #include "box_search.h"
+#include "math/floating_point.h"
 #include "osgRoam/BoxIntersector.h"
 #include "osg_triangles/graph_walk.h"
 #include "roam/error.h"
@@ -72,6 +73,7 @@ void BoxIntersector::shrinkTo(double time) {
 }
 
 osgUtil::Intersector* BoxIntersector::clone(osgUtil::IntersectionVisitor& visitor) {
+  const roam::DefaultFloatingPoint guard;
   check(_coordinateFrame);
   osg::ref_ptr<BoxIntersector> below = new BoxIntersector(_coordinateFrame, _body, _start, _end);
   below->_parent = &root();
@@ -120,6 +122,7 @@ bool BoxIntersector::beyond(const osg::BoundingBox& box) {
 }
 
 bool BoxIntersector::enter(const osg::Node& node) {
+  const roam::DefaultFloatingPoint guard;
   if (reachedLimit()) return false;
   if (!node.isCullingActive()) return true;
   const osg::BoundingSphere& sphere = node.getBound();
@@ -131,6 +134,7 @@ bool BoxIntersector::enter(const osg::Node& node) {
 }
 
 void BoxIntersector::intersect(osgUtil::IntersectionVisitor& visitor, osg::Drawable* drawable) {
+  const roam::DefaultFloatingPoint guard;
   if (reachedLimit()) return;
   const osg::Geometry* geometry = drawable->asGeometry();
   if (geometry == nullptr || roam::osg_triangles::has_no_surface(*geometry)) return;
@@ -141,6 +145,7 @@ void BoxIntersector::intersect(osgUtil::IntersectionVisitor& visitor, osg::Drawa
 }
 
 void BoxIntersector::reset() {
+  const roam::DefaultFloatingPoint guard;
   osgUtil::Intersector::reset();
   _intersections.clear();
   _candidates.clear();

@@ -7,6 +7,7 @@
 
 #include "osgRoam/Triangles.h"
 #include "osgroam/manipulator_state.h"
+#include "text/number.h"
 
 namespace osgRoam {
 namespace {
@@ -205,7 +206,8 @@ void Manipulator::goTo(const roam::Vec3& point, const roam::Vec3& normal) {
   demand_finite(point.x + point.y + point.z, "the place to go to");
   const double length = glm::length(normal);
   if (!(std::abs(length - 1.0) <= unit_tolerance)) {
-    throw roam::Error("the normal at the place to go to has a length of " + std::to_string(length) + "; it must be 1");
+    throw roam::Error("the normal at the place to go to has a length of " + roam::number_text(length) +
+                      "; it must be 1");
   }
   if (_state->can_go()) _state->go(point, normal);
 }

@@ -3,6 +3,7 @@
 #include <osg/observer_ptr>
 
 #include "local_triangle.h"
+#include "math/floating_point.h"
 #include "osgRoam/BoxIntersector.h"
 #include "osgRoam/SceneSpace.h"
 #include "osg_triangles/mesh_of.h"
@@ -177,6 +178,7 @@ void SceneSpace::setBoundsMargin(double margin) {
 }
 
 roam::Impact SceneSpace::sweep(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion) const {
+  const roam::DefaultFloatingPoint guard;
   roam::query::check(body, from, motion);
   const roam::Vec3 start = from - _state->origin;
   const State::Visit visit(*_state, body, start, motion, false);
@@ -208,6 +210,7 @@ roam::Impact SceneSpace::sweep(const roam::Body& body, const roam::Vec3& from, c
 
 std::size_t SceneSpace::contacts(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, double reach,
                                  std::span<roam::Contact> contacts) const {
+  const roam::DefaultFloatingPoint guard;
   roam::query::check(body, from, motion);
   roam::query::check_reach(reach);
   if (contacts.empty()) return 0;
@@ -220,6 +223,7 @@ std::size_t SceneSpace::contacts(const roam::Body& body, const roam::Vec3& from,
 
 roam::Clearance SceneSpace::clearance(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion,
                                       double reach) const {
+  const roam::DefaultFloatingPoint guard;
   roam::Contact nearest;
   const std::size_t found = contacts(body, from, motion, reach, {&nearest, 1});
   return roam::query::clearance_of(found == 0 ? nullptr : &nearest, reach);
@@ -227,6 +231,7 @@ roam::Clearance SceneSpace::clearance(const roam::Body& body, const roam::Vec3& 
 
 roam::Clearance SceneSpace::floor_clearance(const roam::Body& body, const roam::Vec3& place, double reach,
                                             const roam::Floor& floor) const {
+  const roam::DefaultFloatingPoint guard;
   const roam::Vec3 seen = place - _state->origin;
   roam::Floor moved = floor;
   moved.point -= _state->origin;
@@ -239,6 +244,7 @@ roam::Clearance SceneSpace::floor_clearance(const roam::Body& body, const roam::
 }
 
 roam::Box SceneSpace::bounds() const {
+  const roam::DefaultFloatingPoint guard;
   roam::Box box = boxOf(_state->scene->getBound(), osg::Matrixd::identity());
   // One vertex that is not finite spoils the spheres of all that it is in.
   if (box.empty()) box = _state->everything();

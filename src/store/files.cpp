@@ -71,6 +71,7 @@ NewFile::NewFile(fs::path store, std::string name) : store_(std::move(store)), n
     temporary_.clear();
     fail_to_write(error);
   }
+  listed_.begin(store_ / folder / temporary_);
 }
 
 NewFile::~NewFile() {
@@ -96,6 +97,7 @@ void NewFile::rename_to(const std::string& last) {
   if (closed != 0 && errno != EINTR) fail_to_write(errno);
   if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), last.c_str()) != 0) fail_to_write(errno);
   temporary_.clear();
+  listed_.end();
   sync_folder(folder_.number(), (store_ / name_).parent_path());
 }
 

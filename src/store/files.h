@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "files/unfinished.h"
 #include "roam/store.h"
 #include "store/folder.h"
 #include "store/sha256.h"
@@ -59,6 +60,7 @@ class NewFile {
   std::filesystem::path store_;
   std::string name_, last_, temporary_;  ///< of these the latter two in `folder_`
   Descriptor folder_, file_;
+  files::Unfinished listed_;
   std::uint64_t size_ = 0;
   Sha256 hash_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "math/floating_point.h"
 #include "store/files.h"
 #include "store/recent.h"
 #include "store/tile_reader.h"
@@ -29,6 +30,7 @@ std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, st
 
 std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name,
                                          std::uint64_t memory) {
+  const DefaultFloatingPoint guard;
   auto state = std::make_unique<State>();
   State& s = *state;
   s.name = name;
@@ -89,6 +91,7 @@ void Store::for_each_triangle(
 void Store::for_each_triangle(const Box& box,
                               const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
                               const std::function<void(const std::string&)>& missing) const {
+  const DefaultFloatingPoint guard;
   const auto apart = [&](const Box& other) {
     for (int k = 0; k < 3; ++k) {
       if (other.upper[k] < box.lower[k] || other.lower[k] > box.upper[k]) return true;
@@ -133,6 +136,7 @@ void Store::for_each_triangle(const Box& box,
 }
 
 std::vector<Vec3> Store::sample(std::uint64_t count) const {
+  const DefaultFloatingPoint guard;
   store::TileReader reader(*state_);
   std::vector<Vec3> places;
   const std::uint64_t tiles = state_->info.tiles;

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "math/parallel_floating_point.h"
 #include "store/files.h"
 #include "store/part_bytes.h"
 #include "store/tile_reader.h"
@@ -211,7 +212,7 @@ class Verifier {
 StoreVerification verify_store(const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   try {
-    return store::Verifier(folder, progress).run();
+    return in_default_floating_point([&] { return store::Verifier(folder, progress).run(); });
   } catch (const store::NotComplete&) {
     StoreVerification nothing;
     nothing.complete = false;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "math/floating_point.h"
 #include "math/largest.h"
 #include "roam/error.h"
 #include "sweep/certified.h"
 #include "sweep/error_bound.h"
+#include "text/number.h"
 
 namespace roam {
 namespace {
@@ -25,10 +27,10 @@ bool within_limit(const Vec3& x) {
 
 void check(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
   if (!(body.radius >= 0.0) || !within_limit(body.radius)) {
-    throw Error("the body's radius is " + std::to_string(body.radius) + " m; it must be 0 or more, and at most 1e12 m");
+    throw Error("the body's radius is " + number_text(body.radius) + " m; it must be 0 or more, and at most 1e12 m");
   }
   if (!(body.half_height >= 0.0) || !within_limit(body.half_height)) {
-    throw Error("the body's half height is " + std::to_string(body.half_height) +
+    throw Error("the body's half height is " + number_text(body.half_height) +
                 " m; it must be 0 or more, and at most 1e12 m: a capsule's height is at least twice its radius");
   }
   if (!within_limit(from)) refuse("the body's position");
@@ -59,6 +61,7 @@ const char* name(Feature feature) {
 }
 
 SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
+  const DefaultFloatingPoint guard;
   check(body, from, motion, triangle);
   const certified::LocalTriangle local = seen_from(from, triangle);
   SweepResult result = certified::sweep(body, motion, local, 0.0, 1.0, 0.0);
@@ -71,6 +74,7 @@ SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const 
 }
 
 Proximity proximity(const Body& body, const Vec3& place, const Triangle& triangle) {
+  const DefaultFloatingPoint guard;
   check(body, place, Vec3(0.0), triangle);
   Proximity result = certified::proximity(body, seen_from(place, triangle));
   result.point += place;

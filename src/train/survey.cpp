@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "math/floating_point.h"
+
 namespace roam {
 
 namespace {
@@ -39,6 +41,7 @@ Mesh floor_of(const Survey& survey, const Mesh& mesh, TriangleId first, std::vec
 }  // namespace
 
 Survey Survey::build(std::vector<Mesh> meshes, const SurveyOptions& options) {
+  const DefaultFloatingPoint guard;
   if (!(options.slope_degrees >= 0.0 && options.slope_degrees <= kSteepest))
     throw Error(fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}",
                             options.slope_degrees, kSteepest));
@@ -75,6 +78,7 @@ Triangle Survey::triangle(TriangleId id) const {
 }
 
 bool Survey::is_floor(const Triangle& triangle) const {
+  const DefaultFloatingPoint guard;
   const Vec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const double length = glm::length(normal);
   return length > 0.0 && std::abs(normal.z) >= least_upright_ * length;

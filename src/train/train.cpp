@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/parallel_floating_point.h"
 #include "train/answer.h"
 #include "train/confirm.h"
 #include "train/interval.h"
@@ -154,9 +155,7 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const BodyK
   training.answer = paper_answer(result, training);
 }
 
-}  // namespace
-
-Training train(const Survey& survey, const TrainOptions& options) {
+Training trained(const Survey& survey, const TrainOptions& options) {
   check(options);
   const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
@@ -193,6 +192,12 @@ Training train(const Survey& survey, const TrainOptions& options) {
   training.height = kind.height > 0.0 ? kind.height : 2.0 * training.radius;
   training.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return training;
+}
+
+}  // namespace
+
+Training train(const Survey& survey, const TrainOptions& options) {
+  return in_default_floating_point([&] { return trained(survey, options); });
 }
 
 }  // namespace roam

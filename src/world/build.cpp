@@ -11,6 +11,7 @@
 #include "index/collapse.h"
 #include "index/partition.h"
 #include "index/tile_builder.h"
+#include "math/floating_point.h"
 #include "math/largest.h"
 #include "roam/error.h"
 #include "world/data.h"
@@ -114,6 +115,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
 }  // namespace
 
 World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
+  const DefaultFloatingPoint guard;
   auto data = std::make_unique<WorldData>();
   const index::Soup soup(meshes);
   data->lossless = options.lossless;

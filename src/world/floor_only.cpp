@@ -10,6 +10,7 @@
 #include "math/largest.h"
 #include "roam/error.h"
 #include "sweep/error_bound.h"
+#include "text/number.h"
 
 namespace roam::query {
 namespace {
@@ -52,11 +53,11 @@ Outline cut(const Outline& whole, double limit, const Height& height) {
 
 FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : start_(start), band_(floor.band) {
   if (!(floor.slope_degrees >= 0.0 && floor.slope_degrees <= slope_limit)) {
-    refuse("the slope limit is " + std::to_string(floor.slope_degrees) + " degrees; it must be between 0 and 89");
+    refuse("the slope limit is " + number_text(floor.slope_degrees) + " degrees; it must be between 0 and 89");
   }
   const double cosine = std::cos(floor.slope_degrees * (std::numbers::pi / 180.0)) - cosine_rounding;
   squared_cosine_ = cosine * cosine;
-  if (!(floor.band >= 0.0)) refuse("the band is " + std::to_string(floor.band) + " m; it must be 0 or more");
+  if (!(floor.band >= 0.0)) refuse("the band is " + number_text(floor.band) + " m; it must be 0 or more");
   if (std::isinf(floor.band)) return;
   if (!finite(floor.point)) refuse("the point of the band's plane is not finite");
   rise_x_ = -floor.normal.x / floor.normal.z;

@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "index/margin.h"
+#include "math/floating_point.h"
 #include "math/largest.h"
+#include "text/number.h"
 #include "world/box_tree.h"
 #include "world/patches.h"
 #include "world/query.h"
@@ -120,6 +122,7 @@ struct Patchwork::State {
   }
 
   bool update(const Patchwork& self, const Body* body, const Vec3& place) {
+    const DefaultFloatingPoint guard;
     // What throws must do so before the messages are taken: nobody sends them twice.
     if (body) query::check(*body, place, Vec3(0.0));
     std::vector<Message> messages;
@@ -171,6 +174,7 @@ Patchwork::Patchwork() : state_(std::make_unique<State>()) {}
 Patchwork::~Patchwork() = default;
 
 PatchId Patchwork::expect(const Box& where, PatchId refines) {
+  const DefaultFloatingPoint guard;
   const bool finite = std::isfinite(largest(where.lower)) && std::isfinite(largest(where.upper));
   if (where.empty() || !finite || largest(where.lower) > coordinate_limit || largest(where.upper) > coordinate_limit) {
     throw Error("cannot expect a patch: its box is empty, not finite, or beyond 1e9 m");
@@ -188,8 +192,8 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
 
 void Patchwork::deliver(PatchId patch, World world) {
   if (world.largest_error() > error_limit) {
-    throw Error("cannot deliver " + number(patch) + ": its world is stored to " +
-                std::to_string(world.largest_error()) + " m, which is more than 1 mm; build it in smaller parts");
+    throw Error("cannot deliver " + number(patch) + ": its world is stored to " + number_text(world.largest_error()) +
+                " m, which is more than 1 mm; build it in smaller parts");
   }
   if (world.stats().triangles > kFirstSide) {
     throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");
@@ -215,6 +219,7 @@ bool Patchwork::update(const Body& body, const Vec3& place) { return state_->upd
 bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
 
 Impact Patchwork::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  const DefaultFloatingPoint guard;
   query::check(body, from, motion);
   const State& s = *state_;
   Impact first;
@@ -233,12 +238,14 @@ Impact Patchwork::sweep(const Body& body, const Vec3& from, const Vec3& motion) 
 
 std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                                 std::span<Contact> contacts) const {
+  const DefaultFloatingPoint guard;
   return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
     state_->collect(body, from, way, reach, collector);
   });
 }
 
 Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   // With a tolerance the last digits would depend on the order in which patches came.
   return query::clearance_of(body, from, motion, reach, 0.0, [&](const Vec3& way, query::Collector& collector) {
     state_->collect(body, from, way, reach, collector);
@@ -246,6 +253,7 @@ Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& m
 }
 
 Clearance Patchwork::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  const DefaultFloatingPoint guard;
   return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
     state_->collect(body, place, way, reach, collector);
   });

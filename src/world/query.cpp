@@ -6,8 +6,10 @@
 #include <string>
 
 #include "index/tile_builder.h"
+#include "math/floating_point.h"
 #include "math/largest.h"
 #include "roam/error.h"
+#include "text/number.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
 
@@ -25,7 +27,7 @@ constexpr double kMotionLimit = 1e6;
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot answer a query: " + what); }
 
 [[noreturn]] void refuse_length(double value, double limit, const char* name) {
-  refuse(std::string(name) + " is " + std::to_string(value) + " m; it must be between 0 and " +
+  refuse(std::string(name) + " is " + number_text(value) + " m; it must be between 0 and " +
          std::to_string(static_cast<long>(limit)) + " m");
 }
 
@@ -248,18 +250,21 @@ const index::Roots* of_world(Vicinity& vicinity, const WorldData& world, const B
 }  // namespace
 
 Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  const DefaultFloatingPoint guard;
   query::check(body, from, motion);
   return query::first_impact(*data_, {body, from, motion});
 }
 
 std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                             std::span<Contact> contacts) const {
+  const DefaultFloatingPoint guard;
   return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
   });
 }
 
 Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   const double tolerance = query::clearance_tolerance_of(data_->lossless);
   return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
@@ -267,24 +272,28 @@ Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motio
 }
 
 double World::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector);
   });
 }
 
 Impact World::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
+  const DefaultFloatingPoint guard;
   query::check(body, from, motion);
   return query::first_impact(*data_, {body, from, motion},
                              of_world(vicinity, *data_, body, from, motion, query::hit_reach));
 }
 
 double World::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, from, way}, 0, collector, of_world(vicinity, *data_, body, from, way, reach));
   });
 }
 
 Clearance World::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  const DefaultFloatingPoint guard;
   return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
     query::collect(*data_, {body, place, way}, 0, collector);
   });

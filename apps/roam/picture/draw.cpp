@@ -136,6 +136,7 @@ PictureFile::PictureFile(std::filesystem::path file)
     temporary_.clear();
     fail(std::strerror(errno));
   }
+  listed_.begin(temporary_);
   // mkstemp made the file for its owner alone; give it the rights that any new file gets.
   const mode_t mask = ::umask(0);
   ::umask(mask);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "files/unfinished.h"
 #include "sheet.h"
 
 namespace roam::app::picture {
@@ -34,6 +35,7 @@ class PictureFile {
 
   std::filesystem::path file_;
   std::string temporary_;
+  files::Unfinished listed_;
 };
 
 }  // namespace roam::app::picture

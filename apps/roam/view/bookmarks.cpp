@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files/unfinished.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -73,6 +74,7 @@ void replace(const std::filesystem::path& file, const std::string& text) {
   std::error_code status;
   std::filesystem::create_directories(file.parent_path(), status);
   const std::filesystem::path beside = fmt::format("{}.{}", file.string(), ::getpid());
+  const files::Unfinished listed(beside);
   {
     std::ofstream out(beside);
     out << text;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "motion/opening.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -28,7 +29,7 @@ const Contact& hindrance(const StepReport& report, const Vec3& wish) {
 std::string describe(const Walker& walker, const Contact& contact, const Vec3& wish) {
   std::string text = contact.normal.z > level_cosine ? "floor" : contact.normal.z < -level_cosine ? "ceiling" : "wall";
   const std::string object = walker.space().object_name(contact.triangle);
-  if (!object.empty()) text += ", " + object;
+  if (!object.empty()) text += ", " + printable(object);
   const double length = glm::length(wish);
   if (length <= 0.0) return text;
   const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
@@ -65,7 +66,7 @@ void Hold::note_unknown(const Walker& walker, bool failing) {
     if (!contact.unknown) continue;
     const std::string reason = walker.space().object_name(contact.triangle);
     // It is found out by another thread, and asked for in every step.
-    if (!reason.empty()) reason_ = reason;
+    if (!reason.empty()) reason_ = printable(reason);
     return;
   }
 }

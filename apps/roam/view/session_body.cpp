@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "tell.h"
 #include "view/session.h"
 
 namespace roam::app {
@@ -37,7 +38,7 @@ void Session::receive_collision() {
     loaded_ = collision_->take();
     if (plan_.profile) {
       demand_belongs(*plan_.profile, loaded_->identity, options_.scene.names());
-      fmt::print(stderr, "roam: {}\n", describe(*plan_.profile));
+      app::tell(describe(*plan_.profile));
     }
     place();
   }

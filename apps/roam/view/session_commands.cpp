@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "text/printable.h"
 #include "view/session.h"
 #include "view/session_handler.h"
 
@@ -125,6 +126,7 @@ void Session::tell(std::string news, bool warning) {
       if (folder != "/") erase_where_a_path_begins(news, folder);
     }
   }
+  news = printable(news, longest_sentence);
   const double seconds = std::max(news_seconds, letter_seconds * static_cast<double>(news.size()));
   news_.push_back({{std::move(news), warning}, now_ + seconds});
   if (news_.size() > most_news) news_.erase(news_.begin());

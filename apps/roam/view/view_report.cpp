@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "progress.h"
+#include "tell.h"
 #include "walk_report.h"
 
 namespace roam::app {
@@ -108,7 +109,7 @@ std::string text_report(const ViewReport& report) {
   if (report.verified) {
     text += fmt::format("verified: {}\n", summary(*report.verified));
   }
-  for (const std::string& file : report.written) text += fmt::format("written: {}\n", file);
+  for (const std::string& file : report.written) text += fmt::format("written: {}\n", printable_part(file));
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/numbers.h"
 #include "import/reader/page_requests.h"
 #include "import/reader/piece_cutter.h"
 #include "import/reader/read_path.h"
@@ -56,6 +58,12 @@ struct Request {
   std::string path;
 };
 
+double number(const std::string& word) {
+  double value = 0.0;
+  if (!parse(word, value)) throw std::invalid_argument(word);
+  return value;
+}
+
 /// The arguments are written by the library; a wrong one is a mix of versions, or a person.
 bool parse_arguments(const std::vector<std::string>& arguments, Request& request) {
   ReadingSettings& settings = request.settings;
@@ -68,7 +76,7 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       return true;
     }
     if (name == "--unit" && left() > 0) {
-      settings.metres_per_unit = std::stod(arguments[i++]);
+      settings.metres_per_unit = number(arguments[i++]);
     } else if (name == "--memory" && left() > 0) {
       settings.memory_limit = std::stoull(arguments[i++]);
     } else if (name == "--up" && left() > 0) {
@@ -77,7 +85,7 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       settings.ignore.push_back(arguments[i++]);
     } else if (name == "--frame" && left() > 3) {
       Georeference frame;
-      for (int k = 0; k < 3; ++k) frame.origin[k] = std::stod(arguments[i++]);
+      for (int k = 0; k < 3; ++k) frame.origin[k] = number(arguments[i++]);
       frame.srs = arguments[i++];
       settings.frame = frame;
     } else if (name == "--tile" && left() > 0) {
@@ -100,7 +108,7 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       request.pages = true;
     } else if (name == "--origin" && left() > 2) {
       request.origin = Vec3(0.0);
-      for (int k = 0; k < 3; ++k) (*request.origin)[k] = std::stod(arguments[i++]);
+      for (int k = 0; k < 3; ++k) (*request.origin)[k] = number(arguments[i++]);
     } else {
       return false;
     }

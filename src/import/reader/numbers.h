@@ -12,6 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "text/printable.h"
+
 namespace roam::reader {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
@@ -41,9 +43,7 @@ inline std::string_view trimmed(std::string_view text) {
 /// A word of a file as a message may show it: short and printable.
 inline std::string shown(std::string_view word) {
   constexpr std::size_t length_limit = 40;
-  std::string text(word.substr(0, length_limit));
-  for (char& c : text) c = c >= ' ' && c <= '~' ? c : '?';
-  return text;
+  return printable(word, length_limit);
 }
 
 /// The number that all of `word` is. "nan" and "inf" are numbers; what is too large for a double is infinite, what is

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "math/floating_point.h"
 #include "roam/store_build.h"
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
@@ -190,6 +191,7 @@ void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
 }  // namespace
 
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
+  const DefaultFloatingPoint guard;
   Work work(options);
   check_output(options);
   OutputFolder output(work.store, options.progress);
@@ -198,6 +200,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 }
 
 void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
+  const DefaultFloatingPoint guard;
   Work work(options);
   const Plan plan = read_plan(work.store, options.memory);
   describe(plan, report);
@@ -210,6 +213,7 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 }
 
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
+  const DefaultFloatingPoint guard;
   Work work(options);
   std::error_code error;
   if (!fs::is_directory(work.store, error)) {
@@ -223,6 +227,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
 }
 
 StoreBuildReport build_store(const StoreBuildOptions& options) {
+  const DefaultFloatingPoint guard;
   StoreBuildReport report;
   Work work(options);
   check_output(options);
@@ -235,6 +240,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 }
 
 StoreBuildReport repair_store(const StoreBuildOptions& options) {
+  const DefaultFloatingPoint guard;
   if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
   const auto lock = locked(options.output, options.progress);
   const RootMending root = mend_root(options.output);

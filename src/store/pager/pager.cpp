@@ -10,6 +10,7 @@
 #include <new>
 #include <thread>
 
+#include "math/floating_point.h"
 #include "math/largest.h"
 #include "store/pager/governor.h"
 #include "store/pager/loader.h"
@@ -212,10 +213,14 @@ std::shared_ptr<const Store> demand(std::shared_ptr<const Store> store) {
 }  // namespace
 
 Pager::Pager(std::shared_ptr<const Store> store, const PagerOptions& options)
-    : state_(std::make_unique<State>(demand(std::move(store)), options)) {}
+    : state_([&] {
+        const DefaultFloatingPoint guard;  // which the loading threads inherit
+        return std::make_unique<State>(demand(std::move(store)), options);
+      }()) {}
 Pager::~Pager() = default;
 
 bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  const DefaultFloatingPoint guard;
   query::check(body, place, Vec3(0.0));
   if (!std::isfinite(velocity.x + velocity.y + velocity.z)) {
     throw Error("cannot update a pager: the velocity is not finite");
@@ -231,6 +236,7 @@ bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
 }
 
 bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead) {
+  const DefaultFloatingPoint guard;
   const auto begin = Clock::now();
   const auto limit = std::chrono::duration<double>(seconds);
   State& s = *state_;
@@ -245,6 +251,7 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
 }
 
 Impact Pager::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
+  const DefaultFloatingPoint guard;
   query::check(body, from, motion);
   PagedScene scene(state_->residents);
   return query::impact_of(scene, {body, from, motion});
@@ -252,6 +259,7 @@ Impact Pager::sweep(const Body& body, const Vec3& from, const Vec3& motion) cons
 
 std::size_t Pager::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
                             std::span<Contact> contacts) const {
+  const DefaultFloatingPoint guard;
   const PagedScene scene(state_->residents);
   return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
     query::collect_of(scene, {body, from, way}, collector);
@@ -259,6 +267,7 @@ std::size_t Pager::contacts(const Body& body, const Vec3& from, const Vec3& moti
 }
 
 Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   const PagedScene scene(state_->residents);
   const double tolerance = query::clearance_tolerance_of(state_->store->info().lossless);
   return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
@@ -267,6 +276,7 @@ Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motio
 }
 
 double Pager::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   const PagedScene scene(state_->residents);
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect_of(scene, {body, from, way}, collector);
@@ -281,18 +291,21 @@ PagedScene Pager::State::scene_in(Vicinity& vicinity, const Body& body, const Ve
 }
 
 Impact Pager::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
+  const DefaultFloatingPoint guard;
   query::check(body, from, motion);
   PagedScene scene = state_->scene_in(vicinity, body, from, motion, query::hit_reach);
   return query::impact_of(scene, {body, from, motion});
 }
 
 double Pager::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+  const DefaultFloatingPoint guard;
   return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
     query::collect_of(state_->scene_in(vicinity, body, from, way, reach), {body, from, way}, collector);
   });
 }
 
 Clearance Pager::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
+  const DefaultFloatingPoint guard;
   const PagedScene scene(state_->residents);
   return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
     query::collect_of(scene, {body, place, way}, collector);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "math/parallel_floating_point.h"
 #include "train/flight/way.h"
 #include "train/lattice/walk_place.h"
 #include "train/passage/ends.h"
@@ -208,9 +209,7 @@ Passage reversed(Passage passage) {
   return passage;
 }
 
-}  // namespace
-
-Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
+Passage found_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
   check(from, to, options);
   Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
                   options.step,      options.widest,
@@ -245,6 +244,12 @@ Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const
     if (!rolls || !passage.found || passage.radius >= measure.step - same_step) return passage;
     measure.step = passage.radius;
   }
+}
+
+}  // namespace
+
+Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
+  return in_default_floating_point([&] { return found_way(survey, from, to, options); });
 }
 
 }  // namespace roam

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "math/floating_point.h"
+#include "math/parallel_floating_point.h"
 #include "roam/standing.h"
 #include "train/probe/search.h"
 #include "train/trials/on_way.h"
@@ -124,10 +126,12 @@ const char* name(ProbeLimit::Kind kind) {
 }
 
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {
+  const DefaultFloatingPoint guard;
   return std::min(question.step, is_sphere(size) ? size.radius : size.height - 2.0 * size.radius);
 }
 
 WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {
+  const DefaultFloatingPoint guard;
   WalkerSettings settings;
   settings.radius = size.radius;
   settings.height = size.height;
@@ -152,7 +156,10 @@ PassageOptions training::options_for(const ProbeQuestion& question, const Probed
   return options;
 }
 
-std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
+namespace {
+
+std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& question,
+                                    std::span<const ProbedSize> sizes) {
   for (const ProbedSize& size : sizes) {
     static_cast<void>(probed_body(question, size));
     if (question.mode == Mode::fly && !is_sphere(size))
@@ -230,7 +237,14 @@ std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& questi
   return answers;
 }
 
+}  // namespace
+
+std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
+  return in_default_floating_point([&] { return answers_to(survey, question, sizes); });
+}
+
 std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const DefaultFloatingPoint guard;
   const std::vector<Vec3>& way = answer.passage.way;
   if (question.mode != Mode::fly) return standing(way, probed_body(question, answer.size, survey.slope_degrees()));
   const Box box = survey.world().bounds();
@@ -241,8 +255,9 @@ ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const Pro
   return probe(survey, question, std::span(&size, 1)).front();
 }
 
-ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer,
-                        std::uint64_t most) {
+namespace {
+
+ProbeReach reached(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer, std::uint64_t most) {
   const ProbeSearch search{survey, question, options_for(question, answer.size)};
   WidestTree tree(survey, search.measure(), question.spacing);
   const auto grown = [&](const Vec3& end) {
@@ -262,6 +277,13 @@ ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, con
     return places;
   };
   return {grown(answer.start), grown(answer.target)};
+}
+
+}  // namespace
+
+ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer,
+                        std::uint64_t most) {
+  return in_default_floating_point([&] { return reached(survey, question, answer, most); });
 }
 
 }  // namespace roam

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "math/floating_point.h"
 #include "train/answer.h"
 #include "train/probe/search.h"
 
@@ -216,6 +217,7 @@ std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode m
 }  // namespace
 
 std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const DefaultFloatingPoint guard;
   const Passage& p = answer.passage;
   const std::string ways = fmt::format("from {} to {}", at(question.from), at(question.to));
   const std::string body = body_text(answer.size);

@@ -5,7 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "math/floating_point.h"
 #include "roam/profile.h"
+#include "text/printable.h"
 
 namespace roam {
 
@@ -16,17 +18,18 @@ namespace {
 void demand_vertices(const Mesh& mesh, std::size_t number, std::size_t triangle) {
   for (const std::uint32_t vertex : mesh.triangles[triangle]) {
     if (vertex < mesh.vertices.size()) continue;
-    throw Error(
-        fmt::format("cannot identify the scene: triangle {} of mesh {}{} uses vertex {}, but the mesh has {} "
-                    "vertices; correct the mesh",
-                    triangle, number, mesh.name.empty() ? std::string() : fmt::format(" (\"{}\")", mesh.name), vertex,
-                    mesh.vertices.size()));
+    throw Error(fmt::format(
+        "cannot identify the scene: triangle {} of mesh {}{} uses vertex {}, but the mesh has {} "
+        "vertices; correct the mesh",
+        triangle, number, mesh.name.empty() ? std::string() : fmt::format(" (\"{}\")", printable(mesh.name)), vertex,
+        mesh.vertices.size()));
   }
 }
 
 }  // namespace
 
 SceneIdentity identity_of(std::span<const Mesh> meshes) {
+  const DefaultFloatingPoint guard;
   SceneIdentity identity;
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());

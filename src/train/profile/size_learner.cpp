@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "math/floating_point.h"
 #include "motion/opening.h"
 #include "motion/support.h"
 
@@ -106,6 +107,7 @@ bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 }  // namespace
 
 SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
+  const DefaultFloatingPoint guard;
   if (!(profile_.radius > 0.0))
     throw Error(fmt::format("learning begins with a body: the profile's radius is {:g} m; it must be greater than 0",
                             profile_.radius));
@@ -122,6 +124,7 @@ SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(st
 }
 
 std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {
+  const DefaultFloatingPoint guard;
   const StepReport& report = walker.report();
   const Stance& stance = walker.stance();
   const bool on_foot = walker.mode() == Mode::walk;
@@ -214,6 +217,7 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
 }
 
 void SizeLearner::take(Walker& walker, const Lesson& lesson) {
+  const DefaultFloatingPoint guard;
   if (lesson.kind == Lesson::Kind::narrower) {
     profile_.regions.push_back(lesson.region);
     walker.set_regions(profile_.regions);

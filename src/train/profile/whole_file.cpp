@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "files/unfinished.h"
 #include "roam/error.h"
 
 namespace roam::training {
@@ -34,6 +35,7 @@ class Unfinished {
   explicit Unfinished(const std::filesystem::path& file) : file_(file) {
     static std::atomic<std::uint64_t> number{0};
     temporary_ = fmt::format("{}.{}.{}.unfinished", file.string(), ::getpid(), number++);
+    listed_.begin(temporary_);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
       const int error = errno;
@@ -72,6 +74,7 @@ class Unfinished {
 
   std::filesystem::path file_;
   std::string temporary_;
+  files::Unfinished listed_;
   int descriptor_ = -1;
 };
 

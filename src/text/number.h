@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Numbers in sentences, the same in every locale of the host.
+
+#include <array>
+#include <charconv>
+#include <string>
+
+namespace roam {
+
+/// The shortest decimal number that is this double: "0.3", "-1", "1e+30", "nan".
+[[nodiscard]] inline std::string number_text(double value) {
+  std::array<char, 32> digits;
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), written.ptr};
+}
+
+}  // namespace roam

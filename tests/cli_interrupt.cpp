@@ -1,0 +1,208 @@
+// Ctrl-C and SIGTERM end every verb soon, whatever it does, and leave no process and no unfinished file.
+
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Arguments = std::vector<std::string>;
+
+/// A second and, for a machine that is busy, more.
+constexpr double soon = 3.0;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Files of a folder that no user asked for.
+std::vector<std::string> unfinished_in(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool temporary = name.ends_with(".unfinished") || name.find(".part-") != std::string::npos || name[0] == '.';
+    if (temporary) found.push_back(entry.path().string());
+  }
+  return found;
+}
+
+class Interrupt : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    // What a program leaves behind becomes a child of this one.
+    ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+    shared_ = new TestFolder;
+    scene_ = shared_->file("terrain.ply");
+    ASSERT_EQ(run_program(ROAM_PROGRAM, {"make", "terrain", "-o", scene_, "--triangles", "2M"}).status, 0);
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  void SetUp() override {
+    setenv("XDG_CONFIG_HOME", folder_.file("config").c_str(), 1);
+    setenv("TMPDIR", folder_.file("").c_str(), 1);
+    unsetenv("ROAM_READER");
+  }
+  void TearDown() override {
+    EXPECT_GT(interrupted_, 0) << "nothing was interrupted: make the job longer";
+    unsetenv("TMPDIR");
+  }
+
+  /// Starts the program, sends the signal after so many seconds, and looks at what is left. A fast machine may be done
+  /// before.
+  void interrupt(const Arguments& arguments, double after, int signal) {
+    SCOPED_TRACE(arguments[0] + ", signal " + std::to_string(signal) + " after " + std::to_string(after) + " s");
+    std::vector<char*> argv{const_cast<char*>(ROAM_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    // Never written to: who reads from it waits.
+    int input[2];
+    ASSERT_EQ(::pipe2(input, O_CLOEXEC), 0);
+    const std::string log = folder_.file("log");
+    posix_spawn_file_actions_adddup2(&files, input[0], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    pid_t program = 0;
+    ASSERT_EQ(posix_spawn(&program, ROAM_PROGRAM, &files, nullptr, argv.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&files);
+
+    int status = 0;
+    const auto start = Clock::now();
+    bool ended = false;
+    while (since(start) < after && !ended) {
+      ended = ::waitpid(program, &status, WNOHANG) == program;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    interrupted_ += ended ? 0 : 1;
+    const bool done = ended;
+    const auto sent = Clock::now();
+    ASSERT_TRUE(done || ::kill(program, signal) == 0);
+    while (!ended && since(sent) < 10.0 * soon) {
+      ended = ::waitpid(program, &status, WNOHANG) == program;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    if (!ended) {
+      ::kill(program, SIGKILL);
+      ::waitpid(program, &status, 0);
+    }
+    ::close(input[0]);
+    ::close(input[1]);
+    EXPECT_LT(since(sent), soon);
+    // Orderly, or as the signal does it.
+    const bool failed = WIFEXITED(status) && WEXITSTATUS(status) == 1;
+    EXPECT_TRUE((done && WIFEXITED(status) && WEXITSTATUS(status) == 0) || failed ||
+                (WIFSIGNALED(status) && WTERMSIG(status) == signal))
+        << status << ": " << folder_.read("log");
+    expect_no_child();
+    for (const std::string& file : unfinished_in(folder_.file(""))) ADD_FAILURE() << file << " is left";
+  }
+
+  /// At several moments, by both signals.
+  void interrupt(const Arguments& arguments) {
+    for (const double after : {0.1, 0.7, 2.0}) interrupt(arguments, after, after < 0.5 ? SIGTERM : SIGINT);
+  }
+
+  static const std::string& scene() { return scene_; }
+
+  TestFolder folder_;
+
+ private:
+  int interrupted_ = 0;
+
+  /// Children of the program may take a moment to notice.
+  static void expect_no_child() {
+    const auto start = Clock::now();
+    pid_t child = 0;
+    int status = 0;
+    while ((child = ::waitpid(-1, &status, WNOHANG)) >= 0 && since(start) < soon) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_TRUE(child < 0 && errno == ECHILD) << "a child is left";
+  }
+
+  static TestFolder* shared_;
+  static std::string scene_;
+};
+
+TestFolder* Interrupt::shared_ = nullptr;
+std::string Interrupt::scene_;
+
+TEST_F(Interrupt, Make) { interrupt({"make", "terrain", "-o", folder_.file("huge.ply"), "--triangles", "100M"}); }
+
+TEST_F(Interrupt, Info) {
+  for (const double after : {0.1, 0.4}) interrupt({"info", scene()}, after, SIGINT);
+}
+
+TEST_F(Interrupt, Walk) { interrupt({"walk", scene(), "--wander", "1e7", "--picture", folder_.file("way.svg")}); }
+
+TEST_F(Interrupt, SweepThatWaitsForQuestions) { interrupt({"sweep", scene()}); }
+
+TEST_F(Interrupt, Train) { interrupt({"train", scene(), "--spacing", "0.05", "-o", folder_.file("p.json")}); }
+
+TEST_F(Interrupt, Probe) {
+  interrupt({"probe", scene(), "--from=10,10,100", "--to=690,690,100", "--radius", "0.3", "--height", "1.7",
+             "--spacing", "0.05", "--picture", folder_.file("way.svg")});
+}
+
+TEST_F(Interrupt, Build) {
+  for (const double after : {0.1, 0.3, 0.6, 0.9}) {
+    interrupt({"build", scene(), "-o", folder_.file(std::to_string(after))}, after, SIGINT);
+  }
+}
+
+TEST_F(Interrupt, Verify) {
+  ASSERT_EQ(run_program(ROAM_PROGRAM, {"build", scene(), "-o", folder_.file("s")}).status, 0);
+  interrupt({"verify", folder_.file("s")}, 0.05, SIGINT);
+}
+
+#ifdef ROAM_HAS_BENCH
+TEST_F(Interrupt, Bench) { interrupt({"bench", "engines", "--queries", "1000000"}); }
+#endif
+
+/// An import that waits for a reader which neither says anything nor ends when it is asked to.
+TEST_F(Interrupt, AnImportThatWaits) {
+  const std::string reader = folder_.write("reader", "#!/bin/sh\ntrap '' TERM INT\nwhile :; do sleep 1; done\n");
+  ::chmod(reader.c_str(), 0755);
+  setenv("ROAM_READER", reader.c_str(), 1);
+  for (const char* verb : {"info", "train"}) interrupt({verb, scene()});
+}
+
+// ------------------------------------------------------------------------------------------------------------ view
+
+TEST_F(Interrupt, View) {
+  interrupt({"view", scene(), "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png")});
+}
+
+TEST_F(Interrupt, ViewThatFilms) {
+  interrupt({"view", scene(), "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")});
+}
+
+/// One draw call of minutes: an image that is repeated thousands of times over one quad, seen aslant, filtered by
+/// software.
+TEST_F(Interrupt, ViewWhileTheDriverWorks) {
+  constexpr int side = 256;
+  std::string image{"\0\0\2\0\0\0\0\0\0\0\0\0", 12};  // TGA, colours as they are
+  for (const int size : {side, side}) image += {static_cast<char>(size & 0xFF), static_cast<char>(size >> 8)};
+  image += {24, 0};
+  for (int i = 0; i < side * side * 3; ++i) image += static_cast<char>(i * 7919 >> 4);
+  folder_.write("stone.tga", image);
+  folder_.write("ground.mtl", "newmtl stone\nKd 1 1 1\nmap_Kd stone.tga\n");
+  const std::string ground = folder_.write("ground.obj",
+                                           "mtllib ground.mtl\nusemtl stone\nv -500 -500 0\nv 500 -500 0\nv 500 500 0\n"
+                                           "v -500 500 0\nvt 0 0\nvt 5000 0\nvt 5000 5000\nvt 0 5000\n"
+                                           "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    interrupt({"view", ground, "--headless", "--size", "3840x2160", "--time", "1e6", "--record",
+               folder_.file("film.mp4"), "--at", "0,0,0.9,0,-1"},
+              4.0, signal);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// Floating-point environments that a host may have set.
+
+#include <cfenv>
+#include <string>
+#include <vector>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace host {
+
+struct Environment {
+  int rounding = FE_TONEAREST;
+  bool trapped = false;  ///< every exception raises a signal
+  bool flushed = false;  ///< subnormal numbers count as 0
+};
+
+inline std::string name(const Environment& e) {
+  return "rounding " + std::to_string(e.rounding) + (e.trapped ? ", trapped" : "") + (e.flushed ? ", flushed" : "");
+}
+
+inline std::vector<Environment> environments() {
+  std::vector<Environment> all;
+  for (const int rounding : {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO}) {
+    for (const bool trapped : {false, true}) {
+      for (const bool flushed : {false, true}) all.push_back({rounding, trapped, flushed});
+    }
+  }
+  return all;
+}
+
+/// All that can be set, and not the flags.
+inline std::vector<long> control() {
+  std::vector<long> all{std::fegetround(), fegetexcept()};
+#if defined(__SSE2__)
+  constexpr unsigned flags = 0x3F;
+  all.push_back(static_cast<long>(_mm_getcsr() & ~flags));
+#elif defined(__aarch64__)
+  unsigned long fpcr = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(fpcr));
+  all.push_back(static_cast<long>(fpcr));
+#endif
+  return all;
+}
+
+/// Sets an environment for its life. Nothing but calls of the library may stand in it: a trapped rounding is a signal.
+class Set {
+ public:
+  explicit Set(const Environment& environment) {
+    std::fegetenv(&before_);
+    std::feclearexcept(FE_ALL_EXCEPT);
+    std::fesetround(environment.rounding);
+    if (environment.flushed) flush();
+    if (environment.trapped) feenableexcept(FE_ALL_EXCEPT);
+  }
+  ~Set() { std::fesetenv(&before_); }
+  Set(const Set&) = delete;
+  Set& operator=(const Set&) = delete;
+
+ private:
+  static void flush() {
+#if defined(__SSE2__)
+    constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
+    _mm_setcsr(_mm_getcsr() | flush_to_zero | denormals_are_zero);
+#elif defined(__aarch64__)
+    unsigned long fpcr = 0;
+    asm volatile("mrs %0, fpcr" : "=r"(fpcr));
+    asm volatile("msr fpcr, %0" : : "r"(fpcr | 1UL << 24));
+#endif
+  }
+
+  std::fenv_t before_{};
+};
+
+}  // namespace host

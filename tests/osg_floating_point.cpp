@@ -1,0 +1,54 @@
+// A scene graph as a space, in every floating-point environment of a host.
+
+#include <gtest/gtest.h>
+
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <vector>
+
+#include "clutter.h"
+#include "osgRoam/SceneSpace.h"
+#include "osgRoam/Triangles.h"
+#include "same_bits.h"
+
+namespace {
+
+using same_bits::Bits;
+using same_bits::expect_same;
+
+TEST(FloatingPoint, QueriesOfASceneGraph) {
+  clutter::Random random(3);
+  const roam::Mesh mesh = clutter::make(random, {.count = 300});
+  osg::ref_ptr<osg::Vec3dArray> corners = new osg::Vec3dArray;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const roam::Vec3& v : mesh.triangle(i)) corners->push_back({v.x, v.y, v.z});
+  }
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setVertexArray(corners);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(corners->size())));
+  osg::ref_ptr<osg::MatrixTransform> turned =
+      new osg::MatrixTransform(osg::Matrixd::rotate(0.3, 0.1, 0.7, 0.2) * osg::Matrixd::translate(0.1, 0.2, 0.3));
+  turned->addChild(geometry);
+  struct Query {
+    roam::Body body;
+    roam::Vec3 from{0.0}, motion{0.0};
+  };
+  std::vector<Query> queries;
+  for (int i = 0; i < 60; ++i) {
+    queries.push_back({{random.between(0.0, 0.5), random.between(0.0, 0.5)}, random.in_box(5.0), random.in_box(3.0)});
+  }
+  osgRoam::SceneSpace space(turned);
+  roam::Contact contacts[16];
+  expect_same([&](Bits& bits) {
+    for (const Query& q : queries) {
+      bits(space.sweep(q.body, q.from, q.motion));
+      bits(space.clearance(q.body, q.from, q.motion, 1.0));
+      bits(space.floor_clearance(q.body, q.from, 1.0, 40.0));
+      for (std::size_t i = space.contacts(q.body, q.from, q.motion, 1.0, contacts); i-- > 0;) bits(contacts[i]);
+    }
+    bits(space.bounds().lower);
+    bits(space.bounds().upper);
+  });
+}
+
+}  // namespace
