@@ -24,6 +24,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int wait_milliseconds = 100;
 /// A reader that has closed its stream is about to end; one that does not is killed.
 constexpr int ending_milliseconds = 2000;
+/// Processor time of a reader whose words are still in the pipe.
+constexpr double unheard_seconds = 2.0;
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
 
@@ -195,7 +197,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
         for (const std::string& file : receiver.take_opened()) budget.add_file(file);
       }
       // What is still in the pipe may say that more files were read.
-      const double grace = arrival == ReaderProcess::Arrival::bytes ? ProcessorBudget::least_seconds : 0.0;
+      const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;
       if (const double used = budget.used(); used > ProcessorBudget::least_seconds) {
         if (const double allowed = budget.allowed(); used > allowed + grace) {
           throw fail(fmt::format(

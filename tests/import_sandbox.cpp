@@ -1,0 +1,120 @@
+// A reader that was taken over by its file: what it tries is stopped, and reported.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "import_files.h"
+#include "roam/import.h"
+
+namespace roam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The newest Landlock, the one of Debian 12, and none.
+class ImportSandbox : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    folder_.write("scene/victim", "");
+    const auto script = folder_.write_script(
+        "reader.sh", "exec '" MISBEHAVING_READER "' --highest-landlock " + std::to_string(GetParam()) + " \"$@\"\n");
+    options_.reader = script;
+  }
+  /// What importing says when the reader is taken over by a file that says `deed`.
+  std::string error_of(const std::string& deed) {
+    const fs::path scene = folder_.write("scene/scene.obj", deed);
+    folder_.write("scene/scene.obj.new.victim", "precious");
+    return import_error(scene, options_);
+  }
+  /// Nothing was made beside the files that this test made, and nothing changed.
+  void expect_untouched(const std::string& deed) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "scene")) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"scene.obj", "scene.obj.new.victim", "victim"})) << deed;
+    EXPECT_EQ(fs::file_size(folder_.path() / "scene/scene.obj.new.victim"), 8u) << deed;
+  }
+
+  const TemporaryFolder folder_;
+  ImportOptions options_;
+};
+
+TEST_P(ImportSandbox, EndsAReaderThatDoesWhatNoSceneNeeds) {
+  ASSERT_TRUE(reader_confinement().system_calls) << "this kernel has no seccomp";
+  for (const char* deed : {"exec", "fork", "vfork", "socket", "local-socket", "write", "overwrite", "append", "unnamed",
+                           "truncate", "unlink", "rename", "link", "symlink", "mkdir", "chmod", "signal", "code"}) {
+    const std::string error = error_of(deed);
+    EXPECT_TRUE(contains(error, "scene.obj: made its reader try something that no scene needs")) << deed << error;
+    expect_untouched(deed);
+  }
+}
+
+TEST_P(ImportSandbox, RefusesMoreRights) { EXPECT_TRUE(contains(error_of("more-time"), "was refused")); }
+
+TEST_P(ImportSandbox, KeepsAReaderToTheScenesFolder) {
+  EXPECT_EQ(error_of("scene"), "scene was done");
+  for (const char* deed : {"secret", "list", "proc"}) {
+    const std::string error = error_of(deed);
+    // Without Landlock nothing but roam's own checks says which files are read.
+    EXPECT_EQ(error, std::string(deed) + (GetParam() > 0 ? " was refused: Permission denied" : " was done"));
+  }
+}
+
+TEST_P(ImportSandbox, EndsAReaderThatTakesMemory) {
+  options_.memory_limit = 64u << 20;
+  EXPECT_TRUE(contains(error_of("memory"), "memory was refused: Cannot allocate memory"));
+}
+
+INSTANTIATE_TEST_SUITE_P(HighestLandlock, ImportSandbox, testing::Values(1 << 20, 2, 0));
+
+TEST(ImportSandboxTime, EndsAReaderThatComputesWithoutEnd) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.reader = MISBEHAVING_READER;
+  const std::string error = import_error(folder.write("scene.obj", "loop"), options);
+  EXPECT_TRUE(contains(error, "scene.obj: its reader computed for more than 10 s on")) << error;
+}
+
+TEST(ImportSandboxReport, SaysWhichWallsHold) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Confinement here = reader_confinement();
+  EXPECT_TRUE(here.no_new_privileges && here.limits && here.empty_folder);
+  for (const int highest : {0, 2}) {
+    ImportOptions options;
+    options.reader = folder.write_script(
+        "reader.sh", "exec '" ROAM_READER_PROGRAM "' --highest-landlock " + std::to_string(highest) + " \"$@\"\n");
+    const Scene read = import_scene(scene, options);
+    ASSERT_TRUE(read.report.confinement);
+    EXPECT_EQ(read.report.confinement->landlock, std::min(here.landlock, highest));
+    EXPECT_EQ(read.report.confinement->system_calls, here.system_calls);
+    EXPECT_EQ(read.report.triangles, 1u);
+  }
+  EXPECT_EQ(import_scene(scene).report.confinement->landlock, here.landlock);
+}
+
+TEST(ImportSandboxReport, GivesAReaderNothingOfTheEnvironment) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.reader = folder.write_script("reader.sh", "env >&2; pwd >&2; exit 5\n");
+  setenv("OSG_LIBRARY_PATH", "/tmp", 1);
+  setenv("LD_LIBRARY_PATH", ":.:relative:/absolute", 1);
+  const std::string error = import_error(folder.write("scene.obj", ""), options);
+  unsetenv("OSG_LIBRARY_PATH");
+  unsetenv("LD_LIBRARY_PATH");
+  EXPECT_TRUE(contains(error, "its last words: /)")) << error;
+  options.reader = folder.write_script("words.sh", "env | tr '\\n' ' ' >&2; exit 5\n");
+  setenv("LD_LIBRARY_PATH", ":.:relative:/absolute", 1);
+  const std::string words = import_error(folder.write("scene.obj", ""), options);
+  unsetenv("LD_LIBRARY_PATH");
+  EXPECT_TRUE(contains(words, "LD_LIBRARY_PATH=/absolute ")) << words;
+  EXPECT_FALSE(contains(words, "OSG_") || contains(words, "HOME=") || contains(words, "relative")) << words;
+}
+
+}  // namespace
+}  // namespace roam::test

@@ -1,0 +1,114 @@
+// A reader that was taken over by its file: it enters the walls as roam-reader does, and then does what the file says,
+// one word. It lives to tell only where the walls let it.
+
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "import/reader/frame_writer.h"
+#include "import/reader/sandbox/sandbox.h"
+#include "import/stream.h"
+
+namespace {
+
+using namespace roam::reader;
+
+std::string beside;  ///< a path in the scene's folder
+
+/// Each returns 0, or -1 and errno, as the system call that it makes.
+const std::map<std::string, std::function<long()>> misdeeds{
+    {"exec", [] { return execl("/bin/sh", "sh", "-c", "touch PWNED", nullptr); }},
+    {"fork", [] { return fork(); }},
+    {"vfork", [] { return fork(); }},
+    {"socket", [] { return socket(AF_INET, SOCK_STREAM, 0); }},
+    {"local-socket", [] { return socket(AF_UNIX, SOCK_STREAM, 0); }},
+    {"write", [] { return open(beside.c_str(), O_WRONLY | O_CREAT, 0600); }},
+    {"overwrite", [] { return open((beside + ".victim").c_str(), O_RDWR | O_TRUNC); }},
+    {"append", [] { return open((beside + ".victim").c_str(), O_WRONLY | O_APPEND); }},
+    {"unnamed", [] { return open("/tmp", O_TMPFILE | O_RDWR, 0600); }},
+    {"truncate", [] { return truncate((beside + ".victim").c_str(), 0); }},
+    {"unlink", [] { return unlink((beside + ".victim").c_str()); }},
+    {"rename", [] { return rename((beside + ".victim").c_str(), beside.c_str()); }},
+    {"link", [] { return link((beside + ".victim").c_str(), beside.c_str()); }},
+    {"symlink", [] { return symlink("/etc/passwd", beside.c_str()); }},
+    {"mkdir", [] { return mkdir(beside.c_str(), 0700); }},
+    {"chmod", [] { return chmod((beside + ".victim").c_str(), 0777); }},
+    {"signal", [] { return kill(getppid(), SIGTERM); }},
+    {"code",
+     [] {
+       void* page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+       return page == MAP_FAILED ? -1L : 0L;
+     }},
+    {"more-time",
+     [] {
+       const rlimit any{RLIM_INFINITY, RLIM_INFINITY};
+       return setrlimit(RLIMIT_AS, &any);
+     }},
+    {"secret", [] { return open("/etc/passwd", O_RDONLY); }},
+    {"list", [] { return open("/etc", O_RDONLY | O_DIRECTORY); }},
+    {"proc", [] { return open("/proc/self/environ", O_RDONLY); }},
+    {"scene", [] { return open((beside + ".victim").c_str(), O_RDONLY); }},
+    {"memory",
+     [] {
+       for (int i = 0; i < 10240; ++i) {
+         void* some = std::malloc(1u << 20);
+         if (some == nullptr) return -1L;
+         std::memset(some, 1, 1u << 20);
+       }
+       return 0L;
+     }},
+    {"loop",
+     []() -> long {
+       while (getpid() > 0) {
+       }
+       return 0;
+     }},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Rights rights;
+  int highest = any_landlock;
+  std::string scene;
+  for (int i = 1; i + 1 < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--folder") rights.folders.emplace_back(argv[i + 1]);
+    if (name == "--file") rights.files.emplace_back(argv[i + 1]);
+    if (name == "--memory") rights.data = std::strtoull(argv[i + 1], nullptr, 10);
+    if (name == "--highest-landlock") highest = std::atoi(argv[i + 1]);
+    if (name == "--") scene = argv[i + 1];
+  }
+  limit_process(rights, stream_fd);
+  static_cast<void>(enter_empty_folder());
+  const roam::Confinement walls = enter(rights, highest);
+  FrameWriter frames(stream_fd);
+  frames.send(FrameKind::hello,
+              PayloadWriter().add(Greeting{stream_version, walls.landlock, walls.system_calls, 1, 1, 1}));
+  std::string deed;
+  std::ifstream(scene) >> deed;
+  beside = scene + ".new";
+  errno = 0;
+  const auto found = misdeeds.find(deed);
+  const long done = found == misdeeds.end() ? -2 : found->second();
+  frames.send(FrameKind::failure,
+              PayloadWriter().add_text(deed + (done == -2 ? " is not known"
+                                               : done < 0 ? std::string(" was refused: ") + std::strerror(errno)
+                                                          : " was done")));
+  frames.flush();
+  _exit(1);
+}
