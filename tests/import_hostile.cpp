@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include <sstream>
 
 #include "hostile_scene.h"
+#include "import_files.h"
 #include "messages.h"
 #include "program.h"
 
@@ -20,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using roam::test::test_data;
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
@@ -277,6 +280,52 @@ TEST(ImportHostile, GrantsNoTimeForBytesThatAreNotRead) {
   json report;
   EXPECT_LT(seconds_of([&] { report = info_of(scene); }), small_budget + beside);
   EXPECT_TRUE(report.contains("error")) << report;
+}
+
+/// Groups in groups, each of ten: 10^levels triangles out of a kilobyte.
+std::string repeated(int levels) {
+  std::string text = hostile_triangle("0");
+  text.insert(text.find('{') + 2, "UniqueID N0\n");
+  for (int level = 1; level <= levels; ++level) {
+    std::string group = "Group {\nUniqueID N" + std::to_string(level) + "\nnum_children 10\n" + text;
+    for (int i = 1; i < 10; ++i) group += "Use N" + std::to_string(level - 1) + "\n";
+    text = group + "}\n";
+  }
+  return text;
+}
+
+TEST(ImportHostile, EndsASceneThatRepeatsItselfWithoutEnd) {
+  const TestFolder folder;
+  const std::string scene = folder.write("laugh.osg", repeated(9));
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"build", scene, "-o", folder.file("store"), "--memory", "256M"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "repeats itself over and over")) << result.err;
+  EXPECT_EQ(info_of(folder.write("few.osg", repeated(3)))["triangles"], 1000);
+}
+
+TEST(ImportHostile, BuildsAStoreOfTilesWithoutLookingOutside) {
+  ROAM_NEEDS_TEST_DATA();
+  const TestFolder folder;
+  fs::create_directories(folder.file("tiles/Data/Tile_A"));
+  fs::create_directories(folder.file("secret/deep"));
+  folder.write("secret/key", "precious");
+  folder.write("secret/deep/key", "precious");
+  folder.write("secret/Tile_B.osgb", "");
+  fs::copy_file(test_data() / "contextcapture_tiles/fanvanzh_test.osgb", folder.file("tiles/Data/Tile_A/Tile_A.osgb"));
+  fs::create_symlink(folder.file("secret/key"), folder.file("tiles/Data/Tile_A/key"));
+  fs::create_symlink("/proc/self/pagemap", folder.file("tiles/Data/Tile_A/endless"));
+  fs::create_directory_symlink(folder.file("secret"), folder.file("tiles/Data/Tile_B"));
+  ASSERT_EQ(mkfifo(folder.file("tiles/metadata.xml").c_str(), 0600), 0);
+  const ProgramResult result =
+      run_program("/usr/bin/timeout", {"60", ROAM_PROGRAM, "build", folder.file("tiles"), "-o", folder.file("store")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::string seen;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.file("store"))) {
+    if (entry.is_regular_file())
+      seen += folder.read("store/" + fs::relative(entry.path(), folder.file("store")).string());
+  }
+  for (const char* name : {"secret", "/key", "deep", "endless"}) EXPECT_FALSE(contains(seen, name)) << name;
 }
 
 TEST(ImportHostile, ParsesTextOfAnyDepthWithinTheMemory) {

@@ -48,6 +48,11 @@ const std::map<std::string, std::function<long()>> misdeeds{
     {"mkdir", [] { return mkdir(beside.c_str(), 0700); }},
     {"chmod", [] { return chmod((beside + ".victim").c_str(), 0777); }},
     {"signal", [] { return kill(getppid(), SIGTERM); }},
+    {"signal-by-descriptor",
+     []() -> long {
+       int ends[2];
+       return pipe(ends) == 0 && fcntl(ends[0], F_SETOWN, getppid()) == 0 ? 0 : -1;
+     }},
     {"code",
      [] {
        void* page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdint>
 #include <ctime>
+#include <exception>
 #include <system_error>
 #include <thread>
 
@@ -58,8 +59,12 @@ void wait_for_signal(std::chrono::milliseconds longest) {
 }
 
 [[noreturn]] void end_at_once(int number) {
-  end_children(grace_of_children);
-  files::Unfinished::remove_all();
+  try {
+    end_children(grace_of_children);
+    files::Unfinished::remove_all();
+  } catch (const std::exception&) {
+    // No memory is left to tidy with: it ends all the same.
+  }
   constexpr char words[] = "roam: cancelled\n";
   [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words, sizeof words - 1);
   std::signal(number, SIG_DFL);

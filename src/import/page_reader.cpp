@@ -40,7 +40,7 @@ PageReader::Reader& PageReader::reader_of(std::uint32_t source, const Vec3& orig
     return readers_.front();
   }
   if (readers_.size() == reader_limit) readers_.pop_back();
-  Reader& made = readers_.emplace_front();
+  Reader made;
   made.source = source;
   made.reading.program = reader::find_reader(options_.reader);
   made.reading.path = paths_.at(source);
@@ -50,7 +50,7 @@ PageReader::Reader& PageReader::reader_of(std::uint32_t source, const Vec3& orig
   made.reading.report_progress = [this](std::uint64_t, std::uint64_t) {
     if (cancelled_) throw Cancelled();
   };
-  return made;
+  return readers_.emplace_front(std::move(made));
 }
 
 DisplayPart PageReader::read(std::uint32_t source, const Vec3& origin, const std::string& page) {

@@ -263,9 +263,10 @@ void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   // What an element takes at least, so that no count makes more of itself than the bytes that are there.
   constexpr std::size_t texture_bytes = 23, look_bytes = 9, geometry_bytes = 72, pages_bytes = 41;
   // A group costs no byte by itself; each but the first is a level, which does.
+  constexpr std::size_t level_bytes = 16;
   Reader from(bytes);
   part.groups = from.take<std::uint32_t>();
-  if (part.groups == 0 || part.groups > bytes.size()) throw StreamDamaged{"groups that are no tree"};
+  if (part.groups == 0 || part.groups > 1 + bytes.size() / level_bytes) throw StreamDamaged{"groups that are no tree"};
   for (std::uint64_t n = from.take_count(texture_bytes); n > 0; --n) part.textures.push_back(take_texture(from));
   for (std::uint64_t n = from.take_count(look_bytes); n > 0; --n) part.looks.push_back(take_look(from, part));
   std::uint64_t triangles = 0;

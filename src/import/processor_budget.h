@@ -10,23 +10,27 @@
 
 namespace roam::reader {
 
-/// Compares what a reader's process computes with what it reads. The kernel counts both: a reader that was taken over
-/// by a file can grant itself nothing.
+/// Compares what a reader's process computes with what it reads of the scene's files, as the kernel counts both.
 class ProcessorBudget {
  public:
   static constexpr double least_seconds = 10.0;
   static constexpr double seconds_per_byte = 3e-6;
+  /// About as many as a second indexes, times the seconds above.
+  static constexpr std::uint64_t least_triangles = 20'000'000;
+  static constexpr std::uint64_t triangles_per_byte = 4;
 
   /// `process`: a child. What it used and read before does not count.
   explicit ProcessorBudget(int process);
 
-  /// A file that the reader says it opened. Each counts once, by what it is on the disk.
+  /// A file of the scene that the reader says it opened. Each counts once, by what it has on the disk.
   void add_file(const std::filesystem::path& file);
 
   /// Seconds that the process may have used by now.
   [[nodiscard]] double allowed() const;
   /// Seconds that it has used; 0 where the system does not say.
   [[nodiscard]] double used() const;
+  /// Triangles that the reader may have sent by now: who takes them computes too.
+  [[nodiscard]] std::uint64_t triangles() const;
   /// Bytes of files that `allowed` is for.
   [[nodiscard]] std::uint64_t bytes() const;
 

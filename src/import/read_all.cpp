@@ -28,7 +28,7 @@ std::uint64_t bytes_in(const fs::path& path) {
   fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
     std::error_code unseen;
-    if (entry->is_regular_file(unseen)) {
+    if (fs::is_regular_file(entry->symlink_status(unseen))) {
       const auto size = entry->file_size(unseen);
       bytes += unseen ? 0 : size;
     }

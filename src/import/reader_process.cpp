@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <thread>
 #include <utility>
 
@@ -202,7 +203,11 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::ve
 }
 
 ReaderProcess::~ReaderProcess() {
-  finish(0);
+  try {
+    finish(0);
+  } catch (const std::exception&) {
+    // It is killed and collected; its last words did not fit the memory.
+  }
   if (requests_ >= 0) close(requests_);
   close(stream_);
   close(complaint_pipe_);

@@ -12,6 +12,7 @@
 
 #include "import/processor_budget.h"
 #include "import/reader_process.h"
+#include "import/scene_scope.h"
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -26,48 +27,18 @@ constexpr int wait_milliseconds = 100;
 constexpr int ending_milliseconds = 2000;
 /// Processor time of a reader whose words are still in the pipe.
 constexpr double unheard_seconds = 2.0;
+/// For a reader that reads nothing to start and say so.
+constexpr std::chrono::seconds greeting_time{30};
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
-
-/// A path as its reader gets it: absolute, and the folders above it without links.
-fs::path readers_path(const fs::path& path) {
-  fs::path whole = fs::absolute(path).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
-  std::error_code none;
-  const fs::path real = fs::canonical(fs::is_directory(whole, none) ? whole : whole.parent_path(), none);
-  if (none) return whole;
-  return fs::is_directory(whole, none) ? real : real / whole.filename();
-}
-
-/// What the reader of a path may read, as arguments.
-void add_rights(const fs::path& path, const std::vector<fs::path>& allowed, std::vector<std::string>& arguments) {
-  const auto add = [&](const char* name, const fs::path& real) {
-    arguments.insert(arguments.end(), {name, real.string()});
-  };
-  std::error_code none;
-  if (fs::is_directory(path, none)) {
-    add("--folder", path);
-    // It lies beside the folder of the tiles and says where they are.
-    if (path.filename() == "Data") add("--file", path.parent_path() / "metadata.xml");
-  } else {
-    add("--folder", path.parent_path());
-    // The user named the file, wherever a link leads.
-    if (const fs::path real = fs::canonical(path, none); !none) add("--file", real);
-  }
-  for (const fs::path& folder : allowed) {
-    const fs::path real = fs::canonical(folder, none);
-    if (none || !fs::is_directory(real, none)) {
-      throw Error(fmt::format("{}: there is no such folder to allow. Check the spelling.", folder.string()));
-    }
-    add("--folder", real);
-  }
-}
 
 std::vector<std::string> arguments_of(const Reading& reading, const fs::path& path) {
   const ImportOptions& options = *reading.options;
   std::vector<std::string> arguments{"--unit", fmt::format("{}", metres_per(options.unit)), "--memory",
                                      fmt::format("{}", options.memory_limit)};
-  add_rights(path, options.allow, arguments);
+  const SceneScope scope = scope_of(path, options.allow);
+  for (const fs::path& folder : scope.folders) arguments.insert(arguments.end(), {"--folder", folder.string()});
+  for (const fs::path& file : scope.files) arguments.insert(arguments.end(), {"--file", file.string()});
   if (options.up) {
     constexpr const char* names[] = {"x", "y", "z"};
     arguments.insert(arguments.end(), {"--up", names[static_cast<int>(*options.up)]});
@@ -155,7 +126,8 @@ Confinement confinement_of(const fs::path& program) {
   ImportReport report;
   WallsReceiver greeting(report);
   try {
-    for (int waited = 0; !report.confinement && waited < ending_milliseconds; waited += wait_milliseconds) {
+    const Clock::time_point until = Clock::now() + greeting_time;
+    while (!report.confinement && Clock::now() < until) {
       std::size_t received = 0;
       const auto arrival = process.receive(greeting.room(), wait_milliseconds, received);
       if (arrival == ReaderProcess::Arrival::end) break;
@@ -181,6 +153,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
   receiver.spell(readers_path(reading.path).string(), without_slash(path));
+  const SceneScope scope = scope_of(reading.path, options.allow);
   ProcessorBudget budget(process.id());
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
@@ -194,7 +167,15 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
         receiver.take(received);
-        for (const std::string& file : receiver.take_opened()) budget.add_file(file);
+        for (const std::string& file : receiver.take_opened()) {
+          if (scope.resolve(file) == fs::path(file)) budget.add_file(file);
+        }
+        if (receiver.triangles() > budget.triangles()) {
+          throw fail(fmt::format(
+              "it gives more than {} triangles from {} bytes: it repeats itself over and over. If that is meant, write "
+              "it out without repetition",
+              budget.triangles(), budget.bytes()));
+        }
       }
       // What is still in the pipe may say that more files were read.
       const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;

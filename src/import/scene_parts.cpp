@@ -7,6 +7,7 @@
 
 #include "import/find_reader.h"
 #include "import/read_all.h"
+#include "import/scene_scope.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
 #include "text/printable.h"
@@ -60,13 +61,13 @@ fs::path normal(const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-std::vector<fs::path> files_in(const fs::path& folder) {
+/// Regular files below a folder, in their order. A link that leads out of the scene is not followed.
+std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope& scope) {
   std::vector<fs::path> files;
   std::error_code none;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
-    std::error_code unseen;
-    if (entry->is_regular_file(unseen)) files.push_back(entry->path());
+    if (!scope.find(entry->path()).empty()) files.push_back(entry->path());
     entry.increment(none);
   }
   std::sort(files.begin(), files.end());
@@ -109,11 +110,10 @@ void count_bytes(ScenePart& part) {
 
 /// One part a tile; those that are missing too, so that reading it says so.
 void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
-               Names& names, std::vector<ScenePart>& parts) {
+               const reader::SceneScope& scope, Names& names, std::vector<ScenePart>& parts) {
   // As the reader finds it: see read_tiles.
-  fs::path folder = normal(path);
+  fs::path folder = reader::readers_path(path);
   if (folder.filename() == "Data") folder = folder.parent_path();
-  std::error_code none;
   const fs::path metadata = folder / "metadata.xml";
   for (const Tile& tile : tiles) {
     ScenePart part;
@@ -121,10 +121,11 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
     part.tile = tile.root.stem().string();
     part.name = names.unique(folder.filename().string() + "/" + part.tile);
     part.frame = frame;
-    if (tile.present) {
-      part.files = files_in(tile.root.parent_path());
+    if (tile.present && scope.resolve(tile.root)) {
+      part.files = files_in(tile.root.parent_path(), scope);
       // It says where the tile lies.
-      if (fs::exists(metadata, none) && std::find(part.files.begin(), part.files.end(), metadata) == part.files.end()) {
+      if (!scope.find(metadata).empty() &&
+          std::find(part.files.begin(), part.files.end(), metadata) == part.files.end()) {
         part.files.push_back(metadata);
       }
     }
@@ -155,18 +156,21 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
       if (options.progress && !options.progress({})) throw Cancelled();
     };
     const std::optional<Georeference> frame = report.georeference;
+    const reader::SceneScope scope = reader::scope_of(path, options.allow);
     PartList list(report, options.ignore.size());
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
     std::error_code none;
     if (fs::is_directory(path, none)) {
-      add_tiles(path, list.tiles(), frame, names, parts);
+      add_tiles(path, list.tiles(), frame, scope, names, parts);
       continue;
     }
     ScenePart part;
     part.name = names.unique(normal(path).filename().string());
     part.path = path;
-    part.files = list.files();
+    for (const fs::path& file : list.files()) {
+      if (!scope.find(file).empty()) part.files.push_back(file);
+    }
     part.files.insert(part.files.begin(), normal(path));
     count_bytes(part);
     parts.push_back(std::move(part));

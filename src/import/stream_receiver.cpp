@@ -1,6 +1,7 @@
 #include "import/stream_receiver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -89,6 +90,9 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       Georeference georeference;
       georeference.origin = fields.take<Vec3>();
       georeference.srs = fields.take_text();
+      for (int k = 0; k < 3; ++k) {
+        if (!std::isfinite(georeference.origin[k])) throw StreamDamaged{"a place that is not finite"};
+      }
       if (!report_.georeference) report_.georeference = std::move(georeference);
       break;
     }

@@ -12,6 +12,8 @@ namespace {
 /// What a reader could name without end.
 constexpr int depth_limit = 64;
 constexpr std::uint64_t token_bytes_limit = 1u << 30;
+/// What keeping a name takes besides.
+constexpr std::uint64_t name_bytes = 400;
 
 /// Counts bytes for as long as it lives.
 class Counted : public osg::Referenced {
@@ -56,7 +58,7 @@ std::string PageSource::name_of(const DisplayPart& part, const std::string& toke
   // A page that the pager has dropped is named again by those that are read again.
   const auto [at, is_new] = names_.try_emplace({part.source, token});
   if (is_new) {
-    token_bytes_ += token.size();
+    token_bytes_ += token.size() + name_bytes;
     if (token_bytes_ > token_bytes_limit) throw Error("the scene has more pages than roam can show; it is damaged.");
     at->second = "page-" + std::to_string(names_.size());
     pages_[at->second] = {part.source, part.origin, token, depth};

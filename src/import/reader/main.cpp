@@ -34,6 +34,9 @@ namespace {
 /// Address space that the program's own code, its libraries and their plugins take before a file is opened.
 constexpr std::uint64_t own_address_space = std::uint64_t{1} << 30;
 
+/// More than any machine has.
+constexpr std::uint64_t any_memory = std::uint64_t{1} << 56;
+
 /// Of the memory for reading in pieces, what is not data of this process: its code and that of its libraries, and the
 /// receiver's window and piece.
 constexpr std::uint64_t memory_beside_data = 28u << 20;
@@ -43,7 +46,7 @@ constexpr std::uint64_t memory_beside_data = 28u << 20;
 std::uint64_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
   std::error_code none;
   const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
-  return 8 * (none ? 0 : bytes) + 2 * memory_limit;
+  return 8 * std::min<std::uint64_t>(none ? 0 : bytes, any_memory) + 2 * std::min(memory_limit, any_memory);
 }
 
 struct Request {
@@ -139,7 +142,7 @@ int run(const std::vector<std::string>& arguments) {
   Rights rights;
   rights.folders = request.folders;
   rights.files = request.files;
-  rights.address_space = memory + own_address_space;
+  rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
   rights.file_size = request.pieces ? temporary_bytes(request.path, memory) : 0;
   limit_process(rights, stream_fd);
@@ -147,7 +150,7 @@ int run(const std::vector<std::string>& arguments) {
   if (!request.only_walls) load_libraries(request.path, request.display || request.pages);
 
   FrameWriter frames(stream_fd);
-  SceneFiles files(request.folders, request.files, frames);
+  SceneFiles files({request.folders, request.files}, frames);
   PartPool parts(frames, files, request.origin);
   std::optional<PieceCutter> pieces;
   if (request.pieces) pieces.emplace(frames, memory);
@@ -159,8 +162,9 @@ int run(const std::vector<std::string>& arguments) {
     return serve_pages(frames, request.settings, request.origin, rights, [&] { greet(frames, walls); });
   }
   greet(frames, walls);
+  // At once, so that a reader that computes long is not taken for one that did not start.
+  frames.flush();
   if (request.only_walls) {
-    frames.flush();
     return EXIT_SUCCESS;
   }
   const auto fail = [&](std::string sentence) {

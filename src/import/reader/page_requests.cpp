@@ -70,7 +70,7 @@ int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std:
   while (take_request(token)) {
     frames.begin_stream();
     greet();
-    SceneFiles files(rights.folders, rights.files, frames);
+    SceneFiles files({rights.folders, rights.files}, frames);
     PartPool parts(frames, files, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
     const auto fail = [&](const std::string& sentence) {

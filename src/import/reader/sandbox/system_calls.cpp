@@ -24,8 +24,8 @@ constexpr std::initializer_list<const char*> harmless{
     // files that are open, or are opened by the rules below
     "read", "pread64", "readv", "preadv", "preadv2", "write", "pwrite64", "writev", "close", "lseek", "_llseek",
     "fstat", "fstat64", "newfstatat", "fstatat64", "stat", "stat64", "lstat", "lstat64", "statx", "statfs", "fstatfs",
-    "readlink", "readlinkat", "access", "faccessat", "faccessat2", "getdents", "getdents64", "getcwd", "fcntl",
-    "fcntl64", "fadvise64", "fadvise64_64", "poll", "ppoll", "ppoll_time64", "select", "pselect6", "dup",
+    "readlink", "readlinkat", "access", "faccessat", "faccessat2", "getdents", "getdents64", "getcwd", "fadvise64",
+    "fadvise64_64", "poll", "ppoll", "ppoll_time64", "select", "pselect6", "dup",
     // memory; mmap and mprotect are ruled below
     "brk", "munmap", "mremap", "madvise", "mincore", "membarrier",
     // time, signals to itself, itself
@@ -105,6 +105,8 @@ bool restrict_system_calls() {
   if (filter == nullptr) return false;
   // The process set no_new_privs itself.
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
+  // Should a library have started a thread.
+  seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
   Rules rules(filter.get());
   for (const char* name : harmless) rules.add(SCMP_ACT_ALLOW, name);
   for (const char* name : hostile) rules.add(SCMP_ACT_KILL_PROCESS, name);
@@ -113,6 +115,12 @@ bool restrict_system_calls() {
   rule_memory(rules);
   // abort() and assert() signal the own thread.
   rules.add(SCMP_ACT_ALLOW, "tgkill", {{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()), 0}});
+  // A descriptor may be copied and looked at; it may not send signals to other processes.
+  for (const char* name : {"fcntl", "fcntl64"}) {
+    for (const scmp_datum_t command : {F_GETFD, F_SETFD, F_GETFL, F_DUPFD, F_DUPFD_CLOEXEC, F_GETLK}) {
+      rules.add(SCMP_ACT_ALLOW, name, {{1, SCMP_CMP_EQ, command, 0}});
+    }
+  }
   // Limits are looked at and not set; malloc names its memory.
   rules.add(SCMP_ACT_ALLOW, "prlimit64", {{2, SCMP_CMP_EQ, 0, 0}});
 #ifdef PR_SET_VMA

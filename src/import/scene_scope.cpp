@@ -1,0 +1,97 @@
+#include "import/scene_scope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "roam/error.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Links that lead to links: more is a circle. Linux stops at as many.
+constexpr int link_limit = 40;
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+}  // namespace
+
+bool SceneScope::holds(const fs::path& path) const {
+  return std::find(files.begin(), files.end(), path) != files.end() ||
+         std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) { return is_below(path, folder); });
+}
+
+std::optional<fs::path> SceneScope::resolve(const fs::path& path) const {
+  fs::path whole = path.lexically_normal();
+  for (int links = 0; links <= link_limit; ++links) {
+    if (!whole.is_absolute() || !holds(whole)) return std::nullopt;
+    // Folders of the scene have no links in them: the first link lies inside.
+    fs::path at;
+    fs::path rest;
+    bool found = false;
+    for (const fs::path& name : whole) {
+      if (found) {
+        rest /= name;
+        continue;
+      }
+      const fs::path next = at / name;
+      std::error_code none;
+      found = holds(next) && fs::is_symlink(fs::symlink_status(next, none));
+      if (found) {
+        const fs::path target = fs::read_symlink(next, none);
+        if (none) return std::nullopt;
+        at /= target;
+      } else {
+        at = next;
+      }
+    }
+    if (!found) return at;
+    whole = (rest.empty() ? at : at / rest).lexically_normal();
+  }
+  return std::nullopt;
+}
+
+fs::path SceneScope::find(const fs::path& path) const {
+  const std::optional<fs::path> file = resolve(path);
+  std::error_code none;
+  return file && fs::is_regular_file(fs::symlink_status(*file, none)) ? *file : fs::path();
+}
+
+fs::path readers_path(const fs::path& path) {
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  std::error_code none;
+  const bool folder = fs::is_directory(whole, none);
+  const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
+  if (none) return whole;
+  return folder ? real : real / whole.filename();
+}
+
+SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
+  const fs::path path = readers_path(named);
+  SceneScope scope;
+  std::error_code none;
+  if (fs::is_directory(path, none)) {
+    scope.folders.push_back(path);
+    // It lies beside the folder of the tiles and says where they are.
+    if (path.filename() == "Data") scope.files.push_back(path.parent_path() / "metadata.xml");
+  } else {
+    scope.folders.push_back(path.parent_path());
+    // The user named the file, wherever a link leads.
+    if (const fs::path real = fs::canonical(path, none); !none) scope.files.push_back(real);
+  }
+  for (const fs::path& folder : allowed) {
+    const fs::path real = fs::canonical(folder, none);
+    if (none || !fs::is_directory(real, none)) {
+      throw Error(fmt::format("{}: there is no such folder to allow. Check the spelling.", folder.string()));
+    }
+    scope.folders.push_back(real);
+  }
+  return scope;
+}
+
+}  // namespace roam::reader
