@@ -332,7 +332,7 @@ std::optional<Profile> find_profile(const std::filesystem::path& scene) { return
 std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes) {
   const std::filesystem::path file = profile_path(scenes);
   std::error_code none;
-  const auto status = std::filesystem::status(file, none);
+  const auto status = std::filesystem::symlink_status(file, none);
   // A file that is there and may not be seen is an error, which reading it tells.
   if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
   return load_profile(file);

@@ -1,0 +1,46 @@
+// A profile that a stranger put beside a scene: it is refused by a sentence, soon and in little memory.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "program.h"
+#include "roam/profile.h"
+
+namespace {
+
+class HostileProfile : public testing::Test {
+ protected:
+  /// What is said of the profile that lies there.
+  std::string complaint() const {
+    try {
+      (void)roam::find_profile(std::filesystem::path(folder_.file("dam.ply")));
+    } catch (const roam::Error& error) {
+      return error.what();
+    }
+    return {};
+  }
+  void expect_refused(const std::string& why) const {
+    const std::string said = complaint();
+    EXPECT_NE(said.find("dam.ply.roam.json"), std::string::npos) << said;
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(HostileProfile, ThatIsAPipeIsNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(folder_.file("dam.ply.roam.json").c_str(), 0666), 0);
+  ::alarm(20);  // ends this test, should it wait
+  expect_refused("it is a pipe");
+  ::alarm(0);
+}
+
+TEST_F(HostileProfile, ThatIsALinkIsNotFollowed) {
+  const std::string secret = folder_.write("secret", "passphrase");
+  std::filesystem::create_symlink(secret, folder_.file("dam.ply.roam.json"));
+  expect_refused("it is a link");
+  EXPECT_EQ(complaint().find("pass"), std::string::npos);
+  std::filesystem::remove(secret);
+  expect_refused("it is a link");
+}
+
+}  // namespace
