@@ -43,4 +43,32 @@ TEST_F(HostileProfile, ThatIsALinkIsNotFollowed) {
   expect_refused("it is a link");
 }
 
+TEST_F(HostileProfile, ThatWouldTakeMuchMemoryIsRefused) {
+  const auto write = [&](const std::string& text) { (void)folder_.write("dam.ply.roam.json", text); };
+  write(std::string(15 << 20, '['));
+  expect_refused("nested deeper");
+  std::string flat = "[0";
+  for (int i = 0; i < 5'000'000; ++i) flat += ",[]";
+  write(flat + "]");
+  expect_refused("more than 1000000 values");
+  std::string wide = "{\"regions\":[{}], \"x\":{\"\":0";
+  for (int i = 0; i < 2000; ++i) wide += ",\"" + std::to_string(i) + "\":0";
+  write(wide + "}}");
+  expect_refused("more than 1000 members");
+}
+
+TEST_F(HostileProfile, OfManyRegionsIsReadAllTheSame) {
+  roam::Profile profile;
+  profile.scene.geometry_hash = "0123456789abcdef";
+  profile.scene.bounds = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  profile.method = "paper";
+  profile.radius = 0.3;
+  profile.height = 1.8;
+  profile.step = 0.25;
+  profile.slope_degrees = 50.0;
+  profile.regions.assign(40'000, {profile.scene.bounds, 0.2, 0.0, "a door"});
+  roam::save_profile(profile, folder_.file("dam.ply.roam.json"));
+  EXPECT_EQ(complaint(), "");
+}
+
 }  // namespace
