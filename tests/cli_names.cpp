@@ -65,6 +65,7 @@ class Names : public testing::Test {
   json data(const std::vector<std::string>& arguments) {
     const ProgramResult result = run_program(ROAM_PROGRAM, arguments);
     expect_printable(result.err);
+    expect_printable(result.out);
     return json::parse(result.out, nullptr, false);
   }
 
@@ -124,7 +125,7 @@ TEST_F(Names, AreExactAsData) {
       "a\x1B]0;owned\x07"
       "b\xC2\x9B"
       "c\xE2\x80\xAE"
-      "d" +
+      "d\x7F" +
       std::string(300, 'x');
   const std::string scene = folder_.write("scene\x1B[2J.obj", scene_text(name));
   const std::string path = folder_.write("way.path", "-3 0 1\n4 0 1\n");

@@ -1,5 +1,8 @@
 #include "report.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -7,6 +10,7 @@
 #include "exit_status.h"
 #include "roam/error.h"
 #include "tell.h"
+#include "text/printable.h"
 
 namespace roam::app {
 
@@ -18,11 +22,28 @@ void write(const std::string& text) {
   throw Error(std::string("cannot write the result: ") + std::strerror(errno));
 }
 
+/// Of a text that is JSON: the same data without controls. They stand in its strings alone, save for its line ends.
+std::string without_controls(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    const std::size_t bytes = std::max<std::size_t>(c.bytes, 1);
+    if (c.bytes > 0 && c.code != '\n' && is_control(c.code)) {
+      escaped += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c.code));
+    } else {
+      escaped += text.substr(0, bytes);
+    }
+    text.remove_prefix(bytes);
+  }
+  return escaped;
+}
+
 }  // namespace
 
 void print(const Json& report) {
   // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
-  write(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
 }
 
 void print(const std::string& text) { write(printable_lines(text)); }

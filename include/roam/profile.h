@@ -86,7 +86,7 @@ void check(const Profile& profile);
 [[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
 
 /// Throws roam::Error naming file, line or member, and what to do, for what is no profile, is of a newer version, or
-/// holds numbers out of range.
+/// holds numbers out of range, and for a file that is a link, a pipe or a device.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
 /// Written under a temporary name, synced and renamed: whole or as it was. Throws roam::Error naming the file when it
 /// cannot be written, and for what check refuses.

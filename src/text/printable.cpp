@@ -10,8 +10,6 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::string_view ellipsis = "\xE2\x80\xA6";     // U+2026
 
-bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7F && c < 0xA0); }
-
 bool is_blank(char32_t c) { return (c >= 0x09 && c <= 0x0D) || c == 0x85 || c == 0x2028 || c == 0x2029; }
 
 /// Unicode's Bidi_Control.
@@ -28,7 +26,7 @@ Piece first_piece(std::string_view text) {
   const Character c = first_character(text);
   if (c.bytes == 0) return {replacement, 1};
   if (is_blank(c.code)) return {" ", c.bytes};
-  if (is_control(c.code) || turns_text(c.code)) return {replacement, c.bytes};
+  if (is_control(c.code)) return {replacement, c.bytes};
   return {text.substr(0, c.bytes), c.bytes};
 }
 
@@ -39,6 +37,8 @@ std::size_t characters_of(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0) || turns_text(code); }
 
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -22,6 +22,9 @@ struct Character {
 };
 [[nodiscard]] Character first_character(std::string_view text);
 
+/// Whether a terminal acts on it and shows nothing: the controls of C0 and C1, DEL, and Unicode's of direction.
+[[nodiscard]] bool is_control(char32_t code);
+
 /// One line of UTF-8 that moves no cursor and turns no text round: white space is a blank, other controls, C1 and
 /// Unicode's of direction among them, and bytes that are no UTF-8 are U+FFFD. Of more than `most` characters those in
 /// the middle become an ellipsis.

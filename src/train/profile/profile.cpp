@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "roam/train.h"
@@ -200,6 +201,32 @@ Profile parsed(const Json& json) {
   return p;
 }
 
+/// Keeps what a text of JSON takes within what a profile may take: a text from a stranger could take a hundred times
+/// its size, and an object of many members a time that grows with their square.
+class Limits {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, Json&) {
+    if (depth > most_depth) throw Error(fmt::format("is nested deeper than {} levels", most_depth));
+    if (event == Json::parse_event_t::key && ++members_.at(static_cast<std::size_t>(depth)) > most_members) {
+      throw Error(fmt::format("has an object of more than {} members", most_members));
+    }
+    const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if ((begins || event == Json::parse_event_t::value) && ++values_ > most_values) {
+      throw Error(fmt::format("holds more than {} values", most_values));
+    }
+    if (begins && depth < most_depth) members_.at(static_cast<std::size_t>(depth) + 1) = 0;
+    return true;
+  }
+
+ private:
+  static constexpr int most_depth = 16;
+  static constexpr std::size_t most_members = 1000;
+  /// A region has 13.
+  static constexpr std::size_t most_values = 1'000'000;
+  std::array<std::size_t, most_depth + 1> members_{};
+  std::size_t values_ = 0;
+};
+
 /// The scene's name without a slash behind it, as near to how it was given as can be.
 std::filesystem::path named(const std::filesystem::path& scene) {
   if (scene.empty()) throw Error("the path of the scene whose profile is meant is empty; name its file or folder");
@@ -299,11 +326,14 @@ Profile load_profile(const std::filesystem::path& file) {
   };
   Json json;
   try {
-    json = Json::parse(text);
+    Limits limits;
+    json = Json::parse(text, std::ref(limits));
   } catch (const Json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
     const std::string what = error.what();
     throw fail("is no JSON: " + what.substr(std::min(what.find("] ") + 2, what.size())));
+  } catch (const Error& error) {
+    throw fail(error.what());
   }
   try {
     Profile profile = parsed(json);
@@ -332,7 +362,7 @@ std::optional<Profile> find_profile(const std::filesystem::path& scene) { return
 std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes) {
   const std::filesystem::path file = profile_path(scenes);
   std::error_code none;
-  const auto status = std::filesystem::status(file, none);
+  const auto status = std::filesystem::symlink_status(file, none);
   // A file that is there and may not be seen is an error, which reading it tells.
   if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
   return load_profile(file);

@@ -2,12 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "files/unfinished.h"
 #include "roam/error.h"
@@ -28,6 +29,33 @@ namespace {
 void demand_name(const std::filesystem::path& file) {
   if (file.empty()) throw Error("the path of the file is empty; name the file");
 }
+
+/// A regular file, open for reading. The folder of a scene may come from a stranger: a pipe in it would keep the reader
+/// waiting for ever, and a link could lead to a secret that a message then quotes.
+class Opened {
+ public:
+  explicit Opened(const std::filesystem::path& file)
+      : descriptor_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC)) {
+    if (descriptor_ < 0) {
+      if (errno != ELOOP) fail_to_read(file, errno);
+      throw Error(fmt::format("cannot read {}: it is a link; put the file itself there", file.string()));
+    }
+    struct stat status {};
+    const int error = ::fstat(descriptor_, &status) != 0 ? errno : S_ISDIR(status.st_mode) ? EISDIR : 0;
+    if (error == 0 && S_ISREG(status.st_mode)) return;
+    ::close(descriptor_);
+    if (error != 0) fail_to_read(file, error);
+    throw Error(fmt::format("cannot read {}: it is a pipe or a device; put a file there", file.string()));
+  }
+  ~Opened() { ::close(descriptor_); }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
 
 /// A file in the making, which is removed again unless it gets its name.
 class Unfinished {
@@ -82,17 +110,16 @@ class Unfinished {
 
 std::string read_whole(const std::filesystem::path& file, std::uint64_t limit) {
   demand_name(file);
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) fail_to_read(file, EISDIR);
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail_to_read(file, errno);
-  std::string text(limit + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) fail_to_read(file, errno);
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > limit) fail_to_read(file, EFBIG);
-  return text;
+  const Opened opened(file);
+  std::string text;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t got = ::read(opened.descriptor(), piece.data(), piece.size());
+    if (got == 0) return text;
+    if (got < 0 && errno != EINTR) fail_to_read(file, errno);
+    if (got > 0) text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > limit) fail_to_read(file, EFBIG);
+  }
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {
