@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
     if (name == "--highest-landlock") highest = std::atoi(argv[i + 1]);
     if (name == "--") scene = argv[i + 1];
   }
-  limit_process(rights, stream_fd);
+  static_cast<void>(limit_process(rights, stream_fd));
   static_cast<void>(enter_empty_folder());
   const roam::Confinement walls = enter(rights, highest);
   FrameWriter frames(stream_fd);

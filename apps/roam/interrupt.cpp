@@ -23,9 +23,9 @@ namespace {
 /// For children to end in order: Xvfb removes its lock and its socket.
 constexpr std::chrono::milliseconds grace_of_children{100};
 
-volatile std::sig_atomic_t signal_came = 0;  ///< its number
-std::atomic<std::int64_t> came_at{0};        ///< of the steady clock, nanoseconds
-sem_t signals;                               ///< one for each that came
+std::atomic<int> signal_came = 0;      ///< its number
+std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
+sem_t signals;                         ///< one for each that came
 
 extern "C" void take_signal(int number) {
   const int error = errno;

@@ -130,7 +130,12 @@ struct SocketPair {
     ours = ends[0];
     // An end numbered 0 to 3 would be overwritten by the others.
     theirs = fcntl(ends[1], F_DUPFD_CLOEXEC, stream_fd + 1);
+    const int error = errno;
     close(ends[1]);
+    if (theirs < 0) {
+      close(ours);
+      throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(error));
+    }
   }
   ~SocketPair() {
     if (ours >= 0) close(ours);
@@ -210,7 +215,7 @@ ReaderProcess::~ReaderProcess() {
   }
   if (requests_ >= 0) close(requests_);
   close(stream_);
-  close(complaint_pipe_);
+  if (complaint_pipe_ >= 0) close(complaint_pipe_);
 }
 
 void ReaderProcess::request(std::string_view bytes) {
@@ -251,6 +256,11 @@ void ReaderProcess::drain_complaints() {
   // Bounded, so that a child that never stops complaining does not keep us from its stream.
   for (int i = 0; i < 16; ++i) {
     const ssize_t n = read(complaint_pipe_, chunk.data(), chunk.size());
+    if (n == 0) {
+      // It has closed both; a closed pipe would wake whoever waits again and again.
+      close(complaint_pipe_);
+      complaint_pipe_ = -1;
+    }
     if (n <= 0) return;
     complaints_.append(chunk.data(), static_cast<std::size_t>(n));
     if (complaints_.size() > complaint_limit) complaints_.erase(0, complaints_.size() - complaint_limit);

@@ -68,7 +68,6 @@ std::string PageSource::name_of(const DisplayPart& part, const std::string& toke
 
 osg::ref_ptr<osg::Node> PageSource::read(const Page& page) {
   if (page.depth >= depth_limit) throw Error("pages are nested without end; the scene is damaged.");
-  if (*memory_ > memory_limit_) throw Error("the pages that are shown fill the memory that importing may use.");
   const DisplayPart part = reader_.read(page.source, page.origin, page.token);
   osg::ref_ptr<osg::Group> node = make(part, page.depth + 1);
   node->setUserData(new Counted(memory_, part.bytes()));
@@ -86,6 +85,8 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
   // Nothing was read, and OpenSceneGraph need not complain: who shows the scene says it.
   const Result nothing(Result::FILE_LOADED);
   if (page.missing) return nothing;
+  // The pager lets pages go, and asks again.
+  if (*memory_ > memory_limit_) return nothing;
   ++events_;
   ++under_way_;
   osg::ref_ptr<osg::Node> node;

@@ -145,7 +145,7 @@ int run(const std::vector<std::string>& arguments) {
   rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
   rights.file_size = request.pieces ? temporary_bytes(request.path, memory) : 0;
-  limit_process(rights, stream_fd);
+  const bool limits = limit_process(rights, stream_fd);
   const bool empty_folder = enter_empty_folder();
   if (!request.only_walls) load_libraries(request.path, request.display || request.pages);
 
@@ -157,6 +157,7 @@ int run(const std::vector<std::string>& arguments) {
   MeshSink sink(frames, request.settings, request.display ? &parts : nullptr, pieces ? &*pieces : nullptr);
 
   Confinement walls = enter(rights, request.highest_landlock);
+  walls.limits = limits;
   walls.empty_folder = empty_folder;
   if (request.pages) {
     return serve_pages(frames, request.settings, request.origin, rights, [&] { greet(frames, walls); });

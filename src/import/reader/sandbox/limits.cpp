@@ -26,9 +26,9 @@ namespace {
 /// A scene's files are read one by one, and each may name others before it is closed.
 constexpr rlim_t open_files = 256;
 
-void limit(int resource, rlim_t soft, rlim_t hard) {
-  const struct rlimit both { soft, hard };
-  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+bool limit(int resource, rlim_t value) {
+  const struct rlimit both { value, value };
+  return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
 /// As for the folder of temporary files, which is the user's choice.
@@ -39,23 +39,27 @@ std::string temporary_folder() {
 
 }  // namespace
 
-void limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
-#ifndef ROAM_SHADOW_MEMORY
-  if (rights.address_space > 0) limit(RLIMIT_AS, rights.address_space, rights.address_space);
-  if (rights.data > 0) limit(RLIMIT_DATA, rights.data, rights.data);
+bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
+  bool all = true;
+#ifdef ROAM_SHADOW_MEMORY
+  all = false;
+#else
+  if (rights.address_space > 0) all = limit(RLIMIT_AS, rights.address_space) && all;
+  if (rights.data > 0) all = limit(RLIMIT_DATA, rights.data) && all;
 #endif
-  limit(RLIMIT_CORE, 0, 0);
-  limit(RLIMIT_NPROC, 0, 0);
-  limit(RLIMIT_NOFILE, open_files, open_files);
-  limit(RLIMIT_FSIZE, rights.file_size, rights.file_size);
+  all = limit(RLIMIT_CORE, 0) && all;
+  all = limit(RLIMIT_NPROC, 0) && all;
+  all = limit(RLIMIT_NOFILE, open_files) && all;
+  all = limit(RLIMIT_FSIZE, rights.file_size) && all;
   // Beyond it writing fails and is reported, instead of ending the process.
   signal(SIGXFSZ, SIG_IGN);
 #ifdef __linux__
   const pid_t parent = getppid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);
-  close_range(static_cast<unsigned>(last_descriptor) + 1, ~0u, 0);
+  all = close_range(static_cast<unsigned>(last_descriptor) + 1, ~0u, 0) == 0 && all;
 #endif
+  return all;
 }
 
 bool enter_empty_folder() {
@@ -69,7 +73,6 @@ bool enter_empty_folder() {
 
 Confinement enter(const Rights& rights, int highest_landlock) {
   Confinement confinement;
-  confinement.limits = true;
 #ifdef __linux__
   confinement.no_new_privileges = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
 #endif

@@ -6,9 +6,8 @@
 /// process gives up its rights before it opens the first file of a scene:
 ///
 ///     Landlock        reads below the scene's folders and the named files; no other file is opened, none is written
-///     system calls    (seccomp) starts no program or process, maps no code, opens no socket, creates, changes or
-///     removes
-///                     no file; the process is killed when it tries
+///     system calls    (seccomp) starts no program or process, maps no code, opens no socket; creates, changes and
+///                     removes no file; the process is killed when it tries
 ///     no_new_privs    gains no rights by starting a program
 ///     limits          memory, size of its unnamed file, no core dump; it dies with the program that started it
 ///
@@ -33,13 +32,14 @@ struct Rights {
 
 inline constexpr int any_landlock = 1 << 20;
 
-/// Limits memory and closes every descriptor above `last_descriptor`. Call it first: what follows loads libraries.
-void limit_process(const Rights& rights, int last_descriptor);
+/// Limits memory and closes every descriptor above `last_descriptor`. Returns whether all of it holds. Call it first:
+/// what follows loads libraries.
+[[nodiscard]] bool limit_process(const Rights& rights, int last_descriptor);
 
 /// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
 bool enter_empty_folder();
 
-/// Gives the rights up. `highest_landlock` lets a test stand for an older kernel. Nothing that comes after can load a
+/// Gives the rights up; says which of Landlock, seccomp and no_new_privs hold. `highest_landlock` lets a test stand for an older kernel. Nothing that comes after can load a
 /// library.
 [[nodiscard]] Confinement enter(const Rights& rights, int highest_landlock = any_landlock);
 

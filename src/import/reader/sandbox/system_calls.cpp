@@ -20,7 +20,7 @@ namespace {
 using Filter = std::unique_ptr<std::remove_pointer_t<scmp_filter_ctx>, void (*)(scmp_filter_ctx)>;
 
 /// What reading files and computing needs. Each name is looked up when the program runs: no processor has all of them.
-constexpr std::initializer_list<const char*> harmless{
+constexpr std::initializer_list<const char*> allowed{
     // files that are open, or are opened by the rules below
     "read", "pread64", "readv", "preadv", "preadv2", "write", "pwrite64", "writev", "close", "lseek", "_llseek",
     "fstat", "fstat64", "newfstatat", "fstatat64", "stat", "stat64", "lstat", "lstat64", "statx", "statfs", "fstatfs",
@@ -36,8 +36,8 @@ constexpr std::initializer_list<const char*> harmless{
     "getrusage", "times", "sysinfo", "uname", "getrandom", "getrlimit", "ugetrlimit", "getpriority", "arch_prctl",
     "set_tid_address"};
 
-/// No scene needs them. Whoever tries is up to something, and ends there.
-constexpr std::initializer_list<const char*> hostile{
+/// No scene needs them: the process is killed when it tries.
+constexpr std::initializer_list<const char*> killed{
     // programs and processes
     "execve", "execveat", "fork", "vfork", "clone", "clone3", "ptrace", "process_vm_readv", "process_vm_writev", "kill",
     "tkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo", "pidfd_open", "pidfd_getfd", "pidfd_send_signal", "setuid",
@@ -108,8 +108,8 @@ bool restrict_system_calls() {
   // Should a library have started a thread.
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
   Rules rules(filter.get());
-  for (const char* name : harmless) rules.add(SCMP_ACT_ALLOW, name);
-  for (const char* name : hostile) rules.add(SCMP_ACT_KILL_PROCESS, name);
+  for (const char* name : allowed) rules.add(SCMP_ACT_ALLOW, name);
+  for (const char* name : killed) rules.add(SCMP_ACT_KILL_PROCESS, name);
   rule_opening(rules, "open", 1);
   rule_opening(rules, "openat", 2);
   rule_memory(rules);
