@@ -87,6 +87,23 @@ TEST_F(StoreFailures, LinksThatLeadNowhereAreCalledSo) {
   EXPECT_TRUE(contains(run({"build", scene(), "-o", folder.file("dangling")}).err, "link that leads nowhere"));
 }
 
+TEST_F(StoreFailures, ALinkBesideASceneIsNoPlaceForItsStoreUnlessItIsNamed) {
+  const TestFolder folder;
+  const std::string copy = folder.file(fs::path(scene()).filename()), mine = folder.file("mine.roam"),
+                    beside = copy + ".roam";
+  fs::copy_file(scene(), copy);
+  fs::create_directory(mine);
+  fs::create_symlink(mine, beside);
+  for (const char* step : {"--json", "--plan"}) {
+    const ProgramResult told = run({"build", copy, step});
+    EXPECT_EQ(told.status, 1);
+    EXPECT_TRUE(contains(told.err, beside + " is a link")) << told.err;
+    EXPECT_TRUE(fs::is_empty(mine));
+  }
+  EXPECT_EQ(run({"build", copy, "-o", beside}).status, 0);
+  EXPECT_TRUE(roam::Store::is_store(mine));
+}
+
 TEST_F(StoreFailures, WhatCannotBeReadIsNoMatterOfTheRightToWrite) {
   const TestFolder folder;
   const std::string bad = copy(folder);

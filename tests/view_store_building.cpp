@@ -70,6 +70,24 @@ TEST(ViewStoreBuilding, KeepsWhatIsBuiltWhenItIsClosed) {
   EXPECT_EQ(Store::open(store)->info().hash, Store::open(d.folder.file("undisturbed.roam"))->info().hash);
 }
 
+TEST(ViewStoreBuilding, FollowsNoLinkBesideTheScene) {
+  for (const bool is_whole : {false, true}) {
+    Driven d;
+    const std::string scene = d.write_scene(), mine = d.folder.file("mine.roam");
+    if (is_whole) build_store(build_of(scene, mine));
+    fs::create_directories(mine);
+    fs::create_symlink(mine, scene + ".roam");
+    d.begin();
+    d.run(0.5);
+    EXPECT_FALSE(d.on_store());
+    d.press('o');
+    d.run(2.0);
+    EXPECT_FALSE(d.on_store());
+    EXPECT_EQ(Store::is_store(mine), is_whole);
+    EXPECT_TRUE(contains(d.notes(), ".roam is a link"));
+  }
+}
+
 TEST(ViewStoreBuilding, TheKeyStopsABuild) {
   Driven d;
   const std::string scene =

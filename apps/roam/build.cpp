@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "report.h"
+#include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
 #include "scene_options.h"
@@ -24,6 +25,15 @@ std::filesystem::path store_beside(const std::filesystem::path& scene) {
   const bool relative = scene.is_relative() && scene.lexically_normal().has_parent_path() == false;
   path += ".roam";
   return relative ? path.filename() : path;
+}
+
+void demand_no_link(const std::filesystem::path& store) {
+  std::error_code none;
+  if (!std::filesystem::is_symlink(std::filesystem::symlink_status(store, none))) return;
+  throw Error(
+      fmt::format("{} is a link, and a store that lies beside its scene may be none: name the store that is meant, or "
+                  "delete the link",
+                  store.string()));
 }
 
 namespace {
@@ -212,6 +222,7 @@ ExitStatus build(BuildVerb verb) {
   if (verb.output.empty()) {
     if (verb.scene.scenes.empty()) throw UsageError("build: without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());
+    demand_no_link(verb.output);
   }
   try {
     return run_steps(verb);

@@ -7,6 +7,7 @@
 #include <future>
 #include <utility>
 
+#include "store_name.h"
 #include "view/collision_loader.h"
 
 namespace roam::app {
@@ -59,6 +60,7 @@ bool StoreBuilder::goes_on(const StoreBuildProgress& p) {
 }
 
 void StoreBuilder::build() {
+  if (what_.store.empty()) demand_no_link(output_);
   StoreBuildOptions options;
   options.scene = what_.scene.scenes;
   options.output = output_;

@@ -87,6 +87,12 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
     }
     return choice;
   }
+  try {
+    demand_no_link(place);
+  } catch (const Error& error) {
+    choice.note = error.what();
+    return choice;
+  }
   if (!Store::is_store(place)) return choice;
   std::string problem;
   try {
