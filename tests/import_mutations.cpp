@@ -1,5 +1,5 @@
 // Damaged files of every format: whatever a byte says, reading ends in a scene or in a message, within the budget.
-// ROAM_MUTATIONS names how many of each format; docs/proofs.md has the figures of 1,500.
+// ROAM_MUTATIONS says how many of each format.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
