@@ -184,7 +184,8 @@ std::string recorded_stream(const TemporaryFolder& folder, const std::filesystem
   const std::filesystem::path record = folder.path() / "recorded";
   ImportOptions options;
   options.reader = folder.write_script("reader.sh", "exec 4>&3\n'" + find_reader({}).string() +
-                                                        "' \"$@\" 3>&1 4>&- | tee '" + record.string() + "' >&4\n");
+                                                        "' \"$@\" 3>&1 4>&- | cat > '" + record.string() +
+                                                        "'\ncat '" + record.string() + "' >&4\n");
   EXPECT_EQ(display_error(file, options), "");
   std::ifstream stream(record, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
