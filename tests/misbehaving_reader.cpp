@@ -92,8 +92,8 @@ int main(int argc, char** argv) {
   std::string scene;
   for (int i = 1; i + 1 < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--folder") rights.folders.emplace_back(argv[i + 1]);
-    if (name == "--file") rights.files.emplace_back(argv[i + 1]);
+    if (name == "--folder") rights.scope.folders.emplace_back(argv[i + 1]);
+    if (name == "--file") rights.scope.files.emplace_back(argv[i + 1]);
     if (name == "--memory") rights.data = std::strtoull(argv[i + 1], nullptr, 10);
     if (name == "--highest-landlock") highest = std::atoi(argv[i + 1]);
     if (name == "--") scene = argv[i + 1];

@@ -121,6 +121,7 @@ void read_all(std::span<const Source> sources, const ImportOptions& options, Imp
     Reading reading;
     reading.program = program;
     reading.path = sources[i].path;
+    reading.scope = scope_of(reading.path, options.allow);
     reading.tile = sources[i].tile;
     reading.path_bytes = sizes[i];
     reading.options = &options;

@@ -12,7 +12,6 @@
 
 #include "import/processor_budget.h"
 #include "import/reader_process.h"
-#include "import/scene_scope.h"
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -32,11 +31,11 @@ constexpr std::chrono::seconds greeting_time{30};
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
 
-std::vector<std::string> arguments_of(const Reading& reading, const fs::path& path) {
+std::vector<std::string> arguments_of(const Reading& reading) {
   const ImportOptions& options = *reading.options;
   std::vector<std::string> arguments{"--unit", fmt::format("{}", metres_per(options.unit)), "--memory",
                                      fmt::format("{}", options.memory_limit)};
-  const SceneScope scope = scope_of(path, options.allow);
+  const SceneScope& scope = reading.scope;
   for (const fs::path& folder : scope.folders) arguments.insert(arguments.end(), {"--folder", folder.string()});
   for (const fs::path& file : scope.files) arguments.insert(arguments.end(), {"--file", file.string()});
   if (options.up) {
@@ -59,7 +58,7 @@ std::vector<std::string> arguments_of(const Reading& reading, const fs::path& pa
                      {"--origin", fmt::format("{}", o->x), fmt::format("{}", o->y), fmt::format("{}", o->z)});
   }
   // A path that begins with a dash must not be taken for an option.
-  arguments.insert(arguments.end(), {"--", path.string()});
+  arguments.insert(arguments.end(), {"--", scope.scene.string()});
   return arguments;
 }
 
@@ -141,7 +140,7 @@ Confinement confinement_of(const fs::path& program) {
 }
 
 std::unique_ptr<ReaderProcess> start(const Reading& reading) {
-  return std::make_unique<ReaderProcess>(reading.program, arguments_of(reading, readers_path(reading.path)),
+  return std::make_unique<ReaderProcess>(reading.program, arguments_of(reading),
                                          reading.wanted == Reading::Wanted::pages);
 }
 
@@ -152,8 +151,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
 
   const double silence_limit =
       options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
-  receiver.spell(readers_path(reading.path).string(), without_slash(path));
-  const SceneScope scope = scope_of(reading.path, options.allow);
+  receiver.spell(reading.scope.scene.string(), without_slash(path));
   ProcessorBudget budget(process.id());
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
@@ -168,7 +166,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       if (arrival == ReaderProcess::Arrival::bytes) {
         receiver.take(received);
         for (const std::string& file : receiver.take_opened()) {
-          if (scope.resolve(file) == fs::path(file)) budget.add_file(file);
+          if (reading.scope.resolve(file) == fs::path(file)) budget.add_file(file);
         }
         if (receiver.triangles() > budget.triangles()) {
           throw fail(fmt::format(

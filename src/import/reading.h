@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "import/reader_process.h"
+#include "import/scene_scope.h"
 #include "import/stream_receiver.h"
 #include "roam/import.h"
 
@@ -20,6 +21,7 @@ namespace roam::reader {
 struct Reading {
   std::filesystem::path program;  ///< roam-reader
   std::filesystem::path path;     ///< existing file or folder
+  SceneScope scope{};             ///< of the path
   std::uint64_t path_bytes = 0;   ///< its size
   const ImportOptions* options = nullptr;
   std::optional<Georeference> frame{};  ///< of the paths before, if there is one

@@ -7,7 +7,6 @@
 
 #include "import/find_reader.h"
 #include "import/read_all.h"
-#include "import/scene_scope.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
 #include "text/printable.h"
@@ -112,7 +111,7 @@ void count_bytes(ScenePart& part) {
 void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
                const reader::SceneScope& scope, Names& names, std::vector<ScenePart>& parts) {
   // As the reader finds it: see read_tiles.
-  fs::path folder = reader::readers_path(path);
+  fs::path folder = scope.scene;
   if (folder.filename() == "Data") folder = folder.parent_path();
   const fs::path metadata = folder / "metadata.xml";
   for (const Tile& tile : tiles) {
@@ -149,6 +148,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     reader::Reading reading;
     reading.program = program;
     reading.path = path;
+    reading.scope = reader::scope_of(path, options.allow);
     reading.options = &options;
     reading.wanted = reader::Reading::Wanted::list;
     reading.frame = report.georeference;
@@ -156,20 +156,19 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
       if (options.progress && !options.progress({})) throw Cancelled();
     };
     const std::optional<Georeference> frame = report.georeference;
-    const reader::SceneScope scope = reader::scope_of(path, options.allow);
     PartList list(report, options.ignore.size());
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
     std::error_code none;
     if (fs::is_directory(path, none)) {
-      add_tiles(path, list.tiles(), frame, scope, names, parts);
+      add_tiles(path, list.tiles(), frame, reading.scope, names, parts);
       continue;
     }
     ScenePart part;
     part.name = names.unique(normal(path).filename().string());
     part.path = path;
     for (const fs::path& file : list.files()) {
-      if (!scope.find(file).empty()) part.files.push_back(file);
+      if (!reading.scope.find(file).empty()) part.files.push_back(file);
     }
     part.files.insert(part.files.begin(), normal(path));
     count_bytes(part);

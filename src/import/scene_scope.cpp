@@ -14,8 +14,20 @@ namespace fs = std::filesystem;
 
 /// Links that lead to links: more is a circle. Linux stops at as many.
 constexpr int link_limit = 40;
+
 bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Absolute, and the folders above it without links.
+fs::path without_links_above(const fs::path& path) {
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  std::error_code none;
+  const bool folder = fs::is_directory(whole, none);
+  const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
+  if (none) return whole;
+  return folder ? real : real / whole.filename();
 }
 
 }  // namespace
@@ -61,19 +73,10 @@ fs::path SceneScope::find(const fs::path& path) const {
   return file && fs::is_regular_file(fs::symlink_status(*file, none)) ? *file : fs::path();
 }
 
-fs::path readers_path(const fs::path& path) {
-  fs::path whole = fs::absolute(path).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
-  std::error_code none;
-  const bool folder = fs::is_directory(whole, none);
-  const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
-  if (none) return whole;
-  return folder ? real : real / whole.filename();
-}
-
 SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
-  const fs::path path = readers_path(named);
+  const fs::path path = without_links_above(named);
   SceneScope scope;
+  scope.scene = path;
   std::error_code none;
   if (fs::is_directory(path, none)) {
     scope.folders.push_back(path);

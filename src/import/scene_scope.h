@@ -14,6 +14,7 @@ namespace roam::reader {
 ///
 /// Nothing outside is looked at, not even for whether it is there: a path may lead to a network.
 struct SceneScope {
+  std::filesystem::path scene;                 ///< as its reader gets it: absolute, the folders above it without links
   std::vector<std::filesystem::path> folders;  ///< absolute, without links
   std::vector<std::filesystem::path> files;    ///< absolute, without links
 
@@ -25,9 +26,6 @@ struct SceneScope {
  private:
   [[nodiscard]] bool holds(const std::filesystem::path& path) const;
 };
-
-/// The path as its reader gets it: absolute, and the folders above it without links.
-[[nodiscard]] std::filesystem::path readers_path(const std::filesystem::path& path);
 
 /// The scope of a scene that the user names by `path`. Throws roam::Error for an allowed folder that is not there.
 [[nodiscard]] SceneScope scope_of(const std::filesystem::path& path, std::span<const std::filesystem::path> allowed);

@@ -55,10 +55,9 @@ struct Request {
   bool pieces = false;
   bool pages = false;
   std::optional<Vec3> origin;
-  std::vector<std::filesystem::path> folders, files;  ///< that may be read; absolute, without links
+  SceneScope scope;  ///< that may be read
   int highest_landlock = any_landlock;
   bool only_walls = false;  ///< nothing is read: which walls hold is all that is wanted
-  std::string path;
 };
 
 double number(const std::string& word) {
@@ -75,7 +74,7 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
   while (left() > 0) {
     const std::string& name = arguments[i++];
     if (name == "--" && left() == 1) {
-      request.path = arguments[i];
+      request.scope.scene = arguments[i];
       return true;
     }
     if (name == "--unit" && left() > 0) {
@@ -94,9 +93,9 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
     } else if (name == "--tile" && left() > 0) {
       settings.tile = arguments[i++];
     } else if (name == "--folder" && left() > 0) {
-      request.folders.emplace_back(arguments[i++]);
+      request.scope.folders.emplace_back(arguments[i++]);
     } else if (name == "--file" && left() > 0) {
-      request.files.emplace_back(arguments[i++]);
+      request.scope.files.emplace_back(arguments[i++]);
     } else if (name == "--highest-landlock" && left() > 0) {
       request.highest_landlock = std::stoi(arguments[i++]);
     } else if (name == "--only-walls") {
@@ -139,18 +138,20 @@ int run(const std::vector<std::string>& arguments) {
     return 2;
   }
   const std::uint64_t memory = request.settings.memory_limit;
+  const std::string path = request.scope.scene.string();
   Rights rights;
-  rights.folders = request.folders;
-  rights.files = request.files;
+  rights.scope = request.scope;
   rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
-  rights.file_size = request.pieces ? temporary_bytes(request.path, memory) : 0;
+  rights.file_size = request.pieces ? temporary_bytes(path, memory) : 0;
   const bool limits = limit_process(rights, stream_fd);
   const bool empty_folder = enter_empty_folder();
-  if (!request.only_walls) load_libraries(request.path, request.display || request.pages);
+  // A list of files needs none.
+  const bool reads = !request.only_walls && !request.settings.only_list;
+  if (reads) load_libraries(path, request.display || request.pages);
 
   FrameWriter frames(stream_fd);
-  SceneFiles files({request.folders, request.files}, frames);
+  SceneFiles files(request.scope, frames);
   PartPool parts(frames, files, request.origin);
   std::optional<PieceCutter> pieces;
   if (request.pieces) pieces.emplace(frames, memory);
@@ -160,14 +161,12 @@ int run(const std::vector<std::string>& arguments) {
   walls.limits = limits;
   walls.empty_folder = empty_folder;
   if (request.pages) {
-    return serve_pages(frames, request.settings, request.origin, rights, [&] { greet(frames, walls); });
+    return serve_pages(frames, request.settings, request.origin, request.scope, [&] { greet(frames, walls); });
   }
   greet(frames, walls);
   // At once, so that a reader that computes long is not taken for one that did not start.
   frames.flush();
-  if (request.only_walls) {
-    return EXIT_SUCCESS;
-  }
+  if (request.only_walls) return EXIT_SUCCESS;
   const auto fail = [&](std::string sentence) {
     if (files.left_any_out()) {
       sentence += fmt::format(" It refers to {}, which lies outside of its folder; --allow lets a folder in.",
@@ -178,7 +177,7 @@ int run(const std::vector<std::string>& arguments) {
     return EXIT_FAILURE;
   };
   try {
-    read_path(request.path, files, sink, request.settings);
+    read_path(path, files, sink, request.settings);
     sink.end();
     return EXIT_SUCCESS;
   } catch (const Error& error) {
@@ -188,7 +187,7 @@ int run(const std::vector<std::string>& arguments) {
     std::fputs("out of memory\n", stderr);
     return EXIT_FAILURE;
   } catch (const std::exception& error) {
-    return fail(fmt::format("{}: its reader gave up: {}. The file is probably damaged.", request.path, error.what()));
+    return fail(fmt::format("{}: its reader gave up: {}. The file is probably damaged.", path, error.what()));
   }
 }
 

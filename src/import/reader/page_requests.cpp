@@ -64,13 +64,13 @@ void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Page
 }  // namespace
 
 int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
-                const Rights& rights, const std::function<void()>& greet) {
+                const SceneScope& scope, const std::function<void()>& greet) {
   PageStates states;
   std::string token;
   while (take_request(token)) {
     frames.begin_stream();
     greet();
-    SceneFiles files({rights.folders, rights.files}, frames);
+    SceneFiles files(scope, frames);
     PartPool parts(frames, files, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
     const auto fail = [&](const std::string& sentence) {

@@ -7,7 +7,7 @@
 
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
-#include "import/reader/sandbox/sandbox.h"
+#include "import/scene_scope.h"
 
 namespace roam::reader {
 
@@ -15,6 +15,6 @@ namespace roam::reader {
 /// Answers each with a stream of its own (stream.h), from what `greet` sends to its end, with one part. Returns the
 /// exit status of the process.
 int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
-                const Rights& rights, const std::function<void()>& greet);
+                const SceneScope& scope, const std::function<void()>& greet);
 
 }  // namespace roam::reader

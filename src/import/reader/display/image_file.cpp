@@ -76,8 +76,8 @@ fs::path entry_named(const fs::path& folder, const std::string& name) {
 /// The scene's file at `name`, seen from a folder, in any case of letters.
 fs::path existing(const SceneFiles& files, const fs::path& folder, const fs::path& name) {
   fs::path place = (folder / name).lexically_normal();
-  if (!files.resolve(place)) return {};
   if (fs::path file = files.find(place); !file.empty()) return file;
+  if (!files.resolve(place)) return {};
   // What lies above the name is not the scene's to spell.
   const fs::path inside = place.lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..") return {};

@@ -59,8 +59,8 @@ int restrict_files(const Rights& rights, int highest_landlock) {
                                                               : sizeof(std::uint64_t);
   const int ruleset = static_cast<int>(syscall(create_ruleset, &attributes, size, 0));
   if (ruleset < 0) return 0;
-  for (const auto& folder : rights.folders) allow(ruleset, folder, read_file | read_folder);
-  for (const auto& file : rights.files) allow(ruleset, file, read_file);
+  for (const auto& folder : rights.scope.folders) allow(ruleset, folder, read_file | read_folder);
+  for (const auto& file : rights.scope.files) allow(ruleset, file, read_file);
   const bool done = syscall(restrict_self, ruleset, 0) == 0;
   close(ruleset);
   return done ? version : 0;

@@ -14,20 +14,18 @@
 /// Whatever the kernel lacks is left out, part by part, and enter() says which parts hold.
 
 #include <cstdint>
-#include <filesystem>
-#include <vector>
 
+#include "import/scene_scope.h"
 #include "roam/import.h"
 
 namespace roam::reader {
 
 /// What the process still may do behind the walls.
 struct Rights {
-  std::vector<std::filesystem::path> folders;  ///< to read, with all that is below; absolute, without links
-  std::vector<std::filesystem::path> files;    ///< to read; absolute, without links
-  std::uint64_t address_space = 0;             ///< bytes; 0: any
-  std::uint64_t data = 0;                      ///< bytes of memory that can be written; 0: any
-  std::uint64_t file_size = 0;                 ///< bytes of a file that was opened for writing before
+  SceneScope scope;                 ///< to read
+  std::uint64_t address_space = 0;  ///< bytes; 0: any
+  std::uint64_t data = 0;           ///< bytes of memory that can be written; 0: any
+  std::uint64_t file_size = 0;      ///< bytes of a file that was opened for writing before
 };
 
 inline constexpr int any_landlock = 1 << 20;
@@ -39,8 +37,8 @@ inline constexpr int any_landlock = 1 << 20;
 /// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
 bool enter_empty_folder();
 
-/// Gives the rights up; says which of Landlock, seccomp and no_new_privs hold. `highest_landlock` lets a test stand for an older kernel. Nothing that comes after can load a
-/// library.
+/// Gives the rights up; says which of Landlock, seccomp and no_new_privs hold. `highest_landlock` lets a test stand for
+/// an older kernel. Nothing that comes after can load a library.
 [[nodiscard]] Confinement enter(const Rights& rights, int highest_landlock = any_landlock);
 
 /// The parts of enter(). Each returns whether it holds; restrict_files the version of Landlock, or 0.
