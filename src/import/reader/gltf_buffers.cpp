@@ -1,32 +1,16 @@
-#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "import/reader/file_names.h"
 #include "import/reader/formats.h"
 
 namespace roam::reader {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "a%20room.bin" -> "a room.bin".
-std::string decoded(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned char byte = 0;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(&uri[i + 1], &uri[i + 1] + 2, byte, 16).ptr == &uri[i + 1] + 2) {
-      text += static_cast<char>(byte);
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
-}
 
 /// Takes buffers[i].uri as the text goes by. Nothing else is kept, so that neither size nor depth of the text matters.
 class BufferNames : public nlohmann::json_sax<nlohmann::json> {
@@ -73,7 +57,7 @@ void list_gltf_buffers(const fs::path& path, SceneFiles& files, MeshSink& sink) 
   nlohmann::json::sax_parse(in, &buffers);
   std::set<fs::path> found;
   for (const std::string& name : buffers.names()) {
-    if (fs::path file = files.find(path.parent_path() / decoded(name)); !file.empty()) found.insert(std::move(file));
+    if (fs::path file = files.find(path.parent_path() / unescaped(name)); !file.empty()) found.insert(std::move(file));
   }
   for (const fs::path& file : found) sink.report_file(file.string());
 }

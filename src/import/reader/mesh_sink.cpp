@@ -327,12 +327,6 @@ void MeshSink::finish_object() {
   if (pieces_ != nullptr) pieces_->vertices().clear();
 }
 
-void MeshSink::report_tile(std::string_view root, bool present) {
-  frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)));
-}
-
-void MeshSink::report_file(std::string_view file) { frames_.send(FrameKind::file, PayloadWriter().add_text(file)); }
-
 void MeshSink::report_missing_page(std::string_view file) {
   ++totals_.missing_pages;
   if (totals_.missing_pages <= ImportReport::name_limit) {

@@ -86,9 +86,11 @@ class MeshSink {
   [[nodiscard]] bool ignored() const { return ignored_; }
 
   void count_file() { ++totals_.files; }
-  void report_tile(std::string_view root, bool present);
+  void report_tile(std::string_view root, bool present) {
+    frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)));
+  }
   /// A file that is to be listed.
-  void report_file(std::string_view file);
+  void report_file(std::string_view file) { frames_.send(FrameKind::file, PayloadWriter().add_text(file)); }
   void report_missing_page(std::string_view file);
   void report_note(std::string_view sentence);
   /// The same sentence, said once however often it is found.

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "import/reader/file_extension.h"
+#include "import/reader/file_names.h"
 #include "osg_plugins/plugins.h"
 
 namespace roam::reader {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <string>
 
+#include "import/reader/file_names.h"
 #include "roam/error.h"
 
 namespace roam::reader {
@@ -17,11 +18,6 @@ namespace {
 
 /// A triangle's corners lie in three blocks, and the last block stays.
 constexpr std::uint64_t least_slots = 16;
-
-std::string temporary_folder() {
-  const char* named = std::getenv("TMPDIR");
-  return named != nullptr && *named != '\0' ? named : "/tmp";
-}
 
 Error refused(const char* verb, int reason) {
   return Error(fmt::format(

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "import/reader/file_bytes.h"
-#include "import/reader/file_extension.h"
+#include "import/reader/file_names.h"
 #include "import/reader/formats.h"
 #include "import/reader/osg_files.h"
 #include "roam/error.h"

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <vector>
 
-#include "import/reader/file_extension.h"
+#include "import/reader/file_names.h"
 
 namespace roam::reader {
 namespace {
@@ -46,21 +46,6 @@ std::string plugin_for(const std::string& bytes, const std::string& name) {
   }
   const std::string extension = extension_of(name);
   return std::find(by_name.begin(), by_name.end(), extension) == by_name.end() ? "" : extension;
-}
-
-/// Percent signs and two digits, as in addresses.
-std::string unescaped(const std::string& name) {
-  std::string text;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto digit = [&](std::size_t k) { return std::isxdigit(static_cast<unsigned char>(name[k])) != 0; };
-    if (name[i] == '%' && i + 2 < name.size() && digit(i + 1) && digit(i + 2)) {
-      text += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      text += name[i];
-    }
-  }
-  return text;
 }
 
 /// The entry of a folder that has this name in any case of letters; empty when there is none.

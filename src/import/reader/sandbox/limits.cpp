@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "import/reader/file_names.h"
 #include "import/reader/sandbox/sandbox.h"
 
 #ifdef __linux__
@@ -29,12 +30,6 @@ constexpr rlim_t open_files = 256;
 bool limit(int resource, rlim_t value) {
   const struct rlimit both { value, value };
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
-}
-
-/// As for the folder of temporary files, which is the user's choice.
-std::string temporary_folder() {
-  const char* named = std::getenv("TMPDIR");
-  return named != nullptr && *named == '/' ? named : "/tmp";
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// What names of files say: the format, and other spellings; and the folder for temporary files.
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace roam::reader {
+
+/// In lower case and without the dot.
+[[nodiscard]] inline std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// A name in which % and two hexadecimal digits stand for a byte, as in addresses: "a%20room.bin" -> "a room.bin".
+[[nodiscard]] inline std::string unescaped(const std::string& name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto digit = [&](std::size_t k) { return std::isxdigit(static_cast<unsigned char>(name[k])) != 0; };
+    if (name[i] == '%' && i + 2 < name.size() && digit(i + 1) && digit(i + 2)) {
+      text += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      text += name[i];
+    }
+  }
+  return text;
+}
+
+/// TMPDIR, or /tmp. The program hands on absolute folders alone.
+[[nodiscard]] inline std::string temporary_folder() {
+  const char* named = std::getenv("TMPDIR");
+  return named != nullptr && *named != '\0' ? named : "/tmp";
+}
+
+}  // namespace roam::reader
