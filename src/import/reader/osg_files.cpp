@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "import/reader/file_names.h"
+#include "import/reader/format_table.h"
 #include "osg_plugins/plugins.h"
 
 namespace roam::reader {
@@ -42,24 +43,6 @@ class NoImages : public osgDB::ReaderWriter {
 
 /// Formats whose files may name files of any of these formats. The others name images alone.
 constexpr std::array<std::string_view, 5> naming{"ive", "osg", "osgb", "osgt", "osgx"};
-
-/// A format that OpenSceneGraph reads, and its plugin. "osg" is the plugin of four formats.
-struct Format {
-  std::string_view extension;
-  std::string_view plugin;
-};
-constexpr std::array<Format, 12> formats{{{"ive", "ive"},
-                                          {"osg", "osg"},
-                                          {"osgb", "osg"},
-                                          {"osgt", "osg"},
-                                          {"osgx", "osg"},
-                                          {"3ds", "3ds"},
-                                          {"flt", "openflight"},
-                                          {"ac", "ac"},
-                                          {"dxf", "dxf"},
-                                          {"lwo", "lwo"},
-                                          {"x", "x"},
-                                          {"iv", "iv"}}};
 
 /// Classes that a file of the plugin "osg" may name, by the library that they belong to.
 constexpr std::array<std::string_view, 10> class_libraries{"osg",          "osgsim",    "osgtext",    "osgfx",
@@ -153,9 +136,9 @@ class GuardedReading : public osgDB::ReadFileCallback {
   /// The loaded plugin for a file, by its extension; null for all other formats.
   static osgDB::ReaderWriter* reader_for(const fs::path& file) {
     const std::string extension = extension_of(file);
-    const bool known = std::any_of(formats.begin(), formats.end(),
-                                   [&](const Format& format) { return format.extension == extension; });
-    return known ? osgDB::Registry::instance()->getReaderWriterForExtension(extension) : nullptr;
+    const Format* format = format_of(extension);
+    if (format == nullptr || format->family != Family::osg) return nullptr;
+    return osgDB::Registry::instance()->getReaderWriterForExtension(extension);
   }
   Result missing(const std::string& file) {
     if (!quiet_) sink_.report_missing_page(file);
@@ -200,7 +183,8 @@ void load_osg_plugins(const std::string& extension) {
   const bool all = extension.empty() || names_files(extension);
   for (const Format& format : formats) {
     // Inventor's library is large, and no other format names its files.
-    if (format.extension == extension || (all && format.extension != "iv")) osg_plugins::load(format.plugin);
+    const bool wanted = format.extension == extension || (all && format.extension != "iv");
+    if (format.family == Family::osg && wanted) osg_plugins::load(format.plugin);
   }
   if (!all) return;
   for (const std::string_view library : class_libraries) {

@@ -9,6 +9,7 @@
 
 #include "import/reader/file_bytes.h"
 #include "import/reader/file_names.h"
+#include "import/reader/format_table.h"
 #include "import/reader/formats.h"
 #include "import/reader/osg_files.h"
 #include "roam/error.h"
@@ -17,22 +18,6 @@ namespace roam::reader {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class Family { obj, stl, ply, osg, assimp };
-
-struct Format {
-  std::string_view extension;
-  Family family;
-};
-/// Where both libraries know a format, the one that reads more of the files that are about: OpenSceneGraph refuses some
-/// exporters' Collada, and assimp knows no 3DS hierarchy.
-constexpr std::array<Format, 23> formats{
-    {{"obj", Family::obj},    {"stl", Family::stl},     {"ply", Family::ply},     {"ive", Family::osg},
-     {"osg", Family::osg},    {"osgb", Family::osg},    {"osgt", Family::osg},    {"osgx", Family::osg},
-     {"3ds", Family::osg},    {"flt", Family::osg},     {"dae", Family::assimp},  {"ac", Family::osg},
-     {"dxf", Family::osg},    {"lwo", Family::osg},     {"x", Family::osg},       {"iv", Family::osg},
-     {"glb", Family::assimp}, {"gltf", Family::assimp}, {"fbx", Family::assimp},  {"ifc", Family::assimp},
-     {"off", Family::assimp}, {"3mf", Family::assimp},  {"blend", Family::assimp}}};
 
 /// Formats that people will try, and what to do instead.
 struct Unsupported {
@@ -57,13 +42,6 @@ std::string known_extensions() {
   std::string list;
   for (const Format& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.extension);
   return list;
-}
-
-const Format* format_of(const std::string& extension) {
-  for (const Format& format : formats) {
-    if (format.extension == extension) return &format;
-  }
-  return nullptr;
 }
 
 /// Files that no format's reader needs to see.
