@@ -55,11 +55,6 @@ class PartList : public reader::StreamReceiver {
   std::vector<fs::path> files_;
 };
 
-fs::path normal(const fs::path& path) {
-  const fs::path whole = fs::absolute(path).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
-}
-
 /// Regular files below a folder, in their order. A link that leads out of the scene is not followed.
 std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope& scope) {
   std::vector<fs::path> files;
@@ -165,12 +160,12 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
       continue;
     }
     ScenePart part;
-    part.name = names.unique(normal(path).filename().string());
+    part.name = names.unique(reading.scope.scene.filename().string());
     part.path = path;
     for (const fs::path& file : list.files()) {
       if (!reading.scope.find(file).empty()) part.files.push_back(file);
     }
-    part.files.insert(part.files.begin(), normal(path));
+    part.files.insert(part.files.begin(), reading.scope.scene);
     count_bytes(part);
     parts.push_back(std::move(part));
   }

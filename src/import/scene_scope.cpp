@@ -19,18 +19,17 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Absolute, and the folders above it without links.
+}  // namespace
+
 fs::path without_links_above(const fs::path& path) {
-  fs::path whole = fs::absolute(path).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
+  const fs::path whole = fs::absolute(path);
   std::error_code none;
   const bool folder = fs::is_directory(whole, none);
+  // A link is followed before "..", as the system does: text alone would name another file.
   const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
-  if (none) return whole;
+  if (none) return whole.lexically_normal();
   return folder ? real : real / whole.filename();
 }
-
-}  // namespace
 
 bool SceneScope::holds(const fs::path& path) const {
   return std::find(files.begin(), files.end(), path) != files.end() ||
@@ -81,7 +80,10 @@ SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
   if (fs::is_directory(path, none)) {
     scope.folders.push_back(path);
     // It lies beside the folder of the tiles and says where they are.
-    if (path.filename() == "Data") scope.files.push_back(path.parent_path() / "metadata.xml");
+    if (path.filename() == "Data") {
+      const fs::path metadata = path.parent_path() / "metadata.xml";
+      if (fs::is_regular_file(fs::symlink_status(metadata, none))) scope.files.push_back(metadata);
+    }
   } else {
     scope.folders.push_back(path.parent_path());
     // The user named the file, wherever a link leads.

@@ -27,6 +27,9 @@ struct SceneScope {
   [[nodiscard]] bool holds(const std::filesystem::path& path) const;
 };
 
+/// A path that the user named: absolute, and the folders above its last part without links.
+[[nodiscard]] std::filesystem::path without_links_above(const std::filesystem::path& path);
+
 /// The scope of a scene that the user names by `path`. Throws roam::Error for an allowed folder that is not there.
 [[nodiscard]] SceneScope scope_of(const std::filesystem::path& path, std::span<const std::filesystem::path> allowed);
 
