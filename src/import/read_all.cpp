@@ -56,8 +56,12 @@ Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOu
     return Error(fmt::format("{}: all of its {} triangles are in objects that are to be ignored; ignore fewer.",
                              path.string(), ignored));
   }
-  return Error(fmt::format(
-      "{}: this gives no triangle, so there is nothing to walk on; check that it is the right file.", path.string()));
+  std::string remedy = "check that it is the right file";
+  if (!report.outside_files.empty()) {
+    remedy = fmt::format("it refers to {}, which lies outside of its folder; --allow lets a folder in",
+                         listed(report.outside_files));
+  }
+  return Error(fmt::format("{}: this gives no triangle, so there is nothing to walk on; {}.", path.string(), remedy));
 }
 
 }  // namespace

@@ -50,6 +50,14 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
         report.outside_references, one ? "reference leads" : "references lead", one ? "was" : "were",
         listed(report.outside_files)));
   }
+  if (const auto& walls = report.confinement; walls && (walls->landlock == 0 || !walls->system_calls)) {
+    notes.push_back(fmt::format(
+        "The scene was read without {}, which this system does not offer; open no scene of a stranger here. "
+        "SECURITY.md says more.",
+        walls->system_calls   ? "Landlock"
+        : walls->landlock > 0 ? "seccomp"
+                              : "Landlock and seccomp"));
+  }
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (!matched[i])
       notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", printable(options.ignore[i])));

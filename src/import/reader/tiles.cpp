@@ -57,21 +57,29 @@ std::optional<Georeference> georeference_in(const fs::path& file, SceneFiles& fi
   return std::nullopt;
 }
 
+/// Whether a folder of the scene is there. A link that leads outside is reported, and not followed.
+bool is_folder(const fs::path& path, SceneFiles& files) {
+  const std::optional<fs::path> place = files.resolve(path);
+  if (!place) files.leave_out(path);
+  std::error_code none;
+  return place && fs::is_directory(fs::symlink_status(*place, none));
+}
+
 /// The root files of all tiles in `folder`: the `missing` ones, then the others, each sorted by name.
-std::vector<fs::path> tile_roots(const fs::path& folder, std::size_t& missing) {
+std::vector<fs::path> tile_roots(const fs::path& folder, SceneFiles& files, std::size_t& missing) {
   std::vector<fs::path> roots;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (!entry.is_directory(none) || !name.starts_with("Tile_")) continue;
+    if (!name.starts_with("Tile_") || !is_folder(entry.path(), files)) continue;
     roots.push_back(entry.path() / (name + ".osgb"));
   }
   std::sort(roots.begin(), roots.end());
   const auto present =
-      std::stable_partition(roots.begin(), roots.end(), [&](const fs::path& root) { return !fs::exists(root, none); });
+      std::stable_partition(roots.begin(), roots.end(), [&](const fs::path& root) { return files.find(root).empty(); });
   missing = static_cast<std::size_t>(present - roots.begin());
   const fs::path own = folder / (folder.filename().string() + ".osgb");
-  if (present == roots.end() && fs::exists(own, none)) roots.push_back(own);
+  if (present == roots.end() && !files.find(own).empty()) roots.push_back(own);
   return roots;
 }
 
@@ -115,11 +123,10 @@ void place(const Georeference& georeference, const std::string& folder, const Re
 void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
   fs::path folder = fs::absolute(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();
-  std::error_code none;
-  const bool has_data = fs::is_directory(folder / "Data", none);
+  const bool has_data = is_folder(folder / "Data", files);
   const fs::path metadata = (folder.filename() == "Data" ? folder.parent_path() : folder) / "metadata.xml";
   std::size_t missing = 0;
-  std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, missing);
+  std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, files, missing);
   if (roots.size() == missing) {
     throw Error(
         fmt::format("{}: this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the "

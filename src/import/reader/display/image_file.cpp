@@ -80,14 +80,28 @@ constexpr std::array<const char*, 9> usual_places{
     "",         "textures", "texture", "images", "maps", "materials/textures", "../textures", "../materials/textures",
     "../images"};
 
+/// Whether a regular file is at `path`, which begins in the folder above `folder`. Links are not followed: they may
+/// lead to a network.
+bool is_there_without_links(const fs::path& path, const fs::path& folder) {
+  std::error_code none;
+  fs::path at = folder.parent_path();
+  for (const fs::path& part : path.lexically_relative(at)) {
+    if (part == "..") return false;
+    at /= part;
+    const fs::file_status status = fs::symlink_status(at, none);
+    if (at == path) return fs::is_regular_file(status);
+    if (!fs::is_directory(status)) return false;
+  }
+  return false;
+}
+
 /// Says of a name that led to no file of the scene whether it means one that lies outside. Only the places beside the
 /// scene's folder are looked at: what the name itself says may be anywhere.
 void report_outside(SceneFiles& files, const fs::path& folder, const fs::path& name) {
   if (!files.resolve(folder / name)) return files.leave_out(folder / name);
   for (const char* place : usual_places) {
     const fs::path file = (folder / place / name.filename()).lexically_normal();
-    std::error_code none;
-    if (!files.resolve(file) && fs::is_regular_file(file, none)) return files.leave_out(file);
+    if (!files.resolve(file) && is_there_without_links(file, folder)) return files.leave_out(file);
   }
 }
 
