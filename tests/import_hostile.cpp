@@ -110,25 +110,62 @@ TEST(ImportHostile, ReachesNoNetwork) {
   close(listener);
 }
 
-/// The files below `folder` that strace saw a reader open once the walls stood.
-std::set<std::string> opened_behind_walls(const std::string& trace) {
-  std::set<std::string> files;
+/// What strace saw readers name in system calls once the walls stood.
+struct Named {
+  std::set<std::string> opened, others;
+};
+
+Named named_behind_walls(const std::string& trace) {
+  Named files;
   std::set<std::string> walled;
   std::istringstream lines(trace);
   const std::regex opened("^(\\d+) +open(?:at)?\\((?:AT_FDCWD, )?\"([^\"]*)\".*= \\d+$");
+  const std::regex named("^(\\d+) +\\w+\\((?:AT_FDCWD, )?\"([^\"]+)\"");
   for (std::string line; std::getline(lines, line);) {
     const std::string process = line.substr(0, line.find(' '));
     if (contains(line, "landlock_restrict_self(") || contains(line, "syscall_0x1be(")) walled.insert(process);
     std::smatch found;
-    if (walled.contains(process) && std::regex_search(line, found, opened)) files.insert(found[2]);
+    if (!walled.contains(process)) continue;
+    if (std::regex_search(line, found, opened)) {
+      files.opened.insert(found[2]);
+    } else if (std::regex_search(line, found, named)) {
+      files.others.insert(found[2]);
+    }
   }
   return files;
 }
 
-TEST(ImportHostile, OpensTheFilesOfTheSceneAndNoOthers) {
-  if (run_program("/bin/sh", {"-c", "strace -o /dev/null true"}).status != 0) {
-    GTEST_SKIP() << "strace is not there, or may not trace here";
+Named named_by_info(const TestFolder& folder, const std::string& scene) {
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", "exec strace -f -s 4096 -o " + quoted(folder.file("trace")) +
+                            " -e trace=%file,landlock_restrict_self '" ROAM_PROGRAM "' info --json " + quoted(scene)});
+  return named_behind_walls(folder.read("trace"));
+}
+
+bool can_trace() { return run_program("/bin/sh", {"-c", "strace -o /dev/null true"}).status == 0; }
+
+TEST(ImportHostile, LooksAtNothingThatALinkOfTheSceneLeadsTo) {
+  if (!can_trace()) GTEST_SKIP() << "strace is not there, or may not trace here";
+  const TestFolder folder;
+  fs::create_directories(folder.file("outside/Tile_1"));
+  folder.write("outside/Tile_1/Tile_1.osgb", "x");
+  fs::create_directories(folder.file("city/Data/Tile_0"));
+  folder.write("city/Data/Tile_0/Tile_0.osgb", "x");
+  fs::create_directory_symlink(folder.file("outside/Tile_1"), folder.file("city/Data/Tile_1"));
+  fs::create_symlink(folder.file("outside/Tile_1/Tile_1.osgb"), folder.file("city/metadata.xml"));
+  const Named files = named_by_info(folder, folder.file("city"));
+  const std::string city = fs::canonical(folder.file("city")).string();
+  EXPECT_TRUE(files.opened.contains(city + "/Data/Tile_0/Tile_0.osgb"));
+  for (const std::set<std::string>& some : {files.opened, files.others}) {
+    for (const std::string& name : some) {
+      EXPECT_TRUE(name.starts_with(city)) << name;
+      EXPECT_FALSE(name.starts_with(city + "/Data/Tile_1/")) << name;
+    }
   }
+}
+
+TEST(ImportHostile, OpensTheFilesOfTheSceneAndNoOthers) {
+  if (!can_trace()) GTEST_SKIP() << "strace is not there, or may not trace here";
   const TestFolder folder;
   fs::create_directories(folder.file("scene/inner"));
   fs::create_directories(folder.file("secret"));
@@ -153,7 +190,7 @@ TEST(ImportHostile, OpensTheFilesOfTheSceneAndNoOthers) {
                                         quoted(scene)});
   ASSERT_EQ(result.status, 0) << result.err;
   const std::string real = fs::canonical(folder.file("scene")).string();
-  EXPECT_EQ(opened_behind_walls(folder.read("trace")),
+  EXPECT_EQ(named_behind_walls(folder.read("trace")).opened,
             (std::set<std::string>{real + "/all.osg", real + "/inner/inside.osg"}));
   json report = json::parse(result.out);
   EXPECT_EQ(report["triangles"], 2);

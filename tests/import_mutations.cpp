@@ -130,7 +130,7 @@ TEST_P(ImportMutations, EndInASceneOrAMessageWithinTheBudget) {
     const std::string error = import_error(file, options);
     ++(error.empty() ? scenes : messages);
     EXPECT_LT(seconds_of_children() - before, budget) << "mutation " << i << " of " << GetParam() << ": " << error;
-    EXPECT_FALSE(contains(error, "what no scene needs")) << i << error;
+    EXPECT_FALSE(contains(error, "something that no scene needs")) << i << error;
     EXPECT_FALSE(contains(error, "broken, or not the roam-reader")) << i << error;
   }
   EXPECT_EQ(scenes + messages, mutations());

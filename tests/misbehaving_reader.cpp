@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,10 +18,12 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "import/reader/frame_writer.h"
 #include "import/reader/sandbox/sandbox.h"
+#include "import/reader/scene_files.h"
 #include "import/stream.h"
 
 namespace {
@@ -33,7 +36,21 @@ std::string beside;  ///< a path in the scene's folder
 const std::map<std::string, std::function<long()>> misdeeds{
     {"exec", [] { return execl("/bin/sh", "sh", "-c", "touch PWNED", nullptr); }},
     {"fork", [] { return fork(); }},
+#ifdef SYS_vfork
+    {"vfork", [] { return syscall(SYS_vfork); }},
+#else
     {"vfork", [] { return fork(); }},
+#endif
+    {"clone", [] { return syscall(SYS_clone3, nullptr, 0); }},
+    {"thread",
+     []() -> long {
+       std::thread(pause).detach();
+       return 0;
+     }},
+    {"trace", [] { return syscall(SYS_ptrace, 0, 0, 0, 0); }},
+    {"ring", [] { return syscall(SYS_io_uring_setup, 1, nullptr); }},
+    {"memory-file", [] { return syscall(SYS_memfd_create, "f", 0); }},
+    {"times", [] { return utimensat(AT_FDCWD, (beside + ".victim").c_str(), nullptr, 0); }},
     {"socket", [] { return socket(AF_INET, SOCK_STREAM, 0); }},
     {"local-socket", [] { return socket(AF_UNIX, SOCK_STREAM, 0); }},
     {"write", [] { return open(beside.c_str(), O_WRONLY | O_CREAT, 0600); }},
@@ -95,8 +112,9 @@ int main(int argc, char** argv) {
     if (name == "--folder") rights.scope.folders.emplace_back(argv[i + 1]);
     if (name == "--file") rights.scope.files.emplace_back(argv[i + 1]);
     if (name == "--memory") rights.data = std::strtoull(argv[i + 1], nullptr, 10);
+    if (name == "--thread") std::thread(pause).detach();
     if (name == "--highest-landlock") highest = std::atoi(argv[i + 1]);
-    if (name == "--") scene = argv[i + 1];
+    if (name == "--") rights.scope.scene = scene = argv[i + 1];
   }
   static_cast<void>(limit_process(rights, stream_fd));
   static_cast<void>(enter_empty_folder());
@@ -104,16 +122,20 @@ int main(int argc, char** argv) {
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello,
               PayloadWriter().add(Greeting{stream_version, walls.landlock, walls.system_calls, 1, 1, 1}));
-  std::string deed;
-  std::ifstream(scene) >> deed;
+  SceneFiles files(rights.scope, frames);
+  std::ifstream file(files.open(scene));
+  std::string deed, rest;
+  file >> deed;
+  std::getline(file, rest, '\0');
   beside = scene + ".new";
+  if (deed == "landlock") deed.append(" ").append(std::to_string(walls.landlock));
   errno = 0;
   const auto found = misdeeds.find(deed);
   const long done = found == misdeeds.end() ? -2 : found->second();
   frames.send(FrameKind::failure,
-              PayloadWriter().add_text(deed + (done == -2 ? " is not known"
-                                               : done < 0 ? std::string(" was refused: ") + std::strerror(errno)
-                                                          : " was done")));
+              PayloadWriter().add_text(deed + (done == -2 && !deed.starts_with("landlock") ? " is not known"
+                                               : done == -1 ? std::string(" was refused: ") + std::strerror(errno)
+                                                            : " was done")));
   frames.flush();
   _exit(1);
 }

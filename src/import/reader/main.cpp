@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#ifdef __linux__
+#include <sys/personality.h>
+#endif
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -195,6 +199,13 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace roam::reader
 
 int main(int argc, char** argv) {
+#ifdef __linux__
+  // Programs of old ways, and whoever they start, may run whatever memory they can read. That ends with a new start.
+  const int ways = personality(0xFFFFFFFF);
+  if (ways >= 0 && (ways & READ_IMPLIES_EXEC) != 0 && personality(ways & ~READ_IMPLIES_EXEC) >= 0) {
+    execv("/proc/self/exe", argv);
+  }
+#endif
   const int status = roam::reader::run(std::vector<std::string>(argv + 1, argv + argc));
   // Everything is said: plugins of foreign libraries need not be unloaded, and some crash when they are.
   std::fflush(stderr);

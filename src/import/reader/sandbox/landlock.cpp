@@ -4,11 +4,14 @@
 #ifdef __linux__
 
 #include <fcntl.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
 namespace roam::reader {
 namespace {
@@ -36,9 +39,24 @@ constexpr std::array<std::uint64_t, 5> file_rights{(1u << 13) - 1, (1u << 14) - 
 constexpr std::uint64_t tcp_rights = 3, all_scopes = 3;
 constexpr int version_with_networks = 4, version_with_scopes = 6;
 
-/// What is not there cannot be read either: no rule is needed.
+/// A path of a scope has no links. One that is a link by now would let in what it leads to.
+int open_without_links(const std::filesystem::path& path) {
+  open_how how{};
+  how.flags = O_PATH | O_CLOEXEC;
+  how.resolve = RESOLVE_NO_SYMLINKS;
+  const long descriptor = syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof(how));
+  if (descriptor >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(descriptor);
+  // Some containers refuse openat2. Only the last part is looked at then.
+  const int last = open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC);
+  struct stat status {};
+  if (last < 0 || (fstat(last, &status) == 0 && !S_ISLNK(status.st_mode))) return last;
+  close(last);
+  return -1;
+}
+
+/// A path that is not there needs no rule: nothing can be read there either.
 void allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
-  const int descriptor = open(path.c_str(), O_PATH | O_CLOEXEC);
+  const int descriptor = open_without_links(path);
   if (descriptor < 0) return;
   const PathBeneath rule{rights, descriptor};
   syscall(add_rule, ruleset, rule_path_beneath, &rule, 0);

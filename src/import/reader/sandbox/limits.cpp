@@ -2,8 +2,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
 #include <string>
+#include <system_error>
 
 #include "import/reader/file_names.h"
 #include "import/reader/sandbox/sandbox.h"
@@ -27,8 +31,11 @@ namespace {
 /// A scene's files are read one by one, and each may name others before it is closed.
 constexpr rlim_t open_files = 256;
 
+/// A limit that is stricter already stays.
 bool limit(int resource, rlim_t value) {
-  const struct rlimit both { value, value };
+  struct rlimit both {};
+  if (getrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0) value = std::min(value, both.rlim_max);
+  both = {value, value};
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
@@ -42,7 +49,8 @@ bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
   if (rights.address_space > 0) all = limit(RLIMIT_AS, rights.address_space) && all;
   if (rights.data > 0) all = limit(RLIMIT_DATA, rights.data) && all;
 #endif
-  all = limit(RLIMIT_CORE, 0) && all;
+  // By 1 Linux writes no core dump and starts no program that takes one; by 0 it still starts that.
+  all = limit(RLIMIT_CORE, 1) && all;
   all = limit(RLIMIT_NPROC, 0) && all;
   all = limit(RLIMIT_NOFILE, open_files) && all;
   all = limit(RLIMIT_FSIZE, rights.file_size) && all;
@@ -66,13 +74,22 @@ bool enter_empty_folder() {
   return inside;
 }
 
+/// Whether no other thread runs: it would not be behind Landlock.
+bool is_alone() {
+  std::error_code none;
+  std::filesystem::directory_iterator thread("/proc/self/task", none);
+  return none || std::next(thread) == std::filesystem::directory_iterator();
+}
+
 Confinement enter(const Rights& rights, int highest_landlock) {
   Confinement confinement;
 #ifdef __linux__
   confinement.no_new_privileges = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
 #endif
   if (confinement.no_new_privileges) {
-    confinement.landlock = restrict_files(rights, highest_landlock);
+    const bool alone = is_alone();
+    const int landlock = restrict_files(rights, highest_landlock);
+    confinement.landlock = alone ? landlock : 0;
     confinement.system_calls = restrict_system_calls();
   }
   return confinement;

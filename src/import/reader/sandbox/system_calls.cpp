@@ -33,8 +33,7 @@ constexpr std::initializer_list<const char*> allowed{
     "gettimeofday", "time", "rt_sigaction", "rt_sigprocmask", "rt_sigreturn", "sigreturn", "sigaltstack",
     "restart_syscall", "exit", "exit_group", "futex", "futex_time64", "set_robust_list", "get_robust_list", "rseq",
     "sched_yield", "sched_getaffinity", "getpid", "gettid", "getppid", "getuid", "geteuid", "getgid", "getegid",
-    "getrusage", "times", "sysinfo", "uname", "getrandom", "getrlimit", "ugetrlimit", "getpriority", "arch_prctl",
-    "set_tid_address"};
+    "getrusage", "times", "sysinfo", "uname", "getrandom", "getrlimit", "ugetrlimit", "getpriority"};
 
 /// No scene needs them: the process is killed when it tries.
 constexpr std::initializer_list<const char*> killed{
@@ -61,7 +60,7 @@ class Rules {
   void add(std::uint32_t action, const char* name, std::initializer_list<scmp_arg_cmp> conditions = {}) {
     const int number = seccomp_syscall_resolve_name(name);
     // One that this processor does not have cannot be called.
-    if (number == __NR_SCMP_ERROR || number < 0) return;
+    if (number < 0) return;
     whole_ = whole_ && seccomp_rule_add_array(filter_, action, number, static_cast<unsigned>(conditions.size()),
                                               conditions.begin()) == 0;
   }
@@ -80,7 +79,8 @@ scmp_arg_cmp masked(unsigned argument, scmp_datum_t mask, scmp_datum_t value) {
 void rule_opening(Rules& rules, const char* name, unsigned flags) {
   // O_TMPFILE is O_DIRECTORY and one bit more.
   constexpr scmp_datum_t unnamed_file = O_TMPFILE & ~O_DIRECTORY;
-  constexpr scmp_datum_t changing = O_ACCMODE | O_CREAT | O_TRUNC | unnamed_file;
+  // A place that is not opened to be read (O_PATH) would show what lies outside of the scene.
+  constexpr scmp_datum_t changing = O_ACCMODE | O_CREAT | O_TRUNC | O_PATH | unnamed_file;
   rules.add(SCMP_ACT_ALLOW, name, {masked(flags, changing, O_RDONLY)});
   for (const scmp_datum_t bit :
        {scmp_datum_t{O_WRONLY}, scmp_datum_t{O_RDWR}, scmp_datum_t{O_CREAT}, scmp_datum_t{O_TRUNC}, unnamed_file}) {
@@ -105,8 +105,10 @@ bool restrict_system_calls() {
   if (filter == nullptr) return false;
   // The process set no_new_privs itself.
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
-  // Should a library have started a thread.
+  // Threads that are there already get it, too; Landlock cannot do that. See enter().
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
+  // Calls by another processor's numbers, which the rules do not know.
+  seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);
   Rules rules(filter.get());
   for (const char* name : allowed) rules.add(SCMP_ACT_ALLOW, name);
   for (const char* name : killed) rules.add(SCMP_ACT_KILL_PROCESS, name);
@@ -121,8 +123,8 @@ bool restrict_system_calls() {
       rules.add(SCMP_ACT_ALLOW, name, {{1, SCMP_CMP_EQ, command, 0}});
     }
   }
-  // Limits are looked at and not set; malloc names its memory.
-  rules.add(SCMP_ACT_ALLOW, "prlimit64", {{2, SCMP_CMP_EQ, 0, 0}});
+  // Its own limits are read and not set; malloc names its memory.
+  rules.add(SCMP_ACT_ALLOW, "prlimit64", {{0, SCMP_CMP_EQ, 0, 0}, {2, SCMP_CMP_EQ, 0, 0}});
 #ifdef PR_SET_VMA
   rules.add(SCMP_ACT_ALLOW, "prctl", {{0, SCMP_CMP_EQ, PR_SET_VMA, 0}});
 #endif

@@ -1,0 +1,86 @@
+// Which files a scene may be read from, and how the walls keep to it.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "import/processor_budget.h"
+#include "import_files.h"
+#include "roam/import.h"
+
+namespace roam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string one = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string two = one + "f 3 2 1\n";
+
+TEST(ImportScope, FollowsALinkBeforeTheDotsBehindIt) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "a");
+  fs::create_directories(folder.path() / "b/inner");
+  fs::create_directory_symlink(folder.path() / "b/inner", folder.path() / "a/link");
+  folder.write("a/x.obj", two);
+  folder.write("b/x.obj", one);
+  const fs::path named = folder.path() / "a/link/../x.obj";
+  EXPECT_EQ(import_scene(named).report.triangles, 1u);
+  const std::vector<fs::path> paths{named};
+  EXPECT_EQ(scene_parts(paths).at(0).files.at(0), fs::canonical(folder.path() / "b/x.obj"));
+}
+
+TEST(ImportScope, SaysWhatLeadsOutWhereNothingIsLeft) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "disk/Tile_0");
+  folder.write("disk/Tile_0/Tile_0.osgb", "x");
+  fs::create_directories(folder.path() / "city/Data");
+  fs::create_directory_symlink(folder.path() / "disk/Tile_0", folder.path() / "city/Data/Tile_0");
+  const std::string error = import_error(folder.path() / "city");
+  EXPECT_TRUE(contains(error, "city/Data/Tile_0, which lies outside")) << error;
+  EXPECT_TRUE(contains(error, "--allow")) << error;
+}
+
+/// What a reader that was taken over says to a deed; `arguments` come before roam's own.
+std::string deed_of(const TemporaryFolder& folder, const std::string& deed, const std::string& arguments) {
+  ImportOptions options;
+  options.reader = folder.write_script("reader.sh", "exec '" MISBEHAVING_READER "' " + arguments + " \"$@\"\n");
+  return import_error(folder.write("scene.obj", deed), options);
+}
+
+TEST(ImportScope, LandlockLetsNoLinkIn) {
+  if (reader_confinement().landlock == 0) GTEST_SKIP() << "this system has no Landlock";
+  const TemporaryFolder folder;
+  fs::create_symlink("/etc/passwd", folder.path() / "metadata.xml");
+  fs::create_directory_symlink("/etc", folder.path() / "Data");
+  EXPECT_EQ(deed_of(folder, "secret", "--file /etc/passwd"), "secret was done");
+  EXPECT_TRUE(contains(deed_of(folder, "secret", "--file '" + (folder.path() / "metadata.xml").string() + "'"),
+                       "secret was refused"));
+  EXPECT_TRUE(contains(deed_of(folder, "secret", "--file '" + (folder.path() / "Data/passwd").string() + "'"),
+                       "secret was refused"));
+}
+
+TEST(ImportScope, ReportsNoLandlockWhereAThreadEscapesIt) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.reader = folder.write_script("reader.sh", "exec '" MISBEHAVING_READER "' --thread before \"$@\"\n");
+  EXPECT_EQ(import_error(folder.write("scene.obj", "landlock"), options), "landlock 0 was done");
+}
+
+TEST(ImportScope, ABudgetCountsNoHoles) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.obj", std::string(1u << 20, 'x'));
+  reader::ProcessorBudget budget(static_cast<int>(getpid()));
+  fs::resize_file(file, std::uintmax_t{1} << 40);
+  budget.add_file(file);
+  std::ifstream bytes(file);
+  std::string read(3u << 20, ' ');
+  bytes.read(read.data(), static_cast<std::streamsize>(read.size()));
+  EXPECT_EQ(budget.bytes(), 1u << 20);
+  EXPECT_EQ(budget.triangles(), reader::ProcessorBudget::least_triangles);
+}
+
+}  // namespace
+}  // namespace roam::test
