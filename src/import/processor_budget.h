@@ -15,7 +15,7 @@ class ProcessorBudget {
  public:
   static constexpr double least_seconds = 10.0;
   static constexpr double seconds_per_byte = 3e-6;
-  /// About as many as a second indexes, times the seconds above.
+  /// About as many as are indexed in least_seconds.
   static constexpr std::uint64_t least_triangles = 20'000'000;
   static constexpr std::uint64_t triangles_per_byte = 4;
 

@@ -17,7 +17,7 @@ void read_stl(const std::filesystem::path& path, MeshSink& sink);
 /// Stanford PLY, ascii and binary of both byte orders, every digit kept.
 void read_ply(const std::filesystem::path& path, MeshSink& sink);
 
-/// What OpenSceneGraph reads: ive, osg, osgb, osgt, 3ds, flt, dae, ac and what else its plugins know.
+/// What OpenSceneGraph reads: ive, osg, osgb, osgt, 3ds, flt, ac and what else its plugins know.
 void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink);
 /// A folder of photogrammetry tiles.
 void read_tiles(const std::filesystem::path& folder, SceneFiles& files, MeshSink& sink,
