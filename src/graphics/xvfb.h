@@ -5,7 +5,7 @@
 #include <memory>
 #include <osg/Referenced>
 
-#include "graphics/child_process.h"
+#include "process/child.h"
 
 namespace roam::graphics {
 
@@ -19,7 +19,7 @@ class Xvfb : public osg::Referenced {
   [[nodiscard]] pid_t pid() const { return process_->pid(); }
 
  private:
-  std::unique_ptr<ChildProcess> process_;
+  std::unique_ptr<process::Child> process_;
   int display_ = -1;
 };
 
