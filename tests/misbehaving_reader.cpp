@@ -76,6 +76,17 @@ const std::map<std::string, std::function<long()>> misdeeds{
        }
        return 0L;
      }},
+    // Speaks for ever, and does nothing.
+    {"drip",
+     []() -> long {
+       FrameWriter frames(stream_fd);
+       frames.send(FrameKind::hello, PayloadWriter().add(Greeting{}));
+       for (;;) {
+         frames.send(FrameKind::progress, PayloadWriter().add(std::uint64_t{0}));
+         frames.flush();
+         usleep(100'000);
+       }
+     }},
     {"loop",
      []() -> long {
        while (getpid() > 0) {
