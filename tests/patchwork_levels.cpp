@@ -168,7 +168,28 @@ TEST(PatchworkLevels, NobodyWaitsForALevelThatIsSkipped) {
     if (late != 1) r.space.deliver(r.left, half_board(0.25, false));
     EXPECT_FALSE(r.space.update());
     EXPECT_EQ(r.space.stats().coming, 0u);
-    EXPECT_EQ(r.space.stats().failed, late == 1 ? 1u : 0u);
+    EXPECT_EQ(r.space.stats().failed, 0u);
+  }
+}
+
+TEST(PatchworkLevels, WhatFailedIsNotMissedOnceFinerOnesTakeItsPlace) {
+  for (const bool comes_late : {false, true}) {
+    Refined r;
+    const PatchId finest = r.space.expect(unit, r.left);
+    r.space.deliver(r.coarse, board(0.5));
+    r.space.deliver(r.right, half_board(0.25, true));
+    r.space.fail(r.left, "missing");
+    r.space.update();
+    EXPECT_EQ(r.space.stats().failed, 1u);
+    EXPECT_EQ(r.space.stats().coming, 1u);
+    r.space.deliver(finest, half_board(0.1, false));
+    EXPECT_TRUE(r.space.update());
+    EXPECT_NEAR(stopped_at(r.space, 0.2), 0.1, stored);
+    EXPECT_EQ(r.space.stats().failed, 0u);
+    if (comes_late) r.space.deliver(r.left, half_board(0.25, false));
+    EXPECT_FALSE(r.space.update());
+    EXPECT_EQ(r.space.stats().failed, 0u);
+    EXPECT_EQ(r.space.stats().coming, 0u);
   }
 }
 

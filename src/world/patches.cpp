@@ -31,13 +31,9 @@ void Patches::expect(const Box& where, PatchId refines) {
 void Patches::deliver(PatchId id, World world) {
   const std::uint32_t self = index_of(id);
   Patch& patch = patches_[self];
-  if (patch.failed) {
-    --stats_.failed;
-    patch.failed = false;
-    patch.reason.clear();
-  } else if (patch.role != Patch::Role::replaced) {
-    --stats_.coming;
-  }
+  if (patch.role != Patch::Role::replaced) --(patch.failed ? stats_.failed : stats_.coming);
+  patch.failed = false;
+  patch.reason.clear();
   stats_.bytes += world.stats().bytes;
   if (patch.role == Patch::Role::shown) count_shown(patch, minus_one);
   patch.world = std::move(world);
@@ -57,9 +53,11 @@ void Patches::deliver(PatchId id, World world) {
 
 void Patches::fail(PatchId id, std::string reason) {
   Patch& patch = patches_[index_of(id)];
+  // What has been replaced is missed by nobody.
+  if (patch.role == Patch::Role::replaced) return;
   if (!patch.failed) {
     ++stats_.failed;
-    if (patch.role != Patch::Role::replaced) --stats_.coming;
+    --stats_.coming;
   }
   patch.failed = true;
   patch.reason = std::move(reason);
@@ -134,9 +132,12 @@ void Patches::retire(std::uint32_t index) {
     count_shown(patch, minus_one);
     changed_.push_back(index);
   }
-  // Nobody waits any more for what finer ones have made needless.
-  if (patch.role != Patch::Role::replaced && !patch.world && !patch.failed) --stats_.coming;
+  // Nobody waits any more for what finer ones have made needless, nor misses it.
+  if (patch.role != Patch::Role::replaced && !patch.world) --(patch.failed ? stats_.failed : stats_.coming);
   patch.role = Patch::Role::replaced;
+  patch.failed = false;
+  patch.finer = {};
+  patch.reason = {};
   if (!patch.world) return;
   stats_.bytes -= patch.world->stats().bytes;
   replaced_.push_back(std::move(*patch.world));
