@@ -10,7 +10,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -79,10 +81,11 @@ const std::map<std::string, std::function<long()>> misdeeds{
     // Speaks for ever, and does nothing.
     {"drip",
      []() -> long {
+       constexpr std::array<std::byte, sizeof(std::uint64_t)> nothing_read{};
        FrameWriter frames(stream_fd);
        frames.send(FrameKind::hello, PayloadWriter().add(Greeting{}));
        for (;;) {
-         frames.send(FrameKind::progress, PayloadWriter().add(std::uint64_t{0}));
+         frames.send(FrameKind::progress, nothing_read);
          frames.flush();
          usleep(100'000);
        }

@@ -92,7 +92,7 @@ TEST(Child, KeepsItsLastWords) {
 }
 
 TEST(Child, HasTheDescriptorsThatItIsGivenAndNoOthers) {
-  const int other = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int other = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 100);
   EXPECT_EQ(said("test -e /proc/$$/fd/" + std::to_string(other) + " && echo inherited >&3"), "");
   EXPECT_EQ(said("ls -l /proc/$$/fd | grep -c 'last words' >&3"), "2\n") << "its output and its errors";
   EXPECT_EQ(said("readlink /proc/$$/fd/0 >&3"), "/dev/null\n");
