@@ -16,7 +16,7 @@ class Xvfb : public osg::Referenced {
   Xvfb(int width, int height);
 
   [[nodiscard]] int display() const { return display_; }  ///< N of ":N"
-  [[nodiscard]] pid_t pid() const { return process_->pid(); }
+  [[nodiscard]] pid_t pid() const { return process_->id(); }
 
  private:
   std::unique_ptr<process::Child> process_;
