@@ -3,16 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -20,10 +18,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "files/descriptor.h"
 #include "interrupt.h"
+#include "process/child.h"
 #include "roam/error.h"
-
-extern char** environ;
 
 namespace roam::bench {
 namespace {
@@ -168,8 +166,7 @@ json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& optio
 }  // namespace
 
 RowResult run_row(const std::string& name, const PaperScene& scene, const PaperOptions& options) {
-  std::vector<std::string> arguments{"roam-bench",
-                                     row_verb,
+  std::vector<std::string> arguments{row_verb,
                                      name,
                                      scene.scene,
                                      scene.store,
@@ -180,38 +177,31 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
                                      fmt::format("{}", options.split_radius),
                                      fmt::format("{}", options.patience),
                                      options.wasm};
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], result_end);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  if (failed != 0) {
-    ::close(ends[0]);
-    throw Error(std::string("cannot start a row: ") + ::strerror(failed));
-  }
-  const std::optional<Heard> heard =
-      listen(ends[0], child, paper_ways(options.radius, options.split_radius).size(), options);
-  ::close(ends[0]);
+  const files::Descriptor ours(ends[0]);
+  files::Descriptor theirs(ends[1]);
   // Ctrl-C reaches the row as well; a signal to this process alone does not.
-  if (!heard || !heard->stopped.empty()) end_process(child);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  process::Child child("/proc/self/exe", arguments,
+                       {.descriptors = {{STDIN_FILENO, STDIN_FILENO},
+                                        {STDOUT_FILENO, STDOUT_FILENO},
+                                        {STDERR_FILENO, STDERR_FILENO},
+                                        {theirs.number(), result_end}},
+                        .own_session = false});
+  theirs.close();
+  const std::optional<Heard> heard =
+      listen(ours.number(), child.id(), paper_ways(options.radius, options.split_radius).size(), options);
+  if (!heard || !heard->stopped.empty()) end_process(child.id());
+  while (!child.wait(std::chrono::hours(1))) {
   }
   app::stop_if_interrupted();
   if (!heard) throw Error("cannot read what the row '" + name + "' found");
   RowResult broken;
   if (!heard->stopped.empty()) {
     broken.failure = heard->stopped;
-  } else if (WIFSIGNALED(status)) {
-    broken.failure = fmt::format("ended by signal {}", ::strsignal(WTERMSIG(status)));
-  } else if (WEXITSTATUS(status) != 0) {
+  } else if (child.ending().signal != 0) {
+    broken.failure = fmt::format("ended by signal {}", ::strsignal(child.ending().signal));
+  } else if (!child.ending().is_success()) {
     broken.failure = heard->text.empty() ? "ended early" : heard->text;
     if (broken.failure.front() == loaded_mark) broken.failure.erase(0, 1);
   } else {
@@ -222,6 +212,7 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
 
 int row_main(int argc, char** argv) {
   constexpr int expected = 12;
+  std::signal(SIGPIPE, SIG_IGN);             // a program that has ended early is an error
   ::fcntl(result_end, F_SETFD, FD_CLOEXEC);  // it is not for the programs that the row starts
   std::string text;
   int status = 1;

@@ -1,19 +1,15 @@
 #include "wasm_driver.h"
 
 #include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 
+#include "process/find_program.h"
 #include "roam/error.h"
-
-extern char** environ;
 
 namespace roam::bench {
 namespace {
@@ -29,40 +25,31 @@ std::string wasm_package_missing(const std::string& package, const std::string& 
   return "`npm install --prefix " + modules + " " + package + "`";
 }
 
-WasmDriver::WasmDriver(std::string name, const std::string& script, std::string modules) : name_(std::move(name)) {
+WasmDriver::WasmDriver(std::string name, const std::string& script, const std::string& modules)
+    : name_(std::move(name)) {
+  const std::filesystem::path node = process::find_program("node");
+  if (node.empty()) throw Error("node cannot be started (it is not on the PATH): install nodejs");
   std::array<int, 2> in{}, out{};
   if (::pipe2(in.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
-  if (::pipe2(out.data(), O_CLOEXEC) != 0) {
-    ::close(in[0]);
-    ::close(in[1]);
-    throw Error("cannot make a pipe");
-  }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in[0], requests_end);
-  posix_spawn_file_actions_adddup2(&actions, out[1], replies_end);
+  const files::Descriptor requests_in_child(in[0]);
+  requests_ = files::Descriptor(in[1]);
+  if (::pipe2(out.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
+  replies_ = files::Descriptor(out[0]);
+  const files::Descriptor replies_in_child(out[1]);
   // What the libraries print is a note, not a result.
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  std::string node = "node", heap = "--max-old-space-size=8192", kind = "--input-type=module", eval = "--eval";
-  std::string text = script;
-  std::array<char*, 7> argv{node.data(), heap.data(), kind.data(), eval.data(), text.data(), modules.data(), nullptr};
-  const int failed = posix_spawnp(&child_, "node", &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(in[0]);
-  ::close(out[1]);
-  requests_ = in[1];
-  replies_ = out[0];
-  if (failed != 0) {
-    ::close(requests_);
-    ::close(replies_);
-    throw Error("node cannot be started (" + std::string(std::strerror(failed)) + "): install nodejs");
-  }
+  child_.emplace(
+      node, std::vector<std::string>{"--max-old-space-size=8192", "--input-type=module", "--eval", script, modules},
+      process::ChildSettings{.descriptors = {{requests_in_child.number(), requests_end},
+                                             {replies_in_child.number(), replies_end},
+                                             {STDERR_FILENO, STDOUT_FILENO},
+                                             {STDERR_FILENO, STDERR_FILENO}},
+                             .own_session = false});
 }
 
 WasmDriver::~WasmDriver() {
-  ::close(requests_);  // upon which it ends
-  ::close(replies_);
-  ::waitpid(child_, nullptr, 0);
+  requests_.close();  // upon which it ends
+  replies_.close();
+  child_->wait(process::Child::usual_grace);
 }
 
 std::string WasmDriver::start(const FloatMesh& mesh) {
@@ -88,7 +75,7 @@ void WasmDriver::ask(std::span<const double> questions, std::span<double> answer
 void WasmDriver::send(const void* data, std::size_t bytes) {
   const auto* from = static_cast<const char*>(data);
   while (bytes > 0) {
-    const ssize_t put = ::write(requests_, from, bytes);
+    const ssize_t put = ::write(requests_.number(), from, bytes);
     if (put < 0 && errno == EINTR) continue;
     if (put < 0) throw Error(name_ + " ended early; what it said is above");
     from += put;
@@ -99,7 +86,7 @@ void WasmDriver::send(const void* data, std::size_t bytes) {
 void WasmDriver::receive(void* data, std::size_t bytes) {
   auto* to = static_cast<char*>(data);
   while (bytes > 0) {
-    const ssize_t got = ::read(replies_, to, bytes);
+    const ssize_t got = ::read(replies_.number(), to, bytes);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) throw Error(name_ + " ended early; what it said is above");
     to += got;

@@ -2,13 +2,14 @@
 /// \file
 /// A node process that runs one of the texts of bench/wasm: see wasm/channel.mjs for what goes through its pipes.
 
-#include <sys/types.h>
-
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "files/descriptor.h"
 #include "float_mesh.h"
+#include "process/child.h"
 
 namespace roam::bench {
 
@@ -19,7 +20,7 @@ namespace roam::bench {
 class WasmDriver {
  public:
   /// Throws roam::Error when node cannot be started.
-  WasmDriver(std::string name, const std::string& script, std::string modules);
+  WasmDriver(std::string name, const std::string& script, const std::string& modules);
   ~WasmDriver();
   WasmDriver(const WasmDriver&) = delete;
   WasmDriver& operator=(const WasmDriver&) = delete;
@@ -36,8 +37,8 @@ class WasmDriver {
   void receive(void* data, std::size_t bytes);
 
   std::string name_;
-  pid_t child_ = 0;
-  int requests_ = -1, replies_ = -1;
+  files::Descriptor requests_, replies_;
+  std::optional<process::Child> child_;
 };
 
 }  // namespace roam::bench

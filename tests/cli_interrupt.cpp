@@ -25,9 +25,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 std::vector<std::string> unfinished_in(const std::string& folder) {
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const bool temporary = name.ends_with(".unfinished") || name.find(".part-") != std::string::npos || name[0] == '.';
-    if (temporary) found.push_back(entry.path().string());
+    if (entry.path().extension() == ".unfinished") found.push_back(entry.path().string());
   }
   return found;
 }

@@ -45,6 +45,18 @@ TEST(FloorSamples, LieOnFloorsOfAFileThatWindsThemTheOtherWay) {
   EXPECT_TRUE(roam::app::floor_samples({}, 10).empty());
 }
 
+TEST(Start, IsRefusedInAnEmptyScene) {
+  const roam::World world;
+  for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly}) {
+    try {
+      (void)roam::app::wander_start(world, person, mode, {});
+      FAIL() << "there is no place in nothing";
+    } catch (const roam::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("the scene is empty"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   // The gallery is 3 m wide in a landscape of kilometres: a grid of columns over it meets only the landscape.
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 200'000}));

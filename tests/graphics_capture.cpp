@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <osgDB/ReadFile>
@@ -11,9 +12,9 @@
 #include <utility>
 
 #include "graphics/capture.h"
-#include "graphics/child_process.h"
 #include "graphics/hud.h"
 #include "graphics_stage.h"
+#include "process/find_program.h"
 
 namespace roam::test {
 namespace {
@@ -69,7 +70,7 @@ std::string probe(const fs::path& film) {
       film.string());
 }
 
-bool have_ffmpeg() { return !graphics::find_program("ffmpeg").empty() && !graphics::find_program("ffprobe").empty(); }
+bool have_ffmpeg() { return !process::find_program("ffmpeg").empty() && !process::find_program("ffprobe").empty(); }
 
 TEST_F(GraphicsCapture, AScreenshotIsThePictureToThePixel) {
   Stage stage(333, 217);
@@ -131,7 +132,7 @@ TEST_F(GraphicsCapture, SaysWhyAPictureCannotBeWritten) {
   EXPECT_NE(complaint([&] { Screenshot(stage.frame, folder / "shot.txt", true); }).find(".png"), std::string::npos);
   Screenshot nowhere(stage.frame, folder / "no" / "such" / "shot.png", true);
   stage.viewer.frame();
-  EXPECT_NE(complaint([&] { nowhere.finish(); }).find("no folder"), std::string::npos);
+  EXPECT_NE(complaint([&] { nowhere.finish(); }).find("make its folder"), std::string::npos);
   // A folder of that name is in the way.
   fs::create_directories(folder / "taken.png" / "inside");
   EXPECT_NE(complaint([&] { graphics::write_image(*plain_image(8, 8, 9), folder / "taken.png"); }).find("taken.png"),
@@ -143,7 +144,7 @@ TEST_F(GraphicsCapture, SaysWhyAPictureCannotBeWritten) {
 class Thrower : public osgDB::ReaderWriter {
  public:
   Thrower() { supportsExtension("jpeg", "throws"); }
-  WriteResult writeImage(const osg::Image&, const std::string&, const Options*) const override {
+  WriteResult writeImage(const osg::Image&, std::ostream&, const Options*) const override {
     throw std::runtime_error("the plugin is torn");
   }
 };
@@ -284,11 +285,25 @@ TEST_F(GraphicsCapture, SaysWhyAFilmCannotBeMade) {
 
 TEST_F(GraphicsCapture, SaysWhatFfmpegSaidLast) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  // One that fails stands in for ffmpeg.
+  const fs::path bin = folder / "bin";
+  fs::create_directories(bin);
+  std::ofstream(bin / "ffmpeg") << "#!/bin/sh\necho out of luck >&2\nexit 1\n";
+  fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
   const std::string words = complaint([&] {
-    Video video(folder / "no" / "such" / "film.mp4", 64, 64, 20);
+    Video video(folder / "film.mp4", 64, 64, 20);
     for (int i = 0; i < 100; ++i) video.add(plain_image(64, 64, 50));
     video.finish();
   });
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(words.find("out of luck"), std::string::npos) << words;
+}
+
+TEST_F(GraphicsCapture, AFilmThatCannotBeWrittenIsRefusedAtOnce) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  const std::string words = complaint([&] { Video(folder / "no" / "such" / "film.mp4", 64, 64, 20); });
   EXPECT_NE(words.find("No such file or directory"), std::string::npos) << words;
 }
 

@@ -15,9 +15,10 @@
 #include <string>
 #include <thread>
 
-#include "graphics/child_process.h"
 #include "graphics/xvfb.h"
 #include "graphics_stage.h"
+#include "process/child.h"
+#include "process/find_program.h"
 
 namespace roam::test {
 namespace {
@@ -178,13 +179,13 @@ TEST(GraphicsContext, WithoutADisplayItSaysWhatToDo) {
 }
 
 TEST(GraphicsContext, ADisplayWithoutOpenGlIsToldSo) {
-  const std::filesystem::path program = graphics::find_program("Xvfb");
+  const std::filesystem::path program = process::find_program("Xvfb");
   ASSERT_FALSE(program.empty());
   int ends[2];
   ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
-  graphics::ChildProcess server(
-      program, {"-displayfd", "3", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-extension", "GLX"},
-      {{ends[1], 3}}, graphics::Orphan::dies);
+  process::Child server(program,
+                        {"-displayfd", "3", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-extension", "GLX"},
+                        {.descriptors = {{ends[1], 3}}});
   char line[16] = {};
   ASSERT_GT(read(ends[0], line, sizeof line - 1), 0);
   setenv("DISPLAY", (std::string(":") + std::to_string(std::atoi(line))).c_str(), 1);

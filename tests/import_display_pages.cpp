@@ -178,6 +178,25 @@ TEST(ImportDisplayPages, CostAReaderThatCrashesOrHangsOrSendsNonsense) {
   }
 }
 
+TEST(ImportDisplayPages, AreReadByOneReaderWhicheverThreadsAskAndEnd) {
+  const TemporaryFolder folder;
+  folder.write("good.osg", triangle_at("5"));
+  const auto file = folder.write("root.osg", paged(triangle_at("1"), {"good.osg"}));
+  const std::string program = reader::find_reader({}).string();
+  ImportOptions options;
+  options.reader = folder.write_script("reader.sh", "case \"$*\" in *--pages*) echo start >>'" +
+                                                        (folder.path() / "starts").string() + "' ;; esac\nexec '" +
+                                                        program + "' \"$@\"\n");
+  const std::string page = Paging(file).root.pages.at(0).levels.at(1).page;
+  PageReader reader({file}, options);
+  for (int i = 0; i < 3; ++i) {
+    std::thread([&] { EXPECT_EQ(reader.read(0, Vec3(0.0), page).triangles, 1u); }).join();
+    // A signal that comes with the thread's end has come by then.
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  EXPECT_EQ(fs::file_size(folder.path() / "starts"), 6u) << "it was started more than once";
+}
+
 TEST(ImportDisplayPages, AreGivenUpAtOnceAndLeaveNoProcess) {
   const TemporaryFolder folder;
   folder.write("good.osg", triangle_at("5"));

@@ -87,6 +87,15 @@ TEST(ImportSandboxTime, EndsAReaderThatComputesWithoutEnd) {
   EXPECT_TRUE(contains(error, "scene.obj: its reader computed for more than 12 s on 4000000 bytes")) << error;
 }
 
+TEST(ImportSandboxTime, EndsAReaderThatSpeaksAndNeverGetsDone) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.reader = MISBEHAVING_READER;
+  options.silence_limit = 0.5;
+  const std::string error = import_error(folder.write("scene.obj", "drip"), options);
+  EXPECT_TRUE(contains(error, "scene.obj: its reader did not get done in 3 s, for ")) << error;
+}
+
 TEST(ImportSandboxReport, SaysWhichWallsHold) {
   const TemporaryFolder folder;
   const auto scene = folder.write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -11,7 +11,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -92,6 +94,18 @@ const std::map<std::string, std::function<long()>> misdeeds{
          std::memset(some, 1, 1u << 20);
        }
        return 0L;
+     }},
+    // Speaks for ever, and does nothing.
+    {"drip",
+     []() -> long {
+       constexpr std::array<std::byte, sizeof(std::uint64_t)> nothing_read{};
+       FrameWriter frames(stream_fd);
+       frames.send(FrameKind::hello, PayloadWriter().add(Greeting{}));
+       for (;;) {
+         frames.send(FrameKind::progress, nothing_read);
+         frames.flush();
+         usleep(100'000);
+       }
      }},
     {"loop",
      []() -> long {

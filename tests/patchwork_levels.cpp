@@ -1,5 +1,7 @@
 // What takes the place of something coarser in a patchwork, when, and around which body it waits.
 
+#include <malloc.h>
+
 #include "patchwork_boards.h"
 
 namespace {
@@ -168,8 +170,58 @@ TEST(PatchworkLevels, NobodyWaitsForALevelThatIsSkipped) {
     if (late != 1) r.space.deliver(r.left, half_board(0.25, false));
     EXPECT_FALSE(r.space.update());
     EXPECT_EQ(r.space.stats().coming, 0u);
-    EXPECT_EQ(r.space.stats().failed, late == 1 ? 1u : 0u);
+    EXPECT_EQ(r.space.stats().failed, 0u);
   }
+}
+
+TEST(PatchworkLevels, WhatFailedIsNotMissedOnceFinerOnesTakeItsPlace) {
+  for (const bool comes_late : {false, true}) {
+    Refined r;
+    const PatchId finest = r.space.expect(unit, r.left);
+    r.space.deliver(r.coarse, board(0.5));
+    r.space.deliver(r.right, half_board(0.25, true));
+    r.space.fail(r.left, "missing");
+    r.space.update();
+    EXPECT_EQ(r.space.stats().failed, 1u);
+    EXPECT_EQ(r.space.stats().coming, 1u);
+    r.space.deliver(finest, half_board(0.1, false));
+    EXPECT_TRUE(r.space.update());
+    EXPECT_NEAR(stopped_at(r.space, 0.2), 0.1, stored);
+    EXPECT_EQ(r.space.stats().failed, 0u);
+    if (comes_late) r.space.deliver(r.left, half_board(0.25, false));
+    EXPECT_FALSE(r.space.update());
+    EXPECT_EQ(r.space.stats().failed, 0u);
+    EXPECT_EQ(r.space.stats().coming, 0u);
+  }
+}
+
+TEST(PatchworkLevels, WhatHasBeenReplacedTakesNoMemory) {
+  roam::Patchwork space;
+  const auto refine = [&](PatchId last, int times) {
+    for (int i = 0; i < times; ++i) {
+      const PatchId next = space.expect(unit, last);
+      space.deliver(next, World());
+      EXPECT_TRUE(space.update());
+      last = next;
+    }
+    return last;
+  };
+  const PatchId first = space.expect(unit);
+  space.deliver(first, World());
+  const PatchId early = refine(first, 1000);
+  const auto before = ::mallinfo2().uordblks;
+  const PatchId last = refine(early, 20'000);
+  EXPECT_LT(::mallinfo2().uordblks - before, 20'000u * 16) << "a few bytes for its number, not the patch itself";
+  EXPECT_EQ(space.stats().patches, 1u);
+  // Numbers of long ago are known for what they are.
+  EXPECT_EQ(space.object_name(static_cast<roam::TriangleId>(first) << 32), "");
+  EXPECT_THROW(space.deliver(first, World()), roam::Error);
+  const PatchId late = space.expect(unit, first);
+  EXPECT_TRUE(space.update());
+  EXPECT_EQ(space.stats().unknown, 1u) << "what refines one that is gone stands alone";
+  space.fail(late, "missing");
+  refine(last, 1);
+  EXPECT_EQ(space.stats().failed, 1u);
 }
 
 TEST(PatchworkLevels, WhereTheFinestCatchesTheBodyWhatLiesBetweenIsShown) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "process/find_program.h"
 #include "roam/error.h"
 #include "verbs.h"
 
@@ -27,25 +28,19 @@ constexpr const char* help =
     "  roam bench paper --json\n"
     "  roam bench scale --triangles 10M --picture scale.svg\n";
 
-bool can_run(const fs::path& program) {
-  std::error_code none;
-  return fs::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0;
-}
-
 /// The one that belongs to the running program. Throws roam::Error when there is none.
-fs::path find_program() {
+fs::path find_bench() {
   if (const char* named = std::getenv("ROAM_BENCH"); named != nullptr && *named != '\0') {
-    if (can_run(named)) return named;
+    if (process::can_run(named)) return named;
     throw Error(std::string("the environment variable ROAM_BENCH names ") + named +
                 ", which is not a program that can be run. Name the program " + program_name +
                 " of this installation.");
   }
-  std::error_code none;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path folder = process::own_folder();
   const fs::path beside = folder / program_name;
   const fs::path installed = folder.parent_path() / "libexec" / "roam" / program_name;
   for (const fs::path& place : {beside, installed}) {
-    if (can_run(place)) return place;
+    if (process::can_run(place)) return place;
   }
   throw Error(std::string("the program ") + program_name + ", which compares roam with other engines, is not here " +
               "(looked at " + beside.string() + " and " + installed.string() +
@@ -54,7 +49,7 @@ fs::path find_program() {
 }
 
 ExitStatus become(std::vector<std::string> arguments) {
-  std::string program = find_program().string();
+  std::string program = find_bench().string();
   std::vector<char*> argv{program.data()};
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

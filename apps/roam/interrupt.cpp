@@ -13,8 +13,8 @@
 #include <system_error>
 #include <thread>
 
-#include "children.h"
 #include "files/unfinished.h"
+#include "process/child.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -60,7 +60,7 @@ void wait_for_signal(std::chrono::milliseconds longest) {
 
 [[noreturn]] void end_at_once(int number) {
   try {
-    end_children(grace_of_children);
+    process::end_children(grace_of_children);
     files::Unfinished::remove_all();
   } catch (const std::exception&) {
     // No memory is left to tidy with: it ends all the same.

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 
+#include "files/whole_file.h"
 #include "progress.h"
 #include "report.h"
 #include "roam/error.h"
@@ -30,22 +30,20 @@ struct MakeOptions {
 
 /// The three paths of Table 1 beside the gallery: gallery.ply gets gallery-straight.path and so on.
 std::vector<std::string> write_gallery_paths(const MakeOptions& options) {
-  std::vector<std::string> files;
+  std::vector<std::string> written;
   for (std::size_t i = 0; i < generate::gallery_paths.size(); ++i) {
     const generate::Path& path = generate::gallery_paths[i];
     fs::path file = options.output;
     file.replace_filename(options.output.stem().string() + "-" + path.name + ".path");
     const Vec3 from = path.from + options.origin_point();
     const Vec3 to = path.to + options.origin_point();
-    std::ofstream out(file);
-    out << fmt::format(
-        "# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n{} {} {}\n{} {} {}\n", i + 1,
-        from.x, from.y, from.z, to.x, to.y, to.z);
-    out.close();
-    if (!out) throw Error("cannot write " + file.string() + "; check the folder's permissions and the free space");
-    files.push_back(file.string());
+    files::write_whole(
+        file, fmt::format(
+                  "# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n{} {} {}\n{} {} {}\n",
+                  i + 1, from.x, from.y, from.z, to.x, to.y, to.z));
+    written.push_back(file.string());
   }
-  return files;
+  return written;
 }
 
 ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool gallery) {

@@ -70,8 +70,7 @@ std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
 }
 
 std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64_t memory) {
-  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
-  if (std::none_of(options.scenes.begin(), options.scenes.end(), is_store)) return nullptr;
+  if (!options.name_a_store()) return nullptr;
   if (options.scenes.size() > 1) {
     throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "floors.h"
@@ -78,6 +79,10 @@ ImportOptions SceneOptions::import_options() const {
 
 bool SceneOptions::says_how_to_read() const {
   return !up.empty() || unit != "m" || !ignore.empty() || !allow.empty() || lossless;
+}
+
+bool SceneOptions::name_a_store() const {
+  return std::any_of(scenes.begin(), scenes.end(), [](const auto& scene) { return Store::is_store(scene); });
 }
 
 void SceneOptions::check_there() const {

@@ -31,6 +31,8 @@ struct SceneOptions {
   [[nodiscard]] ImportOptions import_options() const;
   /// Whether any option was given that says how files are to be read or indexed.
   [[nodiscard]] bool says_how_to_read() const;
+  /// Whether one of the scenes is a store.
+  [[nodiscard]] bool name_a_store() const;
   /// Throws roam::Error for a scene that is not there, and for a store that is still being built.
   void check_there() const;
   /// The file names for people, separated by ", ".

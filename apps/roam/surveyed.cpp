@@ -82,10 +82,9 @@ void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
 }
 
 Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
-  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
   std::vector<Mesh> meshes;
   SceneIdentity identity;
-  if (std::any_of(options.scenes.begin(), options.scenes.end(), is_store)) {
+  if (options.name_a_store()) {
     if (options.scenes.size() > 1 || options.says_how_to_read()) {
       throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
     }

@@ -26,17 +26,6 @@
 namespace roam::app {
 namespace {
 
-/// Metres that the centre moved, placements left out.
-double length_of(const StepReport& report) {
-  double sum = 0.0;
-  Vec3 last = report.from;
-  for (const Corner& corner : report.corners) {
-    if (!corner.teleport) sum += glm::distance(last, corner.position);
-    last = corner.position;
-  }
-  return sum;
-}
-
 /// Takes down every step while a walk goes on.
 class Recorder {
  public:
@@ -48,7 +37,7 @@ class Recorder {
     if (!options.trace.empty()) trace_.emplace(options.trace);
   }
 
-  void start(const StepReport& report) { take(report); }
+  void start(const StepReport& report) { take(report, 0.0); }
 
   /// Runs one step and takes it down.
   template <class Step>
@@ -59,11 +48,11 @@ class Recorder {
     nanoseconds_.push_back(static_cast<std::uint32_t>(
         std::min<std::int64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(took).count(),
                                std::numeric_limits<std::uint32_t>::max())));
-    ++steps_;
-    take(report);
-    time_ += report.elapsed;
+    const double begun = tally_.simulated;
+    tally_.add_step(report);
+    take(report, begun);
     scene_.follow(walker);
-    progress_->at(steps_, std::max(steps_, expected_steps_));
+    progress_->at(tally_.steps, std::max(tally_.steps, expected_steps_));
     return report;
   }
 
@@ -75,19 +64,20 @@ class Recorder {
     finish();
     progress_.reset();  // its line on the terminal goes away before
     const Vec3 end = walker.position();
-    tell(fmt::format("note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}", length_, time_, steps_,
-                     end.x, end.y, end.z, trace_ ? "; " + options_.trace.string() + " has its trace" : ""));
+    tell(fmt::format("note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}", tally_.length,
+                     tally_.simulated, tally_.steps, end.x, end.y, end.z,
+                     trace_ ? "; " + options_.trace.string() + " has its trace" : ""));
   }
   [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const picture::Record& record() const { return record_; }
 
  private:
-  void take(const StepReport& report) {
-    if (steps_ > 0) length_ += length_of(report);
-    if (trace_) trace_->add(steps_, time_, report);
-    if (options_.checks() || !options_.picture.empty()) append_pieces(pieces_, steps_, report);
-    if (!options_.picture.empty()) append(record_, report, steps_ == 0);
+  /// `begun`: seconds when the step began.
+  void take(const StepReport& report, double begun) {
+    if (trace_) trace_->add(tally_.steps, begun, report);
+    if (options_.checks() || !options_.picture.empty()) append_pieces(pieces_, tally_.steps, report);
+    if (!options_.picture.empty()) append(record_, report, tally_.steps == 0);
   }
 
   const WalkOptions& options_;
@@ -98,9 +88,7 @@ class Recorder {
   std::vector<std::uint32_t> nanoseconds_;
   std::vector<Piece> pieces_;
   picture::Record record_;
-  std::uint64_t steps_ = 0;
-  double time_ = 0.0;
-  double length_ = 0.0;
+  Tally tally_;
 };
 
 double path_length(std::span<const Vec3> points) {
@@ -118,11 +106,8 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
     while (seconds > 0.0) {
       const double dt = std::min(seconds, options.dt);
       const Vec3 velocity = (waypoint - walker.position()) / seconds;
-      const StepReport& report =
-          recorder.step(walker, [&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); });
-      result.length += glm::distance(report.from, report.to);
-      result.simulated += dt;
-      ++result.steps;
+      result.add_step(
+          recorder.step(walker, [&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); }));
       seconds = dt < seconds ? seconds - dt : 0.0;
     }
     ++result.waypoints;

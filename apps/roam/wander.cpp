@@ -122,6 +122,7 @@ Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, co
 Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
                   const std::function<bool()>& goes_on) {
   const Box& box = space.bounds();
+  if (box.empty()) throw Error("found no place to start from: the scene is empty");
   const Vec3 size = box.size();
   Start best;
   const auto consider = [&](const Vec3& floor) {
@@ -155,7 +156,7 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
 
 Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
     : walker_(&walker), options_(options), seconds_(seconds) {
-  result_.end = walker.position();
+  result_.add_placement(walker.report());
   note(walker.report());
 }
 
@@ -223,15 +224,8 @@ void Wander::look() {
 
 const StepReport& Wander::advance() {
   const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);
-  ++result_.steps;
-  result_.simulated += report.elapsed;
-  Vec3 last = report.from;
-  double moved = 0.0;
-  for (const Corner& corner : report.corners) {
-    if (!corner.teleport) moved += glm::distance(last, corner.position);
-    last = corner.position;
-  }
-  result_.length += moved;
+  result_.add_step(report);
+  const double moved = report.length();
   way_left_ -= moved;
   window_length_ += moved;
   window_seconds_ += report.elapsed;
@@ -249,20 +243,7 @@ const StepReport& Wander::advance() {
 
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
-  if (report.least_clearance > 0.0) {  // else it does not fit where it is, and none is certified
-    const bool first = !(result_.least_clearance > 0.0);
-    result_.least_clearance =
-        first ? report.least_clearance : std::min(result_.least_clearance, report.least_clearance);
-    result_.least_gap = first ? report.least_gap : std::min(result_.least_gap, report.least_gap);
-  }
-  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
-  std::uint32_t kinds = 0;
-  for (const Event& event : report.events) {
-    const std::uint32_t bit = 1u << static_cast<unsigned>(event.kind);
-    kinds |= bit;
-    if ((last_kinds_ & bit) == 0) result_.events.push_back({result_.steps, event});
-  }
-  last_kinds_ = kinds;
+  filter_.append(result_.events, result_.steps, report);
   const std::uint64_t here = cell(report.to);
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;

@@ -19,7 +19,7 @@ namespace roam::app {
 /// A free place to start from: of `floors` (see floor_samples) and all floors under a grid of columns over the scene,
 /// the one from which the body can stride farthest in eight directions; the more walls are in sight the better. A place
 /// within walls and under a ceiling counts fourfold, so that one starts in a tunnel instead of on top of it, unless it
-/// is only a closet. Throws roam::Error when the body fits nowhere. `goes_on` is asked now
+/// is only a closet. Throws roam::Error when the body fits nowhere and in an empty scene. `goes_on` is asked now
 /// and then, and ends it by false: roam::Cancelled.
 [[nodiscard]] Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                 std::span<const Vec3> floors, const std::function<bool()>& goes_on = {});
@@ -69,7 +69,7 @@ class Wander {
   Vec3 leg_start_{0.0};
   std::vector<Leg> voids_;
   double held_seconds_ = 0.0;
-  std::uint32_t last_kinds_ = 0;
+  EventFilter filter_;
   bool done_ = false;
 };
 

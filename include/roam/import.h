@@ -65,7 +65,8 @@ struct ImportOptions {
   std::vector<std::string> ignore{};
   std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= 64 MiB: of the reader's memory, and of the meshes it sends
   double silence_limit = 120.0;  ///< seconds, > 0: a reader that reports nothing for so long, plus 1 s for each 4 MB
-                                 ///< of its file, has hung and is ended
+                                 ///< of its file, has hung and is ended; so is one that has not read the file
+                                 ///< after five times as long, plus 1 s for each 33 kB that it has read
   /// Folders that files of the scene may refer to, besides the one that the scene's file lies in, or that is the scene.
   /// References that lead elsewhere are left out and counted (ImportReport::outside_references).
   std::vector<std::filesystem::path> allow{};

@@ -43,7 +43,8 @@ enum class PatchId : std::uint64_t { none = 0 };
 struct PatchworkStats {
   std::uint64_t patches = 0;    ///< that are known and in use
   std::uint64_t unknown = 0;    ///< boxes that are solid because they have not come, the failed ones included
-  std::uint64_t failed = 0;     ///< patches that fail() spoke of last: solid, or where they refine another, coarse
+  std::uint64_t failed = 0;     ///< patches that fail() spoke of last: solid, or where they refine another, coarse;
+                                ///< replaced ones not
   std::uint64_t coming = 0;     ///< patches that have neither come nor failed, finer ones included, replaced ones not
   std::uint64_t waiting = 0;    ///< finer ones that are all there and wait until the body is free in them
   std::uint64_t triangles = 0;  ///< of the patches in use

@@ -4,7 +4,7 @@
 ///
 /// A line is a waypoint `x y z`, in metres in the scene's frame, or a line of osgViewer's animation path
 /// `t x y z qx qy qz qw`, as its key Z records it. `#` begins a comment, also behind numbers; empty lines mean nothing.
-/// One file holds one of the two kinds. Library target roam::path.
+/// One file holds one of the two kinds. Library target roam::files.
 
 #include <array>
 #include <filesystem>

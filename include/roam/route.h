@@ -21,6 +21,7 @@
 #include "roam/error.h"
 #include "roam/math.h"
 #include "roam/standing.h"
+#include "roam/tally.h"
 #include "roam/walker.h"
 
 namespace roam {
@@ -59,34 +60,19 @@ enum class Outcome : std::uint8_t {
 struct Blockage {
   Vec3 point{0.0};   ///< on the triangle, metres
   Vec3 normal{0.0};  ///< from the point towards the body
-  TriangleId triangle = 0;
+  TriangleId triangle = no_triangle;
   /// The width, metres, of the free opening in front of the blocked body, when there is one that is too narrow or too
   /// low for it: the distance between the two points that it touches on either side (or above and below), provided that
   /// a ray passes between them. Measured at the height of the contacts, to a few millimetres. None for a closed wall.
   std::optional<double> opening;
 };
 
-/// An event of a step of a route.
-struct RouteEvent {
-  std::uint64_t step = 0;  ///< the first step is 1; 0 is the start
-  Event event;
-};
-
-struct RouteResult {
+struct RouteResult : Tally {
   Outcome outcome = Outcome::reached;  ///< means nothing before Route::done()
-  double length = 0.0;                 ///< metres that the centre moved, placing not counted
-  std::uint64_t steps = 0;
-  double simulated = 0.0;  ///< seconds
-  /// Metres, certified, over all moves; capped as StepReport::clearance is. Of the axis: a body that becomes smaller on
-  /// the way may come nearer with it.
-  double least_clearance = 0.0;
-  /// The same of the body's surface, in the size that it had there: the least clearance - radius.
-  double least_gap = 0.0;
-  std::uint64_t throttled = 0;         ///< steps that ended early or were slowed, see EventKind
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end
   std::optional<Blockage> blocked_at;  ///< when blocked by a contact, or held by what is not known
-  /// All events, in order; of a run of steps that report the same kind (sliding along a wall) only the first.
+  /// In order, as an EventFilter picks them.
   std::vector<RouteEvent> events;
 };
 
@@ -129,7 +115,6 @@ class Route {
   void turn_to_next(bool hindered);
   void judge(const StepReport& report, double distance_before);
   void describe_blockage(const StepReport& report);
-  void note_events(const StepReport& report);
   void finish(Outcome outcome);
 
   Walker* walker_;
@@ -142,7 +127,7 @@ class Route {
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
   double window_time_ = 0.0;  ///< seconds since
   std::uint64_t window_steps_ = 0;
-  std::uint32_t last_kinds_ = 0;  ///< bit set of the kinds of the last step's events
+  EventFilter filter_;
   bool done_ = false;
 };
 

@@ -127,6 +127,8 @@ struct StepReport {
   bool put_back = false;     ///< see EventKind::put_back
   bool met_unknown = false;  ///< see EventKind::met_unknown
 
+  /// Metres that the centre moved, placing not counted.
+  [[nodiscard]] double length() const;
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)
       if (e.kind == kind) return true;

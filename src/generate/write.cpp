@@ -1,19 +1,15 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string>
 
-#include "files/unfinished.h"
+#include "files/extension.h"
+#include "files/whole_file.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 
@@ -22,63 +18,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary PLY and STL are written as they lie in memory");
 
-/// A file that appears under its name only when it is complete, and not at all when it is not.
-class NewFile {
- public:
-  explicit NewFile(const std::filesystem::path& path) : path_(path), temporary_(path.string() + ".part-XXXXXX") {
-    descriptor_ = ::mkstemp(temporary_.data());
-    if (descriptor_ < 0) {
-      temporary_.clear();
-      fail("created");
-    }
-    listed_.begin(temporary_);
-  }
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-  ~NewFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  }
-
-  void write_at(std::uint64_t offset, const char* data, std::size_t size) {
-    while (size > 0) {
-      const ssize_t n = ::pwrite(descriptor_, data, size, static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail("written");
-      data += n;
-      size -= static_cast<std::size_t>(n);
-      offset += static_cast<std::uint64_t>(n);
-    }
-  }
-
-  void finish() {
-    // mkstemp made the file for its owner alone; give it the rights that any new file gets.
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0) fail("written");
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0) fail("written");
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("put in its place");
-    temporary_.clear();
-  }
-
- private:
-  [[noreturn]] void fail(const char* verb) const {
-    throw Error(fmt::format("{} cannot be {}: {}. Free some space or choose another place.", path_.string(), verb,
-                            std::strerror(errno)));
-  }
-
-  std::filesystem::path path_;
-  std::string temporary_;
-  files::Unfinished listed_;
-  int descriptor_ = -1;
-};
-
 /// One place of a file where data is appended, through a buffer.
 class Cursor {
  public:
-  Cursor(NewFile& file, std::uint64_t offset) : file_(file), offset_(offset) { buffer_.reserve(capacity + slack); }
+  Cursor(files::WholeFile& file, std::uint64_t offset) : file_(file), offset_(offset) {
+    buffer_.reserve(capacity + slack);
+  }
 
   template <class T>
   void put(const T& value) {
@@ -92,7 +37,7 @@ class Cursor {
     drain();
   }
   void flush() {
-    file_.write_at(offset_, buffer_.data(), buffer_.size());
+    file_.write_at(offset_, std::as_bytes(std::span(buffer_)));
     offset_ += buffer_.size();
     buffer_.clear();
   }
@@ -102,7 +47,7 @@ class Cursor {
   void drain() {
     if (buffer_.size() >= capacity) flush();
   }
-  NewFile& file_;
+  files::WholeFile& file_;
   std::uint64_t offset_;
   std::vector<char> buffer_;
 };
@@ -110,13 +55,13 @@ class Cursor {
 // Scenes have fewer vertices than corners, and miss the number asked for by 3 % at most: all formats can count them.
 static_assert(most_triangles + most_triangles / 32 <= std::numeric_limits<std::uint32_t>::max() / 3);
 
-void write_ply(const Scene& scene, NewFile& file, const Progress& progress) {
+void write_ply(const Scene& scene, files::WholeFile& file, const Progress& progress) {
   const std::string header = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment made by roam; metres, up is +z\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
       "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       scene.vertices(), scene.triangles());
-  file.write_at(0, header.data(), header.size());
+  file.write_at(0, std::as_bytes(std::span(header)));
   // All numbers are known, so vertices and faces are written at once, each in its own place of the file.
   Cursor vertices(file, header.size());
   Cursor faces(file, header.size() + scene.vertices() * 3 * sizeof(double));
@@ -135,7 +80,7 @@ void write_ply(const Scene& scene, NewFile& file, const Progress& progress) {
   faces.flush();
 }
 
-void write_obj(const Scene& scene, NewFile& file, const Progress& progress) {
+void write_obj(const Scene& scene, files::WholeFile& file, const Progress& progress) {
   Cursor text(file, 0);
   text.print("# made by roam; metres, up is +z; {} vertices, {} triangles\n", scene.vertices(), scene.triangles());
   std::uint64_t first = 1;
@@ -153,7 +98,7 @@ void write_obj(const Scene& scene, NewFile& file, const Progress& progress) {
 /// Rounding a coordinate to float moves it by half a unit in the last place at most: 2^-24 of the next power of two.
 constexpr double stl_coordinate_limit = 32768.0;  // there half a unit is 0.98 mm below and 1.95 mm above
 
-void write_stl(const Scene& scene, NewFile& file, const Progress& progress) {
+void write_stl(const Scene& scene, files::WholeFile& file, const Progress& progress) {
   std::array<char, 80> header{};
   const std::string title = "binary STL made by roam; metres, up is +z";
   std::copy(title.begin(), title.end(), header.begin());
@@ -185,9 +130,7 @@ void write_stl(const Scene& scene, NewFile& file, const Progress& progress) {
 }  // namespace
 
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = files::lower_extension(path);
   if (extension != ".ply" && extension != ".obj" && extension != ".stl") {
     throw Error(fmt::format("{} cannot be written: its extension must be .ply, .obj or .stl.", path.string()));
   }
@@ -202,11 +145,11 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
                       path.string(), farthest));
     }
   }
-  NewFile file(path);
+  files::WholeFile file(path);
   if (extension == ".ply") write_ply(scene, file, progress);
   if (extension == ".obj") write_obj(scene, file, progress);
   if (extension == ".stl") write_stl(scene, file, progress);
-  file.finish();
+  file.commit();
 }
 
 }  // namespace roam::generate

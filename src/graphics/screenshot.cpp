@@ -1,16 +1,15 @@
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <osgDB/WriteFile>
+#include <osgDB/Registry>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include "files/unfinished.h"
+#include "files/extension.h"
+#include "files/whole_file.h"
 #include "graphics/capture.h"
-#include "graphics/unfinished_file.h"
 
 namespace roam::graphics {
 namespace {
@@ -21,9 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds frame_patience{10};
 
 void check_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = files::lower_extension(path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return;
   throw Error("cannot write the picture " + path.string() + ": its name must end in .png, .jpg or .jpeg");
 }
@@ -32,27 +29,16 @@ void check_extension(const fs::path& path) {
 
 void write_image(const osg::Image& image, const fs::path& path) {
   check_extension(path);
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  std::error_code problem;
-  if (!fs::is_directory(folder, problem)) {
-    throw Error("cannot write the picture " + path.string() + ": there is no folder " + folder.string());
+  const std::string extension = files::lower_extension(path).substr(1);
+  osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+  if (plugin == nullptr) {
+    throw Error("cannot write the picture " + path.string() + ": OpenSceneGraph has no plugin for this kind of file");
   }
-  const fs::path unfinished = unfinished_name(path);
-  const files::Unfinished listed(unfinished);
-  const auto result = osgDB::Registry::instance()->writeImage(image, unfinished.string(), nullptr);
-  if (!result.success()) {
-    fs::remove(unfinished, problem);
-    const std::string why = result.status() == osgDB::ReaderWriter::WriteResult::FILE_NOT_HANDLED
-                                ? "OpenSceneGraph has no plugin for this kind of file"
-                                : "the folder cannot be written to, or the disk is full";
-    throw Error("cannot write the picture " + path.string() + ": " + why);
+  std::ostringstream bytes;
+  if (!plugin->writeImage(image, bytes, nullptr).success()) {
+    throw Error("cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
   }
-  fs::rename(unfinished, path, problem);
-  if (problem) {
-    const std::string why = problem.message();
-    fs::remove(unfinished, problem);
-    throw Error("cannot write the picture " + path.string() + ": " + why);
-  }
+  files::write_whole(path, bytes.str());
 }
 
 /// Shared by who asks, the thread that draws and the one that writes.

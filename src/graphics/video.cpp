@@ -11,10 +11,10 @@
 #include <thread>
 #include <utility>
 
-#include "files/unfinished.h"
+#include "files/whole_file.h"
 #include "graphics/capture.h"
-#include "graphics/child_process.h"
-#include "graphics/unfinished_file.h"
+#include "process/child.h"
+#include "process/find_program.h"
 
 namespace roam::graphics {
 namespace {
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_waiting = 8;
 constexpr int least_side = 16, largest_side = 8192;
 /// For what is left to be encoded after the last picture; x264 looks ahead some dozens of pictures.
-constexpr int ending_patience = 120'000;  // milliseconds
+constexpr std::chrono::seconds ending_patience{120};
 
 std::vector<std::string> arguments(const fs::path& out, int width, int height, int rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
@@ -98,7 +98,7 @@ struct Line {
 };
 
 fs::path find_ffmpeg() {
-  fs::path program = find_program("ffmpeg");
+  fs::path program = process::find_program("ffmpeg");
   if (program.empty()) {
     throw Error(
         "films are made by the program ffmpeg, which is not on the PATH. Install it (Debian: apt-get install "
@@ -114,13 +114,12 @@ class Video::Encoder {
  public:
   Encoder(fs::path path, int width, int height, int rate)
       : path_(std::move(path)),
-        unfinished_(unfinished_name(path_)),
-        listed_(unfinished_),
+        file_(path_),
         width_(width),
         height_(height),
         rate_(rate),
-        process_(find_ffmpeg(), arguments(unfinished_, width, height, rate), {{line_.theirs, STDIN_FILENO}},
-                 Orphan::lives_on) {
+        process_(find_ffmpeg(), arguments(file_.temporary(), width, height, rate),
+                 {.descriptors = {{line_.theirs, STDIN_FILENO}}, .orphan = process::Orphan::lives_on}) {
     line_.close_theirs();
     feeder_ = std::thread([this] { feed(); });
   }
@@ -136,8 +135,6 @@ class Video::Encoder {
       process_.end();  // also wakes a feeder that is writing
       feeder_.join();
     }
-    std::error_code ignored;
-    fs::remove(unfinished_, ignored);
   }
 
   void add(osg::ref_ptr<osg::Image> image, std::int64_t times) {
@@ -173,11 +170,9 @@ class Video::Encoder {
     }
     feeder_.join();
     line_.close_ours();
-    if (!process_.wait(ending_patience) || !process_.succeeded() || broken_) fail();
+    if (!process_.wait(ending_patience) || !process_.ending().is_success() || broken_) fail();
     if (frames_ == 0) throw Error("the film " + path_.string() + " has no picture");
-    std::error_code problem;
-    fs::rename(unfinished_, path_, problem);
-    if (problem) throw Error("cannot write the film " + path_.string() + ": " + problem.message());
+    file_.commit();
   }
 
  private:
@@ -214,16 +209,16 @@ class Video::Encoder {
   }
 
   [[noreturn]] void fail() {
-    process_.wait(1000);
+    process_.wait(std::chrono::seconds(1));
     const std::string words = process_.last_words();
     throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words));
   }
 
-  const fs::path path_, unfinished_;
-  const files::Unfinished listed_;
+  const fs::path path_;
+  files::WholeFile file_;
   const int width_, height_, rate_;
   Line line_;
-  ChildProcess process_;
+  process::Child process_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::pair<osg::ref_ptr<osg::Image>, std::int64_t>> waiting_;

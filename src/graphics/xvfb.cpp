@@ -10,6 +10,7 @@
 #include <cstring>
 #include <string>
 
+#include "process/find_program.h"
 #include "roam/error.h"
 
 namespace roam::graphics {
@@ -57,15 +58,15 @@ std::string read_line(int descriptor) {
 }  // namespace
 
 Xvfb::Xvfb(int width, int height) {
-  const std::filesystem::path program = find_program("Xvfb");
+  const std::filesystem::path program = process::find_program("Xvfb");
   if (program.empty()) throw Error("the program Xvfb is not on the PATH");
   Pipe pipe;
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + "x24";
-  process_ = std::make_unique<ChildProcess>(
+  process_ = std::make_unique<process::Child>(
       program,
       std::vector<std::string>{"-displayfd", std::to_string(display_descriptor), "-screen", "0", size, "-nolisten",
                                "tcp", "-noreset", "+extension", "GLX"},
-      std::vector<Inheritance>{{pipe.ends[1], display_descriptor}}, Orphan::dies);
+      process::ChildSettings{.descriptors = {{pipe.ends[1], display_descriptor}}});
   pipe.close_write_end();
 
   const std::string line = read_line(pipe.ends[0]);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <osg/Referenced>
 
-#include "graphics/child_process.h"
+#include "process/child.h"
 
 namespace roam::graphics {
 
@@ -16,10 +16,10 @@ class Xvfb : public osg::Referenced {
   Xvfb(int width, int height);
 
   [[nodiscard]] int display() const { return display_; }  ///< N of ":N"
-  [[nodiscard]] pid_t pid() const { return process_->pid(); }
+  [[nodiscard]] pid_t pid() const { return process_->id(); }
 
  private:
-  std::unique_ptr<ChildProcess> process_;
+  std::unique_ptr<process::Child> process_;
   int display_ = -1;
 };
 

@@ -1,18 +1,12 @@
 #include "import/find_reader.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cstdlib>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#ifdef __APPLE__
-#include <mach-o/dyld.h>
-#endif
-
+#include "process/find_program.h"
 #include "roam/error.h"
 #include "roam/import.h"
 
@@ -37,22 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* reader_name = "roam-reader";
 
-/// The folder of the running program; empty when the system does not tell.
-fs::path program_folder() {
-#ifdef __APPLE__
-  char path[4096];
-  std::uint32_t size = sizeof(path);
-  return _NSGetExecutablePath(path, &size) == 0 ? fs::path(path).parent_path() : fs::path();
-#else
-  std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path();
-#endif
-}
-
-bool can_run(const fs::path& program) {
-  std::error_code none;
-  return fs::is_regular_file(program, none) && access(program.c_str(), X_OK) == 0;
-}
+using process::can_run;
 
 [[noreturn]] void refuse(const std::string& named_by, const fs::path& program) {
   throw Error("the scene reader " + program.string() + ", named by " + named_by +
@@ -71,7 +50,7 @@ fs::path find_reader(const fs::path& wanted) {
     return named;
   }
   std::vector<fs::path> places;
-  if (const fs::path folder = program_folder(); !folder.empty()) {
+  if (const fs::path folder = process::own_folder(); !folder.empty()) {
     places.push_back(folder / reader_name);
     places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
   }

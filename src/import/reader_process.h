@@ -4,21 +4,20 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "files/descriptor.h"
+#include "process/child.h"
+
 namespace roam::reader {
 
-/// How a child ended.
-struct Ending {
-  bool known = false;  ///< false when it was killed by finish, or collected by a host program that ignores SIGCHLD
-  int exit_code = 0;   ///< when signal is 0
-  int signal = 0;      ///< that ended it, or 0
-};
+using process::Ending;
 
-/// Owns one child. Destruction kills it, collects it and closes the pipes: no zombie, no open descriptor is left.
+/// Owns one reader. Destruction kills it, collects it and closes the pipes.
 class ReaderProcess {
  public:
   /// Starts `program` with `arguments` (without the program's own name) in the folder "/", so that paths among them
@@ -44,17 +43,15 @@ class ReaderProcess {
   Ending finish(int milliseconds);
 
   /// The child's number; -1 once it has been collected.
-  [[nodiscard]] int id() const { return pid_; }
+  [[nodiscard]] int id() const { return child_->id(); }
   /// The end of what the child wrote to its standard output and error.
   [[nodiscard]] const std::string& complaints() const { return complaints_; }
 
  private:
   void drain_complaints();
 
-  int requests_ = -1;
-  int stream_ = -1;
-  int complaint_pipe_ = -1;
-  int pid_ = -1;
+  files::Descriptor requests_, stream_, complaint_pipe_;
+  std::optional<process::Child> child_;
   std::string complaints_;
 };
 

@@ -30,6 +30,10 @@ constexpr double unheard_seconds = 2.0;
 constexpr std::chrono::seconds greeting_time{30};
 /// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
 constexpr double silence_bytes_per_second = 4e6;
+/// A reader may speak and not get on: altogether it is waited for so many times as long as a silent one,
+constexpr double silences = 5.0;
+/// and a second more for so many bytes that it has read: ten times the processor time that these are worth.
+constexpr double waiting_bytes_per_second = 0.1 / ProcessorBudget::seconds_per_byte;
 
 std::vector<std::string> arguments_of(const Reading& reading) {
   const ImportOptions& options = *reading.options;
@@ -155,10 +159,14 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
   ProcessorBudget budget(process.id());
   Clock::time_point heard = Clock::now();
   Clock::time_point reported = heard;
+  double waited = 0.0;  // seconds
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
+      const Clock::time_point begin = Clock::now();
       const auto arrival = process.receive(receiver.room(), wait_milliseconds, received);
+      // One that lasts longer was that of a program that was stopped.
+      waited += std::min(std::chrono::duration<double>(Clock::now() - begin).count(), 1e-3 * 2 * wait_milliseconds);
       if (arrival == ReaderProcess::Arrival::end) {
         const Ending ending = process.finish(ending_milliseconds);
         throw fail(cause_of_death(ending, process.complaints(), options));
@@ -194,6 +202,16 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
             fmt::format("its reader said nothing for {:.0f} s and was ended. The file is damaged, or needs a "
                         "longer time limit",
                         silence_limit));
+      }
+      if (waited > silences * silence_limit) {
+        const double patience =
+            silences * silence_limit + static_cast<double>(budget.bytes()) / waiting_bytes_per_second;
+        if (waited > patience) {
+          throw fail(fmt::format(
+              "its reader did not get done in {:.0f} s, for {} bytes that it read, and was ended. The file is damaged, "
+              "or needs a longer time limit",
+              patience, budget.bytes()));
+        }
       }
       if (now - reported >= std::chrono::milliseconds(wait_milliseconds)) {
         reported = now;

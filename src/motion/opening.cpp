@@ -48,6 +48,14 @@ bool face_each_other(const Contact& a, const Contact& b, const Vec3& place, cons
 
 }  // namespace
 
+const Contact* most_against(const StepReport& report, const Vec3& way) {
+  const Contact* most = nullptr;
+  for (const Contact& c : report.contacts) {
+    if (most == nullptr || glm::dot(c.normal, way) < glm::dot(most->normal, way)) most = &c;
+  }
+  return most;
+}
+
 std::optional<Opening> measure_opening(const Space& space, const Body& body, const Vec3& place, const Vec3& ahead,
                                        double reach) {
   std::array<Contact, contacts_looked_at> contacts;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "roam/space.h"
+#include "roam/step_report.h"
 
 namespace roam::walking {
 
@@ -13,6 +14,12 @@ struct Opening {
   bool is_height = false;  ///< between what is below and what is above, not from side to side
   Vec3 middle{0.0};        ///< half way between the two points
 };
+
+/// A contact is what the opening is measured from when it is within this many of the body's skins.
+inline constexpr double opening_skins = 4.0;
+
+/// What stands most against the way of all that a step touched, the ground included; null where that is nothing.
+[[nodiscard]] const Contact* most_against(const StepReport& report, const Vec3& way);
 
 /// The opening ahead of a blocked body, see Blockage::opening: the least distance of two points that the body touches
 /// on either side of its way (or above and below), if a ray between them finds it open. `ahead`: unit vector of the way

@@ -24,9 +24,6 @@ constexpr double at_waypoint = 1e-8;
 /// sight.
 constexpr double tall_person = 2.0;
 
-/// A contact is what the opening is measured from when it is within this many skins.
-constexpr double opening_skins = 4.0;
-
 bool within_limit(const Vec3& v) {  // false for what is not a number
   return std::abs(v.x) <= Space::coordinate_limit && std::abs(v.y) <= Space::coordinate_limit &&
          std::abs(v.z) <= Space::coordinate_limit;
@@ -48,28 +45,11 @@ Vec3 way_to(const Vec3& waypoint, const Walker& walker) {
   return way;
 }
 
-/// Of what is touched, the ground included, what stands most against the way; null where nothing is touched.
-const Contact* most_against(const Vec3& way, const StepReport& report) {
-  const Contact* most = nullptr;
-  for (const Contact& c : report.contacts) {
-    if (most == nullptr || glm::dot(c.normal, way) < glm::dot(most->normal, way)) most = &c;
-  }
-  return most;
-}
-
 /// Whether only the space's speed limit, and nothing that is touched, keeps the body from going on.
 bool waits_for_space(const Vec3& way, const StepReport& report) {
-  const Contact* c = most_against(way, report);
+  const Contact* c = walking::most_against(report, way);
   return report.has(EventKind::slowed) &&
          (c == nullptr || glm::dot(c->normal, way) >= -progress_part * glm::length(way));
-}
-
-/// Takes the least of what is certified. A body that does not fit where it is has no clearance, and makes no move.
-void take_clearance(RouteResult& result, const StepReport& report) {
-  if (!(report.least_clearance > 0.0)) return;
-  const bool first = !(result.least_clearance > 0.0);
-  if (first || report.least_clearance < result.least_clearance) result.least_clearance = report.least_clearance;
-  if (first || report.least_gap < result.least_gap) result.least_gap = report.least_gap;
 }
 
 bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
@@ -133,12 +113,11 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   const DefaultFloatingPoint guard;
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
-  result_.least_clearance = start.least_clearance;
-  result_.least_gap = start.least_gap;
+  result_.add_placement(start);
   result_.waypoints = 1;
   result_.end = walker.position();
   inside_ = inside(result_.end, walker.space().bounds(), walker.body());
-  note_events(start);
+  filter_.append(result_.events, 0, start);
   start_window();
   coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
   if (walker.held()) {
@@ -180,17 +159,9 @@ const StepReport& Route::advance() {
     input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
   }
   const StepReport& report = walker_->step(input, dt);
-  ++result_.steps;
-  result_.simulated += report.elapsed;
-  Vec3 at = report.from;
-  for (const Corner& c : report.corners) {
-    if (!c.teleport) result_.length += glm::length(c.position - at);
-    at = c.position;
-  }
-  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++result_.throttled;
-  take_clearance(result_, report);
+  result_.add_step(report);
   result_.end = walker_->position();
-  note_events(report);
+  filter_.append(result_.events, result_.steps, report);
   judge(report, distance);
   return report;
 }
@@ -220,7 +191,7 @@ void Route::judge(const StepReport& report, double distance_before) {
   const double now = glm::length(way_to(waypoints_[next_], *walker_));
   if (window_best_ - now < progress_part * options_.speed * window_time_) {
     const Vec3 way = way_to(waypoints_[next_], *walker_);
-    const Contact* c = most_against(way, report);
+    const Contact* c = walking::most_against(report, way);
     const bool unknown = c != nullptr && c->unknown;
     describe_blockage(report);
     finish(unknown || waits_for_space(way, report) ? Outcome::held : Outcome::blocked);
@@ -231,27 +202,17 @@ void Route::judge(const StepReport& report, double distance_before) {
 
 void Route::describe_blockage(const StepReport& report) {
   const Vec3 way = way_to(waypoints_[next_], *walker_);
-  const Contact* c = most_against(way, report);
+  const Contact* c = walking::most_against(report, way);
   if (c == nullptr || waits_for_space(way, report)) return;
   Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint && !c->unknown) {
-    const double reach = opening_skins * walker_->skin();
+    const double reach = walking::opening_skins * walker_->skin();
     const auto opening =
         walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
     if (opening) blockage.opening = opening->size;
   }
   result_.blocked_at = blockage;
-}
-
-void Route::note_events(const StepReport& report) {
-  std::uint32_t kinds = 0;
-  for (const Event& e : report.events) {
-    const std::uint32_t bit = 1U << static_cast<unsigned>(e.kind);
-    if (!((kinds | last_kinds_) & bit)) result_.events.push_back({result_.steps, e});
-    kinds |= bit;
-  }
-  last_kinds_ = kinds;
 }
 
 void Route::finish(Outcome outcome) {

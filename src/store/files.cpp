@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <cstdlib>
@@ -51,73 +50,43 @@ std::string sha256_of_file(const fs::path& store, const std::string& name,
 
 // --------------------------------------------------------------------------------------------------------- new files
 
-void sync_folder(int descriptor, const fs::path& folder) {
-  // Some network file systems know no fsync of folders.
-  if (again([&] { return ::fsync(descriptor); }) != 0 && errno != EINVAL) fail("sync", folder, "", errno);
+namespace {
+
+/// The folder of a store's file, for a WholeFile.
+Descriptor folder_to_write(const fs::path& store, const std::string& name) {
+  Descriptor folder = open_folder(store, split(name).first);
+  if (!folder.is_open()) fail("write", store, name, errno);
+  return folder;
 }
 
-NewFile::NewFile(fs::path store, std::string name) : store_(std::move(store)), name_(std::move(name)) {
-  static std::atomic<std::uint64_t> number{0};
-  const auto [folder, last] = split(name_);
-  last_ = last;
-  folder_ = open_folder(store_, folder);
-  if (!folder_.is_open()) fail_to_write(errno);
-  temporary_ = fmt::format("{}.{}.{}{}", last_, ::getpid(), number++, temporary_suffix);
-  file_ = Descriptor(again([&] {
-    return ::openat(folder_.number(), temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  }));
-  if (!file_.is_open()) {
-    const int error = errno;
-    temporary_.clear();
-    fail_to_write(error);
-  }
-  listed_.begin(store_ / folder / temporary_);
-}
+}  // namespace
 
-NewFile::~NewFile() {
-  if (!temporary_.empty()) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
-}
-
-void NewFile::fail_to_write(int error) const { fail("write", store_, name_, error); }
+NewFile::NewFile(const fs::path& store, const std::string& name)
+    : store_(store),
+      name_(name),
+      file_(folder_to_write(store, name), (store / name).parent_path(), split(name).second) {}
 
 void NewFile::write(std::span<const std::byte> bytes) {
   hash_.add(bytes);
-  while (!bytes.empty()) {
-    const ssize_t written = again([&] { return ::write(file_.number(), bytes.data(), bytes.size()); });
-    if (written < 0) fail_to_write(errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    size_ += static_cast<std::uint64_t>(written);
+  file_.write(bytes);
+  size_ += bytes.size();
+}
+
+void NewFile::commit_as(const std::string& last) {
+  try {
+    file_.commit_as(last);
+  } catch (const FileError& error) {
+    if (is_foreign(error.number)) fail("write", store_, name_, error.number);
+    throw;
   }
 }
 
-void NewFile::rename_to(const std::string& last) {
-  if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);
-  // Some network file systems tell of a full disk only now.
-  const int closed = ::close(file_.release());
-  if (closed != 0 && errno != EINTR) fail_to_write(errno);
-  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), last.c_str()) != 0) fail_to_write(errno);
-  temporary_.clear();
-  listed_.end();
-  sync_folder(folder_.number(), (store_ / name_).parent_path());
-}
-
-void NewFile::commit() { rename_to(last_); }
+void NewFile::commit() { commit_as(split(name_).second); }
 
 std::string NewFile::commit_by_hash() {
   std::string digits = hash_.digits();
-  rename_to(digits + fs::path(last_).extension().string());
+  commit_as(digits + fs::path(name_).extension().string());
   return digits;
-}
-
-bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final) {
-  if (!name.ends_with(temporary_suffix)) return false;
-  name.remove_suffix(temporary_suffix.size());
-  for (int i = 0; i < 2; ++i) {  // the process, and the number of the file
-    const std::size_t end = name.find_last_not_of("0123456789");
-    if (end == std::string_view::npos || end + 1 == name.size() || name[end] != '.') return false;
-    name = name.substr(0, end);
-  }
-  return is_final(name);
 }
 
 void write_file(const fs::path& store, const std::string& name, std::string_view text) {

@@ -1,9 +1,7 @@
 #pragma once
 /// \file
-/// Files that are whole or not there: written under a temporary name, synced, renamed, the folder synced. And what
-/// names and checks them.
+/// Files that are whole or not there, and what names and checks them.
 
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,21 +11,16 @@
 #include <string>
 #include <string_view>
 
-#include "files/unfinished.h"
+#include "files/whole_file.h"
 #include "roam/store.h"
 #include "store/folder.h"
 #include "store/sha256.h"
 
 namespace roam::store {
 
-/// Calls a system call again when a signal interrupts it.
-template <class Call>
-auto again(const Call& call) {
-  for (;;) {
-    const auto result = call();
-    if (result >= 0 || errno != EINTR) return result;
-  }
-}
+using files::again;
+using files::is_temporary;
+using files::sync_folder;
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
@@ -36,47 +29,31 @@ auto again(const Call& call) {
                                          const std::function<void(std::uint64_t)>& tick = {});
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
-/// A file in the making. Unless commit() was called it is removed again. All throw roam::Error naming the file, the
-/// cause (no space, read-only, I/O) and what to do. Interrupted and short writes are gone on with.
+/// A file of a store in the making: a WholeFile that is hashed while it is written. Throws FileError.
 class NewFile {
  public:
-  /// Beside its final place in the store, under a name that ends with temporary_suffix.
-  NewFile(std::filesystem::path store, std::string name);
-  ~NewFile();
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
+  NewFile(const std::filesystem::path& store, const std::string& name);
 
   void write(std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// fsync, rename, fsync of the folder.
   void commit();
-  /// The same, named by its content: the final path's folder, SHA-256, the final path's extension. Returns the digits.
+  /// Named by its content: the final path's folder, SHA-256, the final path's extension. Returns the digits.
   std::string commit_by_hash();
 
  private:
-  void rename_to(const std::string& last);
-  [[noreturn]] void fail_to_write(int error) const;
+  void commit_as(const std::string& last);
 
   std::filesystem::path store_;
-  std::string name_, last_, temporary_;  ///< of these the latter two in `folder_`
-  Descriptor folder_, file_;
-  files::Unfinished listed_;
+  std::string name_;
+  files::WholeFile file_;
   std::uint64_t size_ = 0;
   Sha256 hash_;
 };
-
-/// What a build that was ended leaves behind ends with this.
-inline constexpr std::string_view temporary_suffix = ".unfinished";
-
-/// Whether NewFile may have written, for a file whose name `is_final` accepts, a temporary file of this name.
-[[nodiscard]] bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final);
 
 void write_file(const std::filesystem::path& store, const std::string& name, std::string_view text);
 /// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& store, const std::string& name,
                                                std::uint64_t limit);
-/// fsync of a folder, whose path is for people.
-void sync_folder(int descriptor, const std::filesystem::path& folder);
 /// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
 void make_folder(const std::filesystem::path& folder);
 

@@ -21,28 +21,6 @@ namespace fs = std::filesystem;
 
 static_assert(is_a_link == ELOOP && is_a_folder == EISDIR && is_something_else == ESPIPE);
 
-/// What a person can do about it.
-const char* advice(int error, bool reading) {
-  if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-      return "make room there or choose another output, and start again: what is complete is kept";
-    case EACCES:
-    case EPERM:
-      return "give yourself the right to write there or choose another output";
-    case EROFS:
-      return "the file system can only be read; choose another output";
-    case EIO:
-      return "the disk or the network does not work; see the system's log";
-    case EMFILE:
-    case ENFILE:
-      return "too many files are open; raise the limit (ulimit -n)";
-    default:
-      return "";
-  }
-}
-
 /// A component of a name as the system calls want it.
 class Component {
  public:
@@ -122,7 +100,6 @@ bool remove(const fs::path& store, const std::string& name, int flags) noexcept 
 }  // namespace
 
 void fail(const char* what, const fs::path& store, const std::string& name, int error) {
-  const bool reading = std::strcmp(what, "read") == 0;
   const fs::path file = name.empty() ? store : store / name;
   if (error == is_a_link) {
     throw FileError(fmt::format("cannot {} {}: {} is a symbolic link, and what a store consists of lies in its own "
@@ -135,17 +112,13 @@ void fail(const char* what, const fs::path& store, const std::string& name, int 
                                 error == is_a_folder ? "a folder" : "no ordinary file"),
                     error);
   }
-  const std::string advised = advice(error, reading);
-  throw FileError(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
-                              advised.empty() ? "" : "; ", advised),
-                  error);
-}
-
-Descriptor::~Descriptor() {
-  if (number_ < 0) return;
-  const int error = errno;
-  ::close(number_);
-  errno = error;
+  if (error == ENOSPC || error == EDQUOT) {
+    throw FileError(fmt::format("cannot {} {}: {}; make room there or choose another output, and start again: what is "
+                                "complete is kept",
+                                what, file.string(), std::strerror(error)),
+                    error);
+  }
+  files::fail(what, file, error);
 }
 
 Descriptor open_folder(const fs::path& store, std::string_view name) noexcept {

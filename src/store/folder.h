@@ -14,16 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "roam/error.h"
+#include "files/descriptor.h"
+#include "files/file_error.h"
 
 namespace roam::store {
 
-/// What the operating system refused to do with a file, or why a file is none of a store.
-class FileError : public Error {
- public:
-  FileError(const std::string& what, int error) : Error(what), number(error) {}
-  int number;  ///< errno
-};
+using files::Descriptor;
+using files::FileError;
 
 // What is in the place of a file or a folder of a store, as errno.
 inline constexpr int is_a_link = 40;          // ELOOP
@@ -35,24 +32,6 @@ inline constexpr int is_something_else = 29;  // ESPIPE: a pipe, a socket, a dev
 
 /// Throws FileError: "cannot <what> <file>: <why>; <what to do>". Where a link is in the way it is named.
 [[noreturn]] void fail(const char* what, const std::filesystem::path& store, const std::string& name, int error);
-
-/// Closes when it goes.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor();
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  [[nodiscard]] int number() const { return number_; }
-  [[nodiscard]] bool is_open() const { return number_ >= 0; }
-  [[nodiscard]] int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_;
-};
 
 /// Opens a file of a store; `flags` as of open(2). Not open, and errno set, where that cannot be or it is no regular
 /// file. Never waits for the other end of a pipe; never allocates.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweep/bracket.h"
 #include "sweep/error_bound.h"
 #include "sweep/gap_line.h"
 #include "sweep/support_plane.h"
@@ -17,19 +18,6 @@ struct Sample {
 
   /// Half the derivative of the squared distance: a polygon over time, so that a secant finds its root.
   [[nodiscard]] double pull() const { return distance > 0.0 ? distance * slope : slope; }
-};
-
-/// Lower bound of the signed distance between two samples, the left falling and the right not: where their planes
-/// cross.
-struct Crossing {
-  Crossing(const Sample& left, const Sample& right) {
-    const double fall = -left.slope, rise = right.slope, width = right.time - left.time;
-    time = left.time + (left.distance - right.distance + rise * width) / (fall + rise);
-    distance = (left.distance * rise + right.distance * fall - fall * rise * width) / (fall + rise);
-  }
-
-  double time;
-  double distance;
 };
 
 double secant(const Sample& left, const Sample& right) {
@@ -58,19 +46,18 @@ Approach approach(const Body& body, const Vec3& motion, const LocalTriangle& tri
   if (left.slope >= 0.0 || t_end <= t_begin) return answer(left, left.distance);
   Sample right = sample(t_end);
   if (right.slope <= 0.0) return answer(right, right.distance);
-  Crossing lower(left, right);
-  for (int step = 0; step < advance_limit; ++step) {
-    const Sample& least = left.distance <= right.distance ? left : right;
-    if (least.distance - lower.distance <= std::max(approach_tolerance * std::abs(least.distance), doubt)) break;
-    // The secant is exact once both samples share a feature; the crossing and the middle make sure that no side of
-    // the bracket stands still for long.
-    const double guess[] = {secant(left, right), lower.time, 0.5 * (left.time + right.time)};
-    const double time = guess[step % 3];
-    if (!(left.time < time && time < right.time)) continue;
-    const Sample s = sample(time);
-    (s.slope < 0.0 ? left : right) = s;
-    lower = Crossing(left, right);
-  }
+  const Crossing lower = narrow(
+      left, right, advance_limit, sample,
+      // The secant is exact once both samples share a feature; the crossing and the middle make sure that no side of
+      // the bracket stands still for long.
+      [&](int step, const Crossing& c) {
+        const double guess[] = {secant(left, right), c.time, 0.5 * (left.time + right.time)};
+        return guess[step % 3];
+      },
+      [&](const Crossing& c) {
+        const Sample& least = left.distance <= right.distance ? left : right;
+        return least.distance - c.distance <= std::max(approach_tolerance * std::abs(least.distance), doubt);
+      });
   return left.distance <= right.distance ? answer(left, lower.distance) : answer(right, lower.distance);
 }
 

@@ -12,13 +12,27 @@ std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch)
 
 }  // namespace
 
+void PatchList::push_back(Patch patch) {
+  if (size_ % width == 0) blocks_.push_back(std::make_unique<Block>());
+  blocks_.back()->at(size_++) = std::move(patch);
+}
+
+void PatchList::count_replaced(std::uint32_t index) {
+  if (++blocks_[index / width]->replaced == width) done_.push_back(index / width);
+}
+
+void PatchList::release() {
+  for (const std::uint32_t block : done_) blocks_[block].reset();
+  done_.clear();
+}
+
 void Patches::expect(const Box& where, PatchId refines) {
   const std::uint32_t self = size();
   Patch patch;
   patch.where = where;
   patch.parent = refines == PatchId::none ? no_parent : index_of(refines);
   // What has been replaced already can not be refined any more.
-  if (patch.parent != no_parent && patches_[patch.parent].role == Patch::Role::replaced) patch.parent = no_parent;
+  if (patch.parent != no_parent && is_replaced(patch.parent)) patch.parent = no_parent;
   if (patch.parent != no_parent) {
     patch.role = Patch::Role::finer;
     patches_[patch.parent].finer.push_back(self);
@@ -30,36 +44,32 @@ void Patches::expect(const Box& where, PatchId refines) {
 
 void Patches::deliver(PatchId id, World world) {
   const std::uint32_t self = index_of(id);
-  Patch& patch = patches_[self];
-  if (patch.failed) {
-    --stats_.failed;
-    patch.failed = false;
-    patch.reason.clear();
-  } else if (patch.role != Patch::Role::replaced) {
-    --stats_.coming;
+  if (is_replaced(self)) {
+    replaced_.push_back(std::move(world));
+    return;
   }
+  Patch& patch = patches_[self];
+  --(patch.failed ? stats_.failed : stats_.coming);
+  patch.failed = false;
+  patch.reason.clear();
   stats_.bytes += world.stats().bytes;
   if (patch.role == Patch::Role::shown) count_shown(patch, minus_one);
   patch.world = std::move(world);
-  switch (patch.role) {
-    case Patch::Role::replaced:
-      retire(self);
-      break;
-    case Patch::Role::shown:
-      count_shown(patch, 1);
-      changed_.push_back(self);
-      break;
-    case Patch::Role::finer:
-      touch(self);
-      break;
+  if (patch.role == Patch::Role::shown) {
+    count_shown(patch, 1);
+    changed_.push_back(self);
+  } else {
+    touch(self);
   }
 }
 
 void Patches::fail(PatchId id, std::string reason) {
+  // What has been replaced is missed by nobody.
+  if (is_replaced(index_of(id))) return;
   Patch& patch = patches_[index_of(id)];
   if (!patch.failed) {
     ++stats_.failed;
-    if (patch.role != Patch::Role::replaced) --stats_.coming;
+    --stats_.coming;
   }
   patch.failed = true;
   patch.reason = std::move(reason);
@@ -134,9 +144,13 @@ void Patches::retire(std::uint32_t index) {
     count_shown(patch, minus_one);
     changed_.push_back(index);
   }
-  // Nobody waits any more for what finer ones have made needless.
-  if (patch.role != Patch::Role::replaced && !patch.world && !patch.failed) --stats_.coming;
+  // Nobody waits any more for what finer ones have made needless, nor misses it.
+  if (!patch.world) --(patch.failed ? stats_.failed : stats_.coming);
   patch.role = Patch::Role::replaced;
+  patches_.count_replaced(index);
+  patch.failed = false;
+  patch.finer = {};
+  patch.reason = {};
   if (!patch.world) return;
   stats_.bytes -= patch.world->stats().bytes;
   replaced_.push_back(std::move(*patch.world));
@@ -154,7 +168,10 @@ void Patches::count_shown(const Patch& patch, std::uint64_t one) {
   if (patch.world) stats_.triangles += one * patch.world->stats().triangles;
 }
 
-std::vector<World> Patches::take_replaced() { return std::exchange(replaced_, {}); }
+std::vector<World> Patches::take_replaced() {
+  patches_.release();
+  return std::exchange(replaced_, {});
+}
 
 PatchworkStats Patches::stats() const {
   Cut cut;

@@ -2,8 +2,10 @@
 /// \file
 /// Which patches are in use: a cut through the trees of patches and what refines them. Belongs to one thread.
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,37 @@ struct Patch {
   std::string reason;                ///< why it failed
 };
 
+/// All patches by index, in blocks: those of which every patch has been replaced take no memory.
+class PatchList {
+ public:
+  [[nodiscard]] std::uint32_t size() const { return size_; }
+  [[nodiscard]] const Patch& operator[](std::uint32_t index) const { return blocks_[index / width]->at(index); }
+  [[nodiscard]] Patch& operator[](std::uint32_t index) { return blocks_[index / width]->at(index); }
+  /// Whether it has been replaced, and is perhaps not there any more.
+  [[nodiscard]] bool is_replaced(std::uint32_t index) const {
+    return blocks_[index / width] == nullptr || (*this)[index].role == Patch::Role::replaced;
+  }
+
+  void push_back(Patch patch);
+  /// To be called once for each that has been replaced.
+  void count_replaced(std::uint32_t index);
+  /// Frees the blocks of which all have been replaced.
+  void release();
+
+ private:
+  static constexpr std::uint32_t width = 64;
+  struct Block {
+    std::array<Patch, width> patches;
+    std::uint32_t replaced = 0;
+
+    [[nodiscard]] Patch& at(std::uint32_t index) { return patches[index % width]; }
+  };
+
+  std::vector<std::unique_ptr<Block>> blocks_;
+  std::vector<std::uint32_t> done_;  ///< blocks of which all have been replaced
+  std::uint32_t size_ = 0;
+};
+
 class Patches {
  public:
   /// Whether the body has room in a world.
@@ -42,9 +75,11 @@ class Patches {
   /// Whether some wait until the body is free in them.
   [[nodiscard]] bool unsettled() const { return !touched_.empty(); }
 
+  /// One that was not is_replaced() when take_replaced() was called last.
   [[nodiscard]] const Patch& operator[](std::uint32_t index) const { return patches_[index]; }
-  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(patches_.size()); }
-  /// The worlds that are of no more use since this was called last.
+  [[nodiscard]] bool is_replaced(std::uint32_t index) const { return patches_.is_replaced(index); }
+  [[nodiscard]] std::uint32_t size() const { return patches_.size(); }
+  /// The worlds that are of no more use since this was called last. What has been replaced is forgotten with them.
   [[nodiscard]] std::vector<World> take_replaced();
 
   /// Bytes are those of all worlds that are held.
@@ -64,7 +99,7 @@ class Patches {
   void count_shown(const Patch& patch, std::uint64_t one);
   void touch(std::uint32_t index);
 
-  std::vector<Patch> patches_;
+  PatchList patches_;
   std::vector<std::uint32_t> touched_;  ///< shown ones that may be replaced, each perhaps more than once
   std::vector<std::uint32_t> changed_;
   std::vector<World> replaced_;

@@ -266,7 +266,7 @@ std::uint64_t Patchwork::revision() const { return state_->revision; }
 std::string Patchwork::object_name(TriangleId triangle) const {
   const Patches& patches = state_->patches;
   const auto number = static_cast<std::uint64_t>(patch(triangle));
-  if (number == 0 || number > patches.size()) return "";
+  if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return "";
   const Patch& it = patches[static_cast<std::uint32_t>(number - 1)];
   const TriangleId local = triangle_in_patch(triangle);
   if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return "";

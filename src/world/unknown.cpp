@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "math/largest.h"
+#include "sweep/bracket.h"
 
 namespace roam::unknown {
 namespace {
@@ -93,16 +94,6 @@ Vec3 point_on(const Box& box, const Sample& s, const Vec3& centre) {
   return point;
 }
 
-/// Where the planes of two samples cross, the left falling and the right not: nothing on the way is nearer.
-struct Crossing {
-  Crossing(const Sample& left, const Sample& right) {
-    const double fall = -left.slope, rise = right.slope, width = right.time - left.time;
-    time = left.time + (left.distance - right.distance + rise * width) / (fall + rise);
-    distance = (left.distance * rise + right.distance * fall - fall * rise * width) / (fall + rise);
-  }
-  double time, distance;
-};
-
 }  // namespace
 
 // At each time the plane's bound, distance + (t - time) * slope, holds for all t; error_ pays for its rounding. Before
@@ -150,16 +141,11 @@ Contact nearest(const Box& box, double margin, const Body& body, const Vec3& fro
   if (left.slope >= 0.0) return answer(left, way.gap(left.distance));
   Sample right = way.at(1.0);
   if (right.slope <= 0.0) return answer(right, way.gap(right.distance));
-  Crossing lower(left, right);
-  for (int step = 0; step < advance_limit; ++step) {
-    if (std::min(left.distance, right.distance) - lower.distance <= tightness) break;
-    // The middle makes sure that no side of the bracket stands still for long.
-    const double time = step % 2 == 0 ? lower.time : 0.5 * (left.time + right.time);
-    if (!(left.time < time && time < right.time)) continue;
-    const Sample s = way.at(time);
-    (s.slope < 0.0 ? left : right) = s;
-    lower = Crossing(left, right);
-  }
+  const certified::Crossing lower = certified::narrow(
+      left, right, advance_limit, [&](double time) { return way.at(time); },
+      // The middle makes sure that no side of the bracket stands still for long.
+      [&](int step, const certified::Crossing& c) { return step % 2 == 0 ? c.time : 0.5 * (left.time + right.time); },
+      [&](const certified::Crossing& c) { return std::min(left.distance, right.distance) - c.distance <= tightness; });
   const Sample& least = left.distance <= right.distance ? left : right;
   // One bound for the planes, one for the arithmetic between them.
   return answer(least, way.gap(std::min(lower.distance, least.distance)) - way.error());

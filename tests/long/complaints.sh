@@ -49,7 +49,8 @@ expect_whole_or_none() {
   [[ ! -e $1/CURRENT ]] || "$roam" verify "$1" > "$work/verify" 2>&1 || complain "$2: published and not whole"
 }
 
-# faulty NAME=VALUE... -- COMMAND...: the command with calls that go wrong in `roam`; its exit status.
+# faulty NAME=VALUE... -- COMMAND...: the command with calls that go wrong in `roam`, or in $fault_program; its exit
+# status. A reader gets none of the environment, so that a script which sets it anew stands in for one.
 faulty() {
   local -a settings=()
   while [[ $1 != -- ]]; do
@@ -57,8 +58,14 @@ faulty() {
     shift
   done
   shift
-  env LD_PRELOAD="$work/faults.so" FAULT_PROGRAM="${fault_program:-$(basename "$roam")}" "${settings[@]}" \
-    timeout 300 "$@"
+  settings+=(LD_PRELOAD="$work/faults.so" FAULT_PROGRAM="${fault_program:-$(basename "$roam")}")
+  if [[ ${fault_program:-} == roam-reader ]]; then
+    printf '#!/bin/sh\nexec env %s %q "$@"\n' "$(printf '%q ' "${settings[@]}")" "$(dirname "$roam")/roam-reader" \
+      > "$work/reader"
+    chmod +x "$work/reader"
+    settings=(ROAM_READER="$work/reader")
+  fi
+  env "${settings[@]}" timeout 300 "$@"
 }
 
 # build OUTPUT [OPTIONS...]: the scene of the test.

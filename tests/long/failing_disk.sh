@@ -58,6 +58,7 @@ declare -A errors=([write]="28 5 4 122" [pwrite]="5 4" [fsync]="28 5 4" [rename]
 total=0 refused=0 leftovers=0
 for program in "$(basename "$roam")" roam-reader; do
   fault_program=$program
+  refused_before=$refused
   calls="write pwrite fsync rename open read pread mkdir unlink"
   [[ $program != roam-reader ]] || calls="open read"
   for call in $calls; do
@@ -93,6 +94,7 @@ for program in "$(basename "$roam")" roam-reader; do
     done
     echo "$program: $call, $count calls; $total faults, $refused refused; $wrong wrong; $SECONDS s"
   done
+  ((refused > refused_before)) || complain "no fault has reached $program"
 done
 
 for program in "$(basename "$roam")" roam-reader; do

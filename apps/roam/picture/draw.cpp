@@ -3,17 +3,15 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
+#include <exception>
 #include <memory>
 #include <numbers>
-#include <string_view>
+#include <span>
 
+#include "files/extension.h"
 #include "roam/error.h"
 
 namespace roam::app::picture {
@@ -104,10 +102,14 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
   cairo_show_page(context.get());
 }
 
-bool has_extension(const std::filesystem::path& file, std::string_view extension) {
-  const std::string own = file.extension().string();
-  return std::equal(own.begin(), own.end(), extension.begin(), extension.end(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
+/// Appends to a std::string. Cairo is C, which nothing may be thrown through.
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned int size) noexcept {
+  try {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), size);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (const std::exception&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
 }
 
 }  // namespace
@@ -126,40 +128,17 @@ Rect measure_text(const std::string& text, double size, bool bold) {
 }
 
 bool is_picture(const std::filesystem::path& file) {
-  return has_extension(file, ".svg") || has_extension(file, ".png");
+  const std::string extension = files::lower_extension(file);
+  return extension == ".svg" || extension == ".png";
 }
 
-PictureFile::PictureFile(std::filesystem::path file)
-    : file_(std::move(file)), temporary_(file_.string() + ".part-XXXXXX") {
-  const int descriptor = ::mkstemp(temporary_.data());
-  if (descriptor < 0) {
-    temporary_.clear();
-    fail(std::strerror(errno));
-  }
-  listed_.begin(temporary_);
-  // mkstemp made the file for its owner alone; give it the rights that any new file gets.
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const int changed = ::fchmod(descriptor, 0666 & ~mask);
-  if (::close(descriptor) != 0 || changed != 0) {
-    ::unlink(temporary_.c_str());
-    fail(std::strerror(errno));
-  }
-}
-
-PictureFile::~PictureFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-}
-
-void PictureFile::fail(const char* why) const {
-  throw Error(fmt::format("cannot write the picture {}: {}; check its folder, its permissions and the room on its disk",
-                          file_.string(), why));
-}
+PictureFile::PictureFile(const std::filesystem::path& file) : path_(file), file_(file) {}
 
 void PictureFile::write(const Sheet& sheet) {
+  std::string bytes;
   cairo_status_t status = CAIRO_STATUS_SUCCESS;
-  if (has_extension(file_, ".svg")) {
-    const Surface surface(cairo_svg_surface_create(temporary_.c_str(), sheet.width, sheet.height));
+  if (files::lower_extension(path_) == ".svg") {
+    const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, sheet.width, sheet.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     draw(surface.get(), sheet);
     cairo_surface_finish(surface.get());
@@ -168,11 +147,13 @@ void PictureFile::write(const Sheet& sheet) {
     const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(sheet.width)),
                                                      static_cast<int>(std::lround(sheet.height))));
     draw(surface.get(), sheet);
-    status = cairo_surface_write_to_png(surface.get(), temporary_.c_str());
+    status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
   }
-  if (status != CAIRO_STATUS_SUCCESS) fail(cairo_status_to_string(status));
-  if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail(std::strerror(errno));
-  temporary_.clear();
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw Error(fmt::format("cannot draw the picture {}: {}", path_.string(), cairo_status_to_string(status)));
+  }
+  file_.write(std::as_bytes(std::span(bytes)));
+  file_.commit();
 }
 
 }  // namespace roam::app::picture

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "files/unfinished.h"
+#include "files/whole_file.h"
 #include "sheet.h"
 
 namespace roam::app::picture {
@@ -19,23 +19,16 @@ namespace roam::app::picture {
 /// A picture that appears under its name only when it is complete.
 class PictureFile {
  public:
-  /// Makes sure that the file can be written: begins it under a temporary name beside it, which goes away with this
-  /// object. `file` must be a picture. Throws roam::Error.
-  explicit PictureFile(std::filesystem::path file);
-  PictureFile(const PictureFile&) = delete;
-  PictureFile& operator=(const PictureFile&) = delete;
-  ~PictureFile();
+  /// Makes sure that the file can be written: begins it. `file` must be a picture. Throws roam::Error.
+  explicit PictureFile(const std::filesystem::path& file);
 
-  /// Draws the sheet, as SVG or, a pixel of the sheet a pixel of the image, as PNG; and puts it in its place. Throws
-  /// roam::Error; what was there before then stays.
+  /// Draws the sheet, as SVG or, a pixel of the sheet a pixel of the image, as PNG; and puts it in its place. Once.
+  /// Throws roam::Error; what was there before then stays.
   void write(const Sheet& sheet);
 
  private:
-  [[noreturn]] void fail(const char* why) const;
-
-  std::filesystem::path file_;
-  std::string temporary_;
-  files::Unfinished listed_;
+  std::filesystem::path path_;
+  files::WholeFile file_;
 };
 
 }  // namespace roam::app::picture

@@ -1,14 +1,13 @@
 #include "view/bookmarks.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "files/unfinished.h"
+#include "files/whole_file.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -69,28 +68,6 @@ Json to_json(const Bookmark& bookmark) {
           {"pitch", bookmark.pose.pitch}};
 }
 
-/// Writes a file so that nobody ever sees half of it.
-void replace(const std::filesystem::path& file, const std::string& text) {
-  std::error_code status;
-  std::filesystem::create_directories(file.parent_path(), status);
-  const std::filesystem::path beside = fmt::format("{}.{}", file.string(), ::getpid());
-  const files::Unfinished listed(beside);
-  {
-    std::ofstream out(beside);
-    out << text;
-    out.close();
-    if (!out) {
-      std::filesystem::remove(beside, status);
-      throw Error(fmt::format("{}: cannot be written; is its folder yours, and the disk not full?", file.string()));
-    }
-  }
-  std::filesystem::rename(beside, file, status);
-  if (!status) return;
-  const std::string why = status.message();
-  std::filesystem::remove(beside, status);
-  throw Error(fmt::format("{}: cannot be replaced: {}", file.string(), why));
-}
-
 }  // namespace
 
 Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, std::string up,
@@ -145,7 +122,9 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
   Json list = Json::array();
   for (const Bookmark& bookmark : bookmarks) list.push_back(to_json(bookmark));
   (*ours)["bookmarks"] = list;
-  replace(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  std::error_code none;
+  std::filesystem::create_directories(file_.parent_path(), none);
+  files::write_whole(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   bookmarks_ = std::move(bookmarks);
   return bookmarks_.back();
 }

@@ -14,17 +14,7 @@ constexpr double news_seconds = 4.0;      // to read a sentence
 constexpr double slowed_seconds = 0.5;    // what changes from step to step is told as long as it lasts
 constexpr double calm_seconds = 0.25;     // a shorter touch is no blockage, a shorter break no end of one
 constexpr double measuring_period = 0.5;  // s
-constexpr double opening_skins = 4.0;     // what is nearer than that counts as touched, as for a Route
 constexpr double level_cosine = 0.7071;   // 45 degrees: a wall, or a floor or ceiling
-
-/// What is touched that stands most against the way.
-const Contact& hindrance(const StepReport& report, const Vec3& wish) {
-  const Contact* most = &report.contacts.back();
-  for (const Contact& contact : report.contacts) {
-    if (glm::dot(contact.normal, wish) < glm::dot(most->normal, wish)) most = &contact;
-  }
-  return *most;
-}
 
 std::string describe(const Walker& walker, const Contact& contact, const Vec3& wish) {
   std::string text = contact.normal.z > level_cosine ? "floor" : contact.normal.z < -level_cosine ? "ceiling" : "wall";
@@ -33,7 +23,7 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
   const double length = glm::length(wish);
   if (length <= 0.0) return text;
   const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
-                                                opening_skins * walker.skin());
+                                                walking::opening_skins * walker.skin());
   if (!opening) return text;
   const double needed = opening->is_height ? walker.body().height() : 2.0 * walker.settings().radius;
   text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->size, opening->is_height ? "high " : "",
@@ -111,7 +101,7 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
     blocked_at_ = now_;
     if (blocked_for_ < calm_seconds || now_ - measured_at_ < measuring_period) return;
     measured_at_ = now_;
-    const Contact& contact = hindrance(report, wish);
+    const Contact& contact = *walking::most_against(report, wish);
     blockage_ = contact.unknown ? std::string() : describe(walker, contact, wish);
   } else if (now_ - blocked_at_ > calm_seconds || !wished) {
     blocked_for_ = 0.0;

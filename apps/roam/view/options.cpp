@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <sstream>
 
 #include "exit_status.h"
+#include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"
 
@@ -121,10 +121,7 @@ struct Written {
 };
 
 bool ends_in(const std::filesystem::path& file, std::initializer_list<const char*> extensions) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  return std::find(extensions.begin(), extensions.end(), files::lower_extension(file)) != extensions.end();
 }
 
 /// Refuses names that say no kind of picture or film that can be made.

@@ -66,11 +66,12 @@ ViewReport Session::report() {
     report.path_ended = replay_->ended();
     report.waypoints = replay_->waypoints();
   }
-  report.steps = log_.steps();
-  report.simulated = log_.simulated();
-  report.length = log_.length();
-  report.throttled = log_.throttled();
-  report.least_clearance = log_.least_clearance();
+  const Tally& tally = log_.tally();
+  report.steps = tally.steps;
+  report.simulated = tally.simulated;
+  report.length = tally.length;
+  report.throttled = tally.throttled;
+  if (tally.least_clearance > 0.0) report.least_clearance = tally.least_clearance;
   report.frames = frames_;
   constexpr double ns_in_ms = 1e-6;
   report.frame_ms = times(stage_->frame_times(), ns_in_ms);

@@ -45,13 +45,12 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::fu
 
 SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
   SceneAndStore what{scene, store, false};
-  const auto is_store = [](const std::filesystem::path& path) { return Store::is_store(path); };
-  if (!store.empty() && !is_store(store)) {
+  if (!store.empty() && !Store::is_store(store)) {
     throw UsageError(fmt::format("--store {}: there is no store there; `roam build {} -o {}` makes it", store.string(),
                                  scene.names(), store.string()));
   }
   const auto& scenes = scene.scenes;
-  if (std::none_of(scenes.begin(), scenes.end(), is_store)) {
+  if (!scene.name_a_store()) {
     scene.check_there();
     return what;
   }

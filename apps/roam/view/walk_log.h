@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "roam/tally.h"
 #include "roam/walker.h"
 #include "view/histogram.h"
 #include "walk_record.h"
@@ -20,20 +21,16 @@ class WalkLog {
   /// An empty path: no trace. `keep_pieces`: for verify().
   WalkLog(const std::filesystem::path& trace, bool keep_pieces);
 
-  /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost and of a body that is held
-  /// stand in the trace, but are nothing that could be verified.
+  /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost stand in the trace,
+  /// but are nothing that could be verified.
   void take(const StepReport& report, Mode mode, double seconds);
   /// The time that all steps of a frame took, ns: by the clock, and what their thread itself used of it.
   void take_frame(std::int64_t passed, std::int64_t own);
   /// Writes what is left. Throws roam::Error when not all of the trace could be written.
   void finish();
 
-  [[nodiscard]] std::uint64_t steps() const { return steps_; }
-  [[nodiscard]] double simulated() const { return simulated_; }  ///< seconds
-  [[nodiscard]] double length() const { return length_; }        ///< metres moved, placements left out
-  [[nodiscard]] std::uint64_t throttled() const { return throttled_; }
-  /// Metres, certified, of all that was neither ghost nor held; none before the first such step.
-  [[nodiscard]] const std::optional<double>& least_clearance() const { return least_clearance_; }
+  /// Of the steps and placements; a ghost has no clearance.
+  [[nodiscard]] const Tally& tally() const { return tally_; }
   /// For verify(), once.
   [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
   [[nodiscard]] const Histogram& collision_times() const { return collision_; }          ///< ns a frame with steps
@@ -45,11 +42,7 @@ class WalkLog {
   std::vector<Piece> pieces_;
   Histogram collision_, own_collision_;
   std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
-  std::uint64_t steps_ = 0;
-  std::uint64_t throttled_ = 0;
-  double simulated_ = 0.0;
-  double length_ = 0.0;
-  std::optional<double> least_clearance_;
+  Tally tally_;
 };
 
 }  // namespace roam::app

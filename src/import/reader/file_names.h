@@ -2,21 +2,19 @@
 /// \file
 /// What names of files say: the format, and other spellings; and the folder for temporary files.
 
-#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "files/extension.h"
+
 namespace roam::reader {
 
 /// In lower case and without the dot.
 [[nodiscard]] inline std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  const std::string extension = files::lower_extension(path);
+  return extension.empty() ? extension : extension.substr(1);
 }
 
 /// A name in which % and two hexadecimal digits stand for a byte, as in addresses: "a%20room.bin" -> "a room.bin".

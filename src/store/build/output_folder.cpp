@@ -29,7 +29,7 @@ bool holds_results(const fs::path& store) {
   if (fs::exists(fs::symlink_status(store / current_file, error)) || fs::exists(store / plan_file, error)) return true;
   for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
     for (const auto& entry : fs::directory_iterator(store / folder, error)) {
-      if (!entry.path().filename().string().ends_with(temporary_suffix)) return true;
+      if (!entry.path().filename().string().ends_with(files::temporary_suffix)) return true;
     }
   }
   return false;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "math/nested_ball.h"
 #include "train/cracks/floor_plan.h"
 
 namespace roam::training {
@@ -11,8 +11,7 @@ namespace {
 /// Of the ball that stands on `bottom` and just touches `point`.
 double ball_to(const Vec3& bottom, const Vec3& point) {
   const Vec3 d = point - bottom;
-  if (d.z <= 0.0) return std::numeric_limits<double>::infinity();
-  return (d.x * d.x + d.y * d.y + d.z * d.z) / (2.0 * d.z);
+  return nested_ball(d.x * d.x + d.y * d.y, d.z);
 }
 
 std::vector<Contact> contacts_of(const World& world, const Body& body, const Vec3& place, double reach) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/nested_ball.h"
 #include "train/lattice/walk_place.h"
 
 namespace roam::training {
@@ -58,10 +59,8 @@ struct Held {
   }
 };
 
-/// Spheres with one lowest point are nested: the largest that has a point outside, which lies `above` that.
-double sphere_limit(double aside, double above) {
-  return above > 0.0 ? (aside * aside + above * above) / (2.0 * above) : unlimited;
-}
+/// The largest sphere that has a point outside, which lies `above` its lowest point.
+double sphere_limit(double aside, double above) { return nested_ball(aside * aside, above); }
 
 /// Spheres over a place.
 class Spheres {

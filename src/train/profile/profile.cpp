@@ -8,8 +8,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "files/whole_file.h"
 #include "roam/train.h"
-#include "train/profile/whole_file.h"
 
 namespace roam {
 namespace {
@@ -320,7 +320,7 @@ std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes
 }
 
 Profile load_profile(const std::filesystem::path& file) {
-  const std::string text = training::read_whole(file, file_limit);
+  const std::string text = files::read_whole(file, file_limit);
   const auto fail = [&](const std::string& what) -> Error {
     return Error(fmt::format("{}: {}; correct the file, or delete it and train again", file.string(), what));
   };
@@ -331,7 +331,8 @@ Profile load_profile(const std::filesystem::path& file) {
   } catch (const Json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
     const std::string what = error.what();
-    throw fail("is no JSON: " + what.substr(std::min(what.find("] ") + 2, what.size())));
+    const std::size_t tag = what.find("] ");
+    throw fail("is no JSON: " + what.substr(tag == std::string::npos ? 0 : tag + 2));
   } catch (const Error& error) {
     throw fail(error.what());
   }
@@ -354,7 +355,7 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
                                     : "correct the profile"));
   }
   // Names of objects come from files and may be any bytes.
-  training::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::optional<Profile> find_profile(const std::filesystem::path& scene) { return find_profile({&scene, 1}); }

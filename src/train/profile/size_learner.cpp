@@ -16,8 +16,6 @@
 namespace roam {
 namespace {
 
-/// How near a triangle must be to count as touched, in skins: as Route has it.
-constexpr double opening_skins = 4.0;
 /// Of half an opening's width: the body that is offered. The width is measured to a few millimetres.
 constexpr double room_part = 0.97;
 /// Metres that a foot is made larger than the disc that falls through.
@@ -167,8 +165,8 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
   if (!(length > 0.0)) return std::nullopt;
   const Vec3 ahead = flat / length;
   const double radius = walker.body().radius;
-  const auto opening =
-      walking::measure_opening(walker.space(), walker.body(), walker.position(), ahead, opening_skins * walker.skin());
+  const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), ahead,
+                                                walking::opening_skins * walker.skin());
   // Low openings are crouching's.
   if (!opening || opening->is_height) return std::nullopt;
   const double fits = room_part * 0.5 * opening->size;

@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// What the operating system refuses to do with files, in words.
+
+#include <filesystem>
+#include <string>
+
+#include "roam/error.h"
+
+namespace roam::files {
+
+/// A file that cannot be used.
+class FileError : public Error {
+ public:
+  FileError(const std::string& what, int error) : Error(what), number(error) {}
+  int number;  ///< errno
+};
+
+/// Throws FileError: "cannot <what> <file>: <why>; <what to do>". `what` is a verb, such as "read" or "write".
+[[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error);
+
+}  // namespace roam::files

@@ -1,0 +1,172 @@
+#include "files/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <utility>
+
+#include "files/file_error.h"
+
+namespace roam::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Leaves room for the process and the number in a name of 255 bytes, the most that file systems take.
+constexpr std::size_t longest_stem = 200;
+
+void demand_name(const fs::path& file) {
+  if (file.empty()) throw Error("the path of the file is empty; name the file");
+}
+
+fs::path folder_of(const fs::path& file) {
+  demand_name(file);
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+Descriptor open_folder_of(const fs::path& file) {
+  const fs::path path = folder_of(file);
+  Descriptor folder(again([&] { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+#ifdef O_PATH
+  // One that may not be listed may be written to all the same.
+  if (!folder.is_open() && errno == EACCES) {
+    folder = Descriptor(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  }
+#endif
+  if (!folder.is_open()) fail("write", file, errno);
+  return folder;
+}
+
+/// A regular file, open for reading. The folder of a scene may come from a stranger: a pipe in it would keep the reader
+/// waiting for ever, and a link could lead to a secret that a message then quotes.
+Descriptor open_regular(const fs::path& file) {
+  Descriptor opened(
+      again([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC); }));
+  if (!opened.is_open()) {
+    if (errno != ELOOP) fail("read", file, errno);
+    throw Error(fmt::format("cannot read {}: it is a link; put the file itself there", file.string()));
+  }
+  struct stat status {};
+  if (::fstat(opened.number(), &status) != 0) fail("read", file, errno);
+  if (S_ISDIR(status.st_mode)) fail("read", file, EISDIR);
+  if (S_ISREG(status.st_mode)) return opened;
+  throw Error(fmt::format("cannot read {}: it is a pipe or a device; put a file there", file.string()));
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const fs::path& file)
+    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string()) {
+  // Renaming would replace a device, and fail on a folder after all the work.
+  struct stat status {};
+  if (::fstatat(folder_.number(), name_.c_str(), &status, 0) != 0) {
+    if (errno != ENOENT) fail_to_write(errno);
+    return;
+  }
+  if (S_ISDIR(status.st_mode)) fail_to_write(EISDIR);
+  if (S_ISREG(status.st_mode)) return;
+  throw FileError(fmt::format("cannot write {}: it is a pipe or a device; name a file", file.string()), ESPIPE);
+}
+
+WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name)
+    : folder_(std::move(folder)), folder_path_(std::move(folder_path)), name_(std::move(name)) {
+  static std::atomic<std::uint64_t> number{0};
+  if (name_.empty()) fail_to_write(EISDIR);
+  while (!begin(number++)) {
+  }
+}
+
+bool WholeFile::begin(std::uint64_t number) {
+  temporary_ = fmt::format("{}.{}.{}{}", name_.substr(0, longest_stem), ::getpid(), number, temporary_suffix);
+  const int file = again([&] {
+    return ::openat(folder_.number(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  });
+  if (file < 0) {
+    const int error = errno;
+    temporary_.clear();
+    // Left by a process that had the same number, in a container perhaps.
+    if (error == EEXIST) return false;
+    fail_to_write(error);
+  }
+  file_ = Descriptor(file);
+  listed_.begin(temporary());
+  return true;
+}
+
+WholeFile::~WholeFile() {
+  if (!temporary_.empty()) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+}
+
+void WholeFile::fail_to_write(int error) const { fail("write", folder_path_ / name_, error); }
+
+void WholeFile::write(std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = again([&] { return ::write(file_.number(), bytes.data(), bytes.size()); });
+    if (written < 0) fail_to_write(errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void WholeFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        again([&] { return ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
+    if (written < 0) fail_to_write(errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
+  }
+}
+
+void WholeFile::commit_as(const std::string& name) {
+  if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);
+  // Some network file systems tell of a full disk only now.
+  const int closed = ::close(file_.release());
+  if (closed != 0 && errno != EINTR) fail_to_write(errno);
+  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str()) != 0) fail_to_write(errno);
+  temporary_.clear();
+  listed_.end();
+  sync_folder(folder_.number(), folder_path_);
+}
+
+bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final) {
+  if (!name.ends_with(temporary_suffix)) return false;
+  name.remove_suffix(temporary_suffix.size());
+  for (int i = 0; i < 2; ++i) {  // the process, and the number of the file
+    const std::size_t end = name.find_last_not_of("0123456789");
+    if (end == std::string_view::npos || end + 1 == name.size() || name[end] != '.') return false;
+    name = name.substr(0, end);
+  }
+  return is_final(name);
+}
+
+void write_whole(const fs::path& file, std::string_view text) {
+  WholeFile out(file);
+  out.write(std::as_bytes(std::span(text)));
+  out.commit();
+}
+
+std::string read_whole(const fs::path& file, std::uint64_t limit) {
+  demand_name(file);
+  const Descriptor opened = open_regular(file);
+  std::string text;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t got = again([&] { return ::read(opened.number(), piece.data(), piece.size()); });
+    if (got == 0) return text;
+    if (got < 0) fail("read", file, errno);
+    text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > limit) fail("read", file, EFBIG);
+  }
+}
+
+void sync_folder(int folder, const fs::path& path) {
+  if (again([&] { return ::fsync(folder); }) == 0) return;
+  // Some network file systems know no fsync of folders, and one opened without the right to list it has none (EBADF).
+  if (errno != EINVAL && errno != EBADF) fail("sync", path, errno);
+}
+
+}  // namespace roam::files

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// Files that are whole or as they were: written under a temporary name, synced, renamed, the folder synced.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "files/descriptor.h"
+#include "files/unfinished.h"
+
+namespace roam::files {
+
+/// A file in the making, beside its final place. It has the rights of any new file. Unless commit() succeeds it is
+/// removed with this object, and when the program is interrupted. All functions throw FileError, and go on with
+/// interrupted and short writes.
+class WholeFile {
+ public:
+  /// Throws also when the final place holds anything but a file, such as a folder or a device.
+  explicit WholeFile(const std::filesystem::path& file);
+  /// The file `name` in an open folder, whose path is for messages.
+  WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  /// The path until commit(), for what opens files by name.
+  [[nodiscard]] std::filesystem::path temporary() const { return folder_path_ / temporary_; }
+  /// Appends.
+  void write(std::span<const std::byte> bytes);
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// Syncs the file, gives it its name and syncs the folder.
+  void commit() { commit_as(name_); }
+  /// The same under another name in the same folder.
+  void commit_as(const std::string& name);
+
+ private:
+  /// A name of its own: `name`, the process, a number.
+  bool begin(std::uint64_t number);
+  [[noreturn]] void fail_to_write(int error) const;
+
+  Descriptor folder_;
+  std::filesystem::path folder_path_;
+  std::string name_, temporary_;  ///< in the folder
+  Descriptor file_;
+  Unfinished listed_;
+};
+
+/// The names of temporary files end with this.
+inline constexpr std::string_view temporary_suffix = ".unfinished";
+/// Whether a WholeFile may have left a temporary file of this name for a file whose name `is_final` accepts.
+[[nodiscard]] bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final);
+
+/// Writes a WholeFile.
+void write_whole(const std::filesystem::path& file, std::string_view text);
+/// Reads a small file. Throws FileError, also for one of more than `limit` bytes, and roam::Error for one that is a
+/// link, a pipe or a device: its folder may come from a stranger.
+[[nodiscard]] std::string read_whole(const std::filesystem::path& file, std::uint64_t limit);
+
+/// fsync of an open folder, whose path is for messages. Throws FileError.
+void sync_folder(int folder, const std::filesystem::path& path);
+
+}  // namespace roam::files

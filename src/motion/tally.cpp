@@ -1,0 +1,55 @@
+#include "roam/tally.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "math/floating_point.h"
+
+namespace roam {
+namespace {
+
+/// The sum and the length of a step, piece by piece.
+double plus_length(double sum, const StepReport& report) {
+  Vec3 at = report.from;
+  for (const Corner& c : report.corners) {
+    if (!c.teleport) sum += glm::length(c.position - at);
+    at = c.position;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double StepReport::length() const {
+  const DefaultFloatingPoint guard;
+  return plus_length(0.0, *this);
+}
+
+void Tally::add_step(const StepReport& report) {
+  const DefaultFloatingPoint guard;
+  ++steps;
+  length = plus_length(length, report);
+  simulated += report.elapsed;
+  if (report.has(EventKind::throttled) || report.has(EventKind::slowed)) ++throttled;
+  add_placement(report);
+}
+
+void Tally::add_placement(const StepReport& report) {
+  // A body that does not fit where it is has no clearance, and makes no move.
+  if (!(report.least_clearance > 0.0)) return;
+  const bool first = !(least_clearance > 0.0);
+  least_clearance = first ? report.least_clearance : std::min(least_clearance, report.least_clearance);
+  least_gap = first ? report.least_gap : std::min(least_gap, report.least_gap);
+}
+
+void EventFilter::append(std::vector<RouteEvent>& events, std::uint64_t step, const StepReport& report) {
+  std::uint32_t kinds = 0;
+  for (const Event& e : report.events) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(e.kind);
+    if (((kinds | last_kinds_) & bit) == 0) events.push_back({step, e});
+    kinds |= bit;
+  }
+  last_kinds_ = kinds;
+}
+
+}  // namespace roam

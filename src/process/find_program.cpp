@@ -1,0 +1,44 @@
+#include "process/find_program.h"
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
+namespace roam::process {
+
+namespace fs = std::filesystem;
+
+bool can_run(const fs::path& program) {
+  std::error_code none;
+  return fs::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0;
+}
+
+fs::path find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    if (can_run(program)) return program;
+  }
+  return {};
+}
+
+fs::path own_folder() {
+#ifdef __APPLE__
+  char path[4096];
+  std::uint32_t size = sizeof(path);
+  return _NSGetExecutablePath(path, &size) == 0 ? fs::path(path).parent_path() : fs::path();
+#else
+  std::error_code none;
+  return fs::read_symlink("/proc/self/exe", none).parent_path();
+#endif
+}
+
+}  // namespace roam::process

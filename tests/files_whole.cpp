@@ -1,0 +1,269 @@
+// Files that are whole or as they were, whatever the disk does.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+
+#include "files/file_error.h"
+#include "files/whole_file.h"
+#include "program.h"
+
+namespace {
+
+/// The n-th call of those below fails with this error, or is cut short where the error is 0. 0: none does.
+std::atomic<int> calls{0}, failing_call{0}, failure{0};
+std::atomic<int> umasks{0};
+
+template <class Call, class Short>
+auto counted(Call&& call, Short&& cut_short) {
+  if (++calls != failing_call) return call();
+  if (failure == 0) return cut_short();
+  errno = failure;
+  return static_cast<decltype(call())>(-1);
+}
+template <class Call>
+auto counted(Call&& call) {
+  return counted(call, call);
+}
+
+}  // namespace
+
+// These take the place of the C library's in this program.
+extern "C" ssize_t write(int fd, const void* bytes, std::size_t size) {
+  const auto call = [&](std::size_t n) { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, n)); };
+  return counted([&] { return call(size); }, [&] { return call((size + 1) / 2); });
+}
+extern "C" ssize_t pwrite(int fd, const void* bytes, std::size_t size, off_t offset) {
+  const auto call = [&](std::size_t n) { return static_cast<ssize_t>(::syscall(SYS_pwrite64, fd, bytes, n, offset)); };
+  return counted([&] { return call(size); }, [&] { return call((size + 1) / 2); });
+}
+extern "C" int fsync(int fd) {
+  return counted([&] { return static_cast<int>(::syscall(SYS_fsync, fd)); });
+}
+extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
+}
+extern "C" mode_t umask(mode_t mask) noexcept {
+  ++umasks;
+  return static_cast<mode_t>(::syscall(SYS_umask, mask));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using roam::files::WholeFile;
+using roam::files::write_whole;
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+template <class Work>
+std::string complaint(const Work& work) {
+  try {
+    work();
+  } catch (const roam::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::size_t files_in(const TestFolder& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.file("")), fs::directory_iterator()));
+}
+
+/// Writes "first second" in two pieces, the second one first.
+void write_in_pieces(const std::string& file) {
+  WholeFile out(file);
+  out.write_at(6, bytes_of("second"));
+  out.write(bytes_of("first "));
+  out.commit();
+}
+
+TEST(WholeFile, IsWholeOrAsItWasWhicheverCallFails) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.txt");
+  calls = 0;
+  failing_call = 0;
+  write_in_pieces(file);
+  const int all = calls;
+  ASSERT_GE(all, 5) << "two writes, the file's sync, the rename and the folder's sync";
+  for (const int error : {EIO, ENOSPC, EDQUOT}) {
+    for (int call = 1; call <= all; ++call) {
+      folder.write("a.txt", "old");
+      calls = 0;
+      failure = error;
+      failing_call = call;
+      const std::string said = complaint([&] { write_in_pieces(file); });
+      failing_call = 0;
+      EXPECT_NE(said.find(std::strerror(error)), std::string::npos) << "call " << call << ": " << said;
+      EXPECT_NE(said.find("roam-test-"), std::string::npos) << said;
+      // The last call is the folder's sync, after the rename.
+      EXPECT_EQ(folder.read("a.txt"), call == all ? "first second" : "old") << "call " << call;
+      EXPECT_EQ(files_in(folder), 1U) << "call " << call;
+    }
+  }
+}
+
+TEST(WholeFile, GoesOnAfterInterruptedAndShortWrites) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.txt");
+  for (const int error : {EINTR, 0}) {
+    for (int call = 1; call <= 3; ++call) {
+      calls = 0;
+      failure = error;
+      failing_call = call;
+      EXPECT_EQ(complaint([&] { write_in_pieces(file); }), "") << "call " << call;
+      failing_call = 0;
+      EXPECT_EQ(folder.read("a.txt"), "first second") << "call " << call;
+    }
+  }
+}
+
+TEST(WholeFile, SyncsBeforeItRenamesAndTakesFileSystemsThatSyncNoFolder) {
+  const TestFolder folder;
+  calls = 0;
+  write_in_pieces(folder.file("a.txt"));
+  failing_call = calls.load();
+  calls = 0;
+  failure = EINVAL;
+  EXPECT_EQ(complaint([&] { write_in_pieces(folder.file("b.txt")); }), "");
+  failing_call = 0;
+  EXPECT_EQ(folder.read("b.txt"), "first second");
+}
+
+TEST(WholeFile, HasTheRightsOfAnyNewFileAndLeavesTheProcessesMaskAlone) {
+  const TestFolder folder;
+  const mode_t before = ::umask(027);
+  const int counted_before = umasks;
+  write_whole(folder.file("a.txt"), "text");
+  EXPECT_EQ(umasks, counted_before) << "another thread's files would be writable for everybody meanwhile";
+  ::umask(before);
+  struct stat status {};
+  ASSERT_EQ(::stat(folder.file("a.txt").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST(WholeFile, TwoOfOneNameDoNotMix) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.txt");
+  WholeFile one(file), other(file);
+  EXPECT_NE(one.temporary(), other.temporary());
+  one.write(bytes_of("one"));
+  other.write(bytes_of("other"));
+  one.commit();
+  EXPECT_EQ(folder.read("a.txt"), "one");
+  other.commit();
+  EXPECT_EQ(folder.read("a.txt"), "other");
+  EXPECT_EQ(files_in(folder), 1U);
+}
+
+TEST(WholeFile, LeavesAloneWhatAProcessOfTheSameNumberLeft) {
+  const TestFolder folder;
+  std::string next;
+  {
+    const WholeFile probe(folder.file("a.txt"));
+    next = probe.temporary().filename().string();
+  }
+  // "a.txt.<process>.<number>.unfinished"
+  const std::size_t end = next.rfind('.'), begin = next.rfind('.', end - 1) + 1;
+  const int number = std::stoi(next.substr(begin, end - begin));
+  for (int i = 1; i <= 3; ++i) {
+    folder.write(next.substr(0, begin) + std::to_string(number + i) + ".unfinished", "left");
+  }
+  write_whole(folder.file("a.txt"), "new");
+  EXPECT_EQ(folder.read("a.txt"), "new");
+  EXPECT_EQ(files_in(folder), 4U);
+}
+
+TEST(WholeFile, IsRemovedWhenTheProgramMustEndAtOnce) {
+  const TestFolder folder;
+  WholeFile file(folder.file("a.txt"));
+  file.write(bytes_of("half"));
+  EXPECT_EQ(files_in(folder), 1U);
+  roam::files::Unfinished::remove_all();
+  EXPECT_EQ(files_in(folder), 0U);
+}
+
+TEST(WholeFile, IsRemovedWhenItIsNotCommitted) {
+  const TestFolder folder;
+  { WholeFile(folder.file("a.txt")).write(bytes_of("half")); }
+  EXPECT_EQ(files_in(folder), 0U);
+}
+
+TEST(WholeFile, StaysInItsFolderWhenTheProgramGoesElsewhere) {
+  const TestFolder folder, elsewhere;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.file(""));
+  {
+    WholeFile file("a.txt");
+    fs::current_path(elsewhere.file(""));
+    file.write(bytes_of("text"));
+    file.commit();
+  }
+  fs::current_path(before);
+  EXPECT_EQ(folder.read("a.txt"), "text");
+  EXPECT_EQ(files_in(elsewhere), 0U);
+}
+
+TEST(WholeFile, RefusesWhatIsNoFileBeforeAnyWork) {
+  const TestFolder folder;
+  fs::create_directory(folder.file("folder"));
+  ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/null", folder.file("device"));
+  EXPECT_NE(complaint([&] { WholeFile(folder.file("folder")); }).find("directory"), std::string::npos);
+  EXPECT_NE(complaint([&] { WholeFile(folder.file("pipe")); }).find("pipe or a device"), std::string::npos);
+  EXPECT_NE(complaint([&] { WholeFile(folder.file("device")); }).find("pipe or a device"), std::string::npos);
+  EXPECT_NE(complaint([&] { WholeFile(folder.file("absent/a.txt")); }).find("make its folder"), std::string::npos);
+  EXPECT_NE(complaint([&] { WholeFile(folder.file(std::string(300, 'a'))); }).find("too long"), std::string::npos);
+  EXPECT_NE(complaint([&] { WholeFile(""); }).find("empty"), std::string::npos);
+  EXPECT_EQ(files_in(folder), 3U);
+}
+
+TEST(WholeFile, TakesTheLongestNamesThatFileSystemsTake) {
+  const TestFolder folder;
+  const std::string name(255, 'a');
+  write_whole(folder.file(name), "text");
+  EXPECT_EQ(folder.read(name), "text");
+}
+
+TEST(WholeFile, NeedsNoRightToListItsFolder) {
+  const TestFolder folder;
+  ASSERT_EQ(::chmod(folder.file("").c_str(), 0777), 0);
+  fs::create_directory(folder.file("closed"));
+  ASSERT_EQ(::chmod(folder.file("closed").c_str(), 0333), 0);
+  constexpr uid_t nobody = 65534;
+  const bool root = ::geteuid() == 0;
+  if (root) {
+    ASSERT_EQ(::seteuid(nobody), 0);
+  }
+  const std::string said = complaint([&] { write_whole(folder.file("closed/a.txt"), "text"); });
+  if (root) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(folder.read("closed/a.txt"), "text");
+  ASSERT_EQ(::chmod(folder.file("closed").c_str(), 0777), 0);
+}
+
+TEST(WholeFile, ThreadsWriteTheirOwn) {
+  const TestFolder folder;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&, i] {
+      for (int k = 0; k < 20; ++k) write_whole(folder.file("a.txt"), std::string(1000, static_cast<char>('a' + i)));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  const std::string text = folder.read("a.txt");
+  EXPECT_EQ(text, std::string(1000, text[0]));
+  EXPECT_EQ(files_in(folder), 1U);
+}
+
+}  // namespace
