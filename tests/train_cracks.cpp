@@ -10,17 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "cracks/cracks.h"
 #include "floor_cases.h"
 #include "seeded_gallery.h"
-#include "train/cracks/cracks.h"
 
 namespace {
 
 using namespace roam;
 using namespace floors;
-using training::CrackOptions;
-using training::find_cracks;
-using training::FoundCrack;
+using cracks::CrackOptions;
+using cracks::find_cracks;
+using cracks::FoundCrack;
 
 constexpr double moved_tolerance = 2e-4;  ///< m, of radii in a scene that was moved, turned, split or doubled
 

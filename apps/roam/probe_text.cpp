@@ -8,14 +8,13 @@
 #include <cmath>
 
 #include "exit_status.h"
-#include "train/answer.h"
-#include "train/probe/search.h"
-#include "train/probe/words.h"
+#include "words/measures.h"
+#include "words/probe.h"
 
 namespace roam::app {
 namespace {
 
-using namespace training;
+using namespace words;
 using Kind = ProbeLimit::Kind;
 
 bool is_number(const std::string& text, double& value) {

@@ -19,7 +19,7 @@
 /// body violate what Walker promises.
 ///
 /// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson. Library target
-/// roam::train.
+/// roam::profile.
 
 #include <cstdint>
 #include <optional>

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "math/floating_point.h"
-#include "motion/opening.h"
 #include "roam/error.h"
+#include "roam/opening.h"
 #include "text/number.h"
 
 namespace roam {
@@ -23,9 +23,6 @@ constexpr double at_waypoint = 1e-8;
 /// Metres above the feet: a waypoint that a tall person's path has so high is one of a low body too, where it is in
 /// sight.
 constexpr double tall_person = 2.0;
-
-/// A contact is what the opening is measured from when it is within this many skins.
-constexpr double opening_skins = 4.0;
 
 bool within_limit(const Vec3& v) {  // false for what is not a number
   return std::abs(v.x) <= Space::coordinate_limit && std::abs(v.y) <= Space::coordinate_limit &&
@@ -236,10 +233,7 @@ void Route::describe_blockage(const StepReport& report) {
   Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint && !c->unknown) {
-    const double reach = opening_skins * walker_->skin();
-    const auto opening =
-        walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
-    if (opening) blockage.opening = opening->size;
+    if (const auto opening = measure_opening(*walker_, way / length)) blockage.opening = opening->width;
   }
   result_.blocked_at = blockage;
 }

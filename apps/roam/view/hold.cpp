@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "motion/opening.h"
+#include "roam/opening.h"
 #include "text/printable.h"
 
 namespace roam::app {
@@ -14,7 +14,6 @@ constexpr double news_seconds = 4.0;      // to read a sentence
 constexpr double slowed_seconds = 0.5;    // what changes from step to step is told as long as it lasts
 constexpr double calm_seconds = 0.25;     // a shorter touch is no blockage, a shorter break no end of one
 constexpr double measuring_period = 0.5;  // s
-constexpr double opening_skins = 4.0;     // what is nearer than that counts as touched, as for a Route
 constexpr double level_cosine = 0.7071;   // 45 degrees: a wall, or a floor or ceiling
 
 /// What is touched that stands most against the way.
@@ -32,12 +31,11 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
   if (!object.empty()) text += ", " + printable(object);
   const double length = glm::length(wish);
   if (length <= 0.0) return text;
-  const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
-                                                opening_skins * walker.skin());
+  const auto opening = measure_opening(walker, wish / length);
   if (!opening) return text;
-  const double needed = opening->is_height ? walker.body().height() : 2.0 * walker.settings().radius;
-  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->size, opening->is_height ? "high " : "",
-                      needed);
+  const bool is_low = opening->kind == Opening::Kind::lintel;
+  const double needed = is_low ? walker.body().height() : 2.0 * walker.settings().radius;
+  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->width, is_low ? "high " : "", needed);
   return text;
 }
 
