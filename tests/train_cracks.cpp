@@ -115,6 +115,17 @@ TEST(Cracks, AreAsWideInASurveyThatStoresTo2Millimetres) {
   }
 }
 
+TEST(Cracks, ArePitsForSmallFeetToo) {
+  for (const double foot : {0.3, 0.4, 0.6, 0.8}) {
+    SCOPED_TRACE(foot);
+    const Survey survey = survey_of(holed({rectangle(3.0, 2.0, 5.0, 4.0)}));
+    const auto found =
+        find_cracks(survey, {.support_max = foot, .threads = 1}, [](const Vec3& p) { return p.z > -0.35; });
+    EXPECT_TRUE(radii(found, Crack::Kind::crack).empty());
+    EXPECT_FALSE(radii(found, Crack::Kind::open_drop).empty());
+  }
+}
+
 TEST(Cracks, OfSeededGalleriesAreTheSplitsTheyWereMadeWith) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);

@@ -123,6 +123,7 @@ bool takes_in(const CrackOptions& options, const VoidProbe& probe, const Vec3& c
     for (const double share : {0.5, 0.25, 0.75}) {
       const Vec3 between(place.x + share * (centre.x - place.x), place.y + share * (centre.y - place.y), place.z);
       const double least = start + corner_rate * share * distance;
+      if (!(least > 0.0)) continue;  // as far as that from floor is anything
       if (probe.floor().nearest(between, least).distance < least) return false;
     }
   }
