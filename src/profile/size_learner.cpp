@@ -184,8 +184,8 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
     lesson.region.bounds.include(place + room);
   }
   lesson.region.bounds.include(walker.feet());
+  lesson.width = opening->width;
   lesson.region.why = fmt::format("opening {:.2f} m wide", opening->width);
-  lesson.why = fmt::format("{}: a body of {:.2f} m here", lesson.region.why, fits);
   return lesson;
 }
 
@@ -205,7 +205,7 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
   lesson.at = walker.position();
   lesson.support_radius = std::min(high + support_margin, limits_.support_max);
   if (!carried_at(walker, lesson.support_radius, firm_at_, lost_at_)) return std::nullopt;
-  lesson.why = fmt::format("gap of the floor {:.2f} m wide: a foot of {:.2f} m", 2.0 * high, lesson.support_radius);
+  lesson.width = 2.0 * high;
   return lesson;
 }
 
