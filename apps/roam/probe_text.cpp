@@ -66,6 +66,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
                              : limit.kind == Kind::step                       ? "step_m"
                                                                               : "width_m";
     if (limit.kind != Kind::apart) opening[size] = limit.size;
+    if (limit.kind == Kind::height && limit.width > 0.0) opening["width_m"] = limit.width;
     opening["missing_m"] = limit.kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
     opening["direction"] = to_json(limit.direction);
     opening["along_m"] = limit.along;

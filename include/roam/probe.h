@@ -86,6 +86,7 @@ struct ProbeLimit {
   Vec3 feet{0.0};        ///< where the body stands there; flying: its centre
   double size = 0.0;     ///< what there is
   double needed = 0.0;   ///< what the body needs; of a step what it climbs
+  double width = 0.0;    ///< of a height: how wide it is there for a body that passes; 0: not known, or not narrow
   double along = 0.0;    ///< of the way up to there
   bool too_low = false;  ///< of an end: a headroom is measured, not a distance
 };

@@ -7,6 +7,7 @@
 
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/search.h"
+#include "ways/refine/stations.h"
 #include "ways/trials/on_way.h"
 
 namespace roam::ways {
@@ -129,6 +130,30 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
   return limit;
 }
 
+/// How wide a way is where it is lowest, for the bodies of that search: 0 where that is not known, or nothing narrows
+/// it.
+double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const ProbeLimit& lowest, double radius) {
+  const Measure measure = search.measure();
+  Station narrowest{lowest.feet, measure.widest, false};
+  double gone = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const Vec3 run = way[i + 1] - way[i];
+    const double length = glm::length(run);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
+    for (int k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      if (std::abs(gone + part * length - lowest.along) > radius) continue;
+      const Station here = station_at(search.survey, measure, way[i] + part * run);
+      if (here.free < narrowest.free) narrowest = here;
+    }
+    gone += length;
+  }
+  if (narrowest.free >= measure.widest || !(narrowest.free > 0.0)) return 0.0;
+  const double reach = search.options.spacing;
+  const double widest = widest_beside(search.survey, measure, narrowest, lowest.heading, reach).free;
+  return widest < measure.widest ? 2.0 * widest : 0.0;
+}
+
 /// The heights of the floors within `rise_reach` of where a way breaks off, ascending.
 std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) {
   const double above = search.options.height;
@@ -230,12 +255,16 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   if (search.options.mode != Mode::walk || tall == 0.0 || low >= tall) return std::nullopt;
   ProbeSearch lower = search;
   std::optional<ProbeLimit> best;
+  std::vector<Vec3> way;
   const auto passes = [&](double height) {
     lower.options.height = height;
     const Passage passage = lower.widest();
     if (!passage.found || passage.radius < radius) return false;
     const ProbeLimit found = lowest(lower, passage.way, radius, tall + headroom_beyond);
-    if (!best || found.size > best->size) best = found;
+    if (!best || found.size > best->size) {
+      best = found;
+      way = passage.way;
+    }
     low = std::max(height, best->size < tall ? best->size : 0.0);
     return true;
   };
@@ -250,6 +279,8 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   best->size = low;
   best->needed = tall;
   best->point = best->feet + Vec3(0.0, 0.0, 0.5 * low);
+  lower.options.height = low - precision;
+  best->width = width_at(lower, way, *best, radius);
   return best;
 }
 
