@@ -283,6 +283,8 @@ TEST(ProbeVerb, MeasuresTheHeightOfALintelThatStopsTheBody) {
   const Json low = probe.json();
   EXPECT_EQ(low["opening"]["kind"], "height") << low["answer"];
   EXPECT_NEAR(low["opening"]["height_m"].get<double>(), 2.1, 1e-3);
+  ASSERT_TRUE(low["opening"].contains("width_m")) << low["opening"];
+  EXPECT_NEAR(low["opening"]["width_m"].get<double>(), 0.9, 1e-3);
   EXPECT_NEAR(low["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
   EXPECT_NEAR(low["opening"]["point"][0].get<double>(), 10.0, 0.31);  // below the lintel, by the body's radius
   EXPECT_TRUE(contains(low["answer"], "passes up to a height of 2.100 m; 0.100 m are missing")) << low["answer"];

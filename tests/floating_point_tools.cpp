@@ -14,6 +14,7 @@
 #include "same_bits.h"
 #include "store_builds.h"
 #include "store_made.h"
+#include "words/probe.h"
 
 namespace {
 
@@ -75,7 +76,7 @@ TEST(FloatingPoint, WaysAndTraining) {
       bits(static_cast<std::uint64_t>(answer.passable));
       bits(answer.missing);
       add(bits, answer.passage);
-      for (const char c : roam::explain(question, answer)) bits(static_cast<std::uint64_t>(c));
+      for (const char c : roam::words::explain(question, answer)) bits(static_cast<std::uint64_t>(c));
     }
   });
 }

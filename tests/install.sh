@@ -3,7 +3,8 @@
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
-#   install.sh train   SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
+#   install.sh training SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
+#   install.sh profile SOURCE PREFIX WORK CXX   builds a program that only keeps and applies a profile: it links the core
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh package SOURCE PREFIX WORK CXX   asks find_package for versions and components that are there and that are not
@@ -51,13 +52,49 @@ case $what in
     expect 'up to date' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
     expect 'reached after 9.9 m, 16 MB' "$work/build/walk_a_store" "$work/floor.obj" "$work/floor.roam" "$work/across.path"
     ;;
-  train)
+  training)
     build train_a_scene
     # A room of 9 m by 5 m by 3 m.
     printf 'v 0 0 0\nv 9 0 0\nv 9 5 0\nv 0 5 0\nv 0 0 3\nv 9 0 3\nv 9 5 3\nv 0 5 3\n' > "$work/room.obj"
     printf 'f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n' >> "$work/room.obj"
     expect 'radius of 0.300 m' "$work/build/train_a_scene" "$work/room.obj"
     [[ -s $work/room.obj.roam.json ]]
+    ;;
+  profile)
+    mkdir "$work/example"
+    cat > "$work/example/CMakeLists.txt" << 'END'
+cmake_minimum_required(VERSION 3.22)
+project(apply_a_profile LANGUAGES CXX)
+find_package(roam REQUIRED COMPONENTS profile)
+foreach(other IN ITEMS store import ways training)
+  if(TARGET roam::${other})
+    message(FATAL_ERROR "roam::profile brings roam::${other}")
+  endif()
+endforeach()
+add_executable(apply_a_profile main.cpp)
+target_link_libraries(apply_a_profile PRIVATE roam::profile)
+END
+    cat > "$work/example/main.cpp" << 'END'
+#include <cstdio>
+#include <roam/profile.h>
+#include <roam/size_learner.h>
+
+int main(int, char** argv) {
+  const roam::Mesh floor{"floor", {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}};
+  roam::Profile profile;
+  profile.scene = roam::identity_of({&floor, 1});
+  profile.radius = 0.25;
+  profile.height = 1.7;
+  roam::save_profile(profile, argv[1]);
+  const roam::SizeLearner learner(roam::load_profile(argv[1]));
+  const roam::WalkerSettings body = roam::apply(learner.profile(), {});
+  std::printf("a body of %.2f m, %.1f m high\n", body.radius, body.height);
+}
+END
+    cmake -S "$work/example" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+      -DCMAKE_CXX_FLAGS="-std=c++20 -Wall -Wextra -Werror" > "$work/log" || { cat "$work/log"; exit 1; }
+    cmake --build "$work/build" >> "$work/log" || { cat "$work/log"; exit 1; }
+    expect 'a body of 0.25 m, 1.7 m high' "$work/build/apply_a_profile" "$work/floor.json"
     ;;
   osg_one_line)
     build osg_one_line
@@ -102,7 +139,7 @@ case $what in
       said=$(tr -s ' \n' ' ' <<< "$said")
       [[ $said == *"$1"* ]] || { echo "$said"; echo "expected: $1"; exit 1; }
     }
-    for component in roam path import generate store train osg; do
+    for component in roam path import generate store ways profile training osg; do
       request=REQUIRED
       [[ $component == roam ]] || request="REQUIRED COMPONENTS $component"
       expect "Generating done" configure "$request" "get_target_property(kind roam::$component TYPE)

@@ -17,6 +17,7 @@
 #include "roam/sweep.h"
 #include "roam/walker.h"
 #include "roam/world.h"
+#include "words/probe.h"
 
 namespace {
 

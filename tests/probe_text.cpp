@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "words/probe.h"
+
 namespace {
 
 using namespace roam;

@@ -10,17 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "cracks/cracks.h"
 #include "floor_cases.h"
 #include "seeded_gallery.h"
-#include "train/cracks/cracks.h"
 
 namespace {
 
 using namespace roam;
 using namespace floors;
-using training::CrackOptions;
-using training::find_cracks;
-using training::FoundCrack;
+using cracks::CrackOptions;
+using cracks::find_cracks;
+using cracks::FoundCrack;
 
 constexpr double moved_tolerance = 2e-4;  ///< m, of radii in a scene that was moved, turned, split or doubled
 
@@ -112,6 +112,17 @@ TEST(Cracks, AreAsWideInASurveyThatStoresTo2Millimetres) {
   for (const FloorCase& c : floor_cases()) {
     SCOPED_TRACE(c.name);
     expect_made(c, find_cracks(survey_of(c.mesh, false), {}, c.is_reached), std::max(c.tolerance, moved_tolerance));
+  }
+}
+
+TEST(Cracks, ArePitsForSmallFeetToo) {
+  for (const double foot : {0.3, 0.4, 0.6, 0.8}) {
+    SCOPED_TRACE(foot);
+    const Survey survey = survey_of(holed({rectangle(3.0, 2.0, 5.0, 4.0)}));
+    const auto found =
+        find_cracks(survey, {.support_max = foot, .threads = 1}, [](const Vec3& p) { return p.z > -0.35; });
+    EXPECT_TRUE(radii(found, Crack::Kind::crack).empty());
+    EXPECT_FALSE(radii(found, Crack::Kind::open_drop).empty());
   }
 }
 

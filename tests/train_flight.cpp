@@ -6,6 +6,7 @@
 
 #include "flight_scenes.h"
 #include "roam/train.h"
+#include "words/training.h"
 
 namespace {
 
@@ -13,6 +14,7 @@ using roam::Mesh;
 using roam::Mode;
 using roam::Outcome;
 using roam::Training;
+using roam::words::answer;
 
 constexpr double wanted_error = 5e-4;  // m
 
@@ -24,16 +26,16 @@ Training trained(const Mesh& mesh, double spacing = 0.2) {
 
 /// One answer, which all trials bear out.
 void expect_proven(const Training& t) {
-  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.feasible) << answer(t);
   EXPECT_TRUE(t.complete);
-  EXPECT_TRUE(t.contradictions.empty()) << t.contradictions[0];
+  EXPECT_TRUE(t.contradictions.empty()) << roam::words::contradiction(t.contradictions.front());
   EXPECT_GE(t.paths.size(), 5u);
 }
 
 void expect_largest(const Training& t, double radius) {
   expect_proven(t);
-  ASSERT_TRUE(t.largest) << t.answer;
-  EXPECT_NEAR(*t.largest, radius, wanted_error) << t.answer;
+  ASSERT_TRUE(t.largest) << answer(t);
+  EXPECT_NEAR(*t.largest, radius, wanted_error) << answer(t);
 }
 
 TEST(TrainFlight, ADuctDecidesAndNoEndOfAPathInIt) {
@@ -60,7 +62,7 @@ TEST(TrainFlight, RoomsWithoutAWayBetweenThemAreTwoParts) {
 TEST(TrainFlight, UnderTheSkyWhatIsOpenIsTrainedAndNotTheInsideOfBlocks) {
   const Training t = trained(flight::open_country(2), 0.4);
   expect_proven(t);
-  EXPECT_FALSE(t.largest) << t.answer;
+  EXPECT_FALSE(t.largest) << answer(t);
   for (const roam::TrainedPath& path : t.paths) {
     for (const roam::Vec3& place : path.way) {
       const double x = std::fmod(place.x, 16.0), y = std::fmod(place.y, 16.0);

@@ -9,9 +9,12 @@
 #include "roam/passage.h"
 #include "roam/route.h"
 #include "roam/train.h"
+#include "words/training.h"
 
 namespace roam::test {
 namespace {
+
+using words::answer;
 
 Survey survey_of(const std::string& scene) {
   return Survey::build(import_scene(test_data() / scene).meshes, {.lossless = true, .progress = {}});
@@ -81,8 +84,8 @@ TEST(FlyRealScenes, TrainsInAMineAndNoTrialContradictsIt) {
   TrainOptions options;
   options.mode = Mode::fly;
   const Training t = train(survey_of("underground/pittsburgh_mine.dae"), options);
-  EXPECT_TRUE(t.feasible) << t.answer;
-  EXPECT_TRUE(t.contradictions.empty()) << t.contradictions.front();
+  EXPECT_TRUE(t.feasible) << answer(t);
+  EXPECT_TRUE(t.contradictions.empty()) << roam::words::contradiction(t.contradictions.front());
 }
 
 }  // namespace

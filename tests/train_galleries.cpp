@@ -6,7 +6,8 @@
 #include "roam/passage.h"
 #include "roam/train.h"
 #include "seeded_gallery.h"
-#include "train/trials/trials.h"
+#include "ways/trials/trials.h"
+#include "words/training.h"
 
 namespace {
 
@@ -14,8 +15,9 @@ using roam::Outcome;
 using roam::Survey;
 using roam::Training;
 using roam::TrainOptions;
-using roam::training::BodyKind;
-using roam::training::try_way;
+using roam::ways::BodyKind;
+using roam::ways::try_way;
+using roam::words::answer;
 
 constexpr double height = 1.9;
 constexpr double foot_margin = 0.02;
@@ -46,7 +48,7 @@ TEST_P(TrainedGallery, HasBothEndsAndBodiesProveThem) {
   EXPECT_NEAR(g.training.smallest, lower, 0.001);
   EXPECT_EQ(g.training.feasible, lower <= upper);
   EXPECT_TRUE(g.training.complete);
-  EXPECT_TRUE(g.training.contradictions.empty()) << g.training.answer;
+  EXPECT_TRUE(g.training.contradictions.empty()) << answer(g.training);
 
   EXPECT_EQ(g.tried(0.97 * upper, lower + foot_margin), Outcome::reached);
   EXPECT_EQ(g.tried(1.02 * upper, lower + foot_margin), Outcome::blocked);

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "train/trials/on_way.h"
+#include "ways/trials/on_way.h"
 
 namespace {
 
 using roam::Mode;
 using roam::Vec3;
-using roam::training::nearest_on;
-using roam::training::OnWay;
+using roam::ways::nearest_on;
+using roam::ways::OnWay;
 
 TEST(OnWay, IsTheNearestPlaceOfAllPieces) {
   const std::vector<Vec3> way{{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 4.0, 0.0}};

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "train/paper.h"
-#include "train/trials/trials.h"
 #include "train_scenes.h"
+#include "training/paper.h"
+#include "ways/trials/trials.h"
 
 namespace {
 
@@ -14,9 +14,9 @@ using roam::Survey;
 using roam::Trial;
 using roam::Vec3;
 using roam::training::adjust_radius;
-using roam::training::BodyKind;
 using roam::training::PaperOptions;
 using roam::training::PaperResult;
+using roam::ways::BodyKind;
 using Ending = PaperResult::Ending;
 
 /// A path that bodies of [smallest, largest] pass.
@@ -104,7 +104,7 @@ TEST(AdjustedRadius, EndsWhenItIsToldTo) {
 constexpr BodyKind sphere{};
 
 Trial tried(const Survey& survey, double radius, const std::vector<Vec3>& way, const BodyKind& kind = sphere) {
-  return roam::training::try_way(survey, kind, radius, 0.0, way);
+  return roam::ways::try_way(survey, kind, radius, 0.0, way);
 }
 
 TEST(ATrial, IsBlockedByADoorThatIsTooNarrowAndPassesAWiderOne) {

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "roam/passage.h"
-#include "train/trials/trials.h"
 #include "walker_scenes.h"
+#include "ways/trials/trials.h"
 
 namespace {
 
@@ -15,8 +15,8 @@ using namespace scenes;
 using roam::Outcome;
 using roam::Passage;
 using roam::Survey;
-using roam::training::BodyKind;
-using roam::training::try_way;
+using roam::ways::BodyKind;
+using roam::ways::try_way;
 
 constexpr double height = 1.8, person = 0.3;
 

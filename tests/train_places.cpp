@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "train/places/inside.h"
-#include "train/places/places.h"
 #include "train_shells.h"
+#include "training/places/inside.h"
+#include "training/places/places.h"
 
 namespace roam::training {
 namespace {
@@ -175,7 +175,7 @@ TEST(TrainPlaces, WhatIsTooLargeIsCutAndSaysSo) {
 }
 
 /// Each place that a tree reached is in one component, and hangs together with its root.
-void expect_no_place_is_lost(const WidestTree& tree, const std::vector<Component>& components) {
+void expect_no_place_is_lost(const ways::WidestTree& tree, const std::vector<Component>& components) {
   std::vector<int> times(tree.size(), 0);
   for (const Component& c : components) {
     for (std::size_t i = 0; i < c.nodes.size(); ++i) {
@@ -186,8 +186,8 @@ void expect_no_place_is_lost(const WidestTree& tree, const std::vector<Component
     }
   }
   std::size_t lost = 0, twice = 0;
-  for (NodeId id = 0; id < tree.size(); ++id) {
-    if (tree.root(id) != no_node && times[id] == 0) ++lost;
+  for (ways::NodeId id = 0; id < tree.size(); ++id) {
+    if (tree.root(id) != ways::no_node && times[id] == 0) ++lost;
     if (times[id] > 1) ++twice;
   }
   EXPECT_EQ(lost, 0u);
@@ -213,7 +213,7 @@ TEST(TrainPlaces, AreTheSameForAnyNumberOfThreads) {
   const auto found = [&](int threads, std::uint64_t most) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     const Look look(mesh, 0.2, most);
-    std::vector<std::vector<NodeId>> nodes;
+    std::vector<std::vector<ways::NodeId>> nodes;
     for (const Component& c : look.components) nodes.push_back(c.nodes);
     return nodes;
   };
@@ -256,8 +256,8 @@ TEST(TrainPlaces, TheTopOfSolidGroundIsAScene) {
 
 TEST(TrainPlaces, EndedEarlyItAnswersWhatWasFound) {
   const Survey survey = Survey::build({two_rooms()});
-  const Measure measure = shells::person();
-  WidestTree tree(survey, measure, 0.2);
+  const ways::Measure measure = shells::person();
+  ways::WidestTree tree(survey, measure, 0.2);
   int asked = 0;
   const auto found = find_components(survey, measure, tree, 1, [&](double) { return ++asked < 4; });
   EXPECT_LT(tree.size(), 2000u);
@@ -270,7 +270,7 @@ TEST(TrainPlaces, AreNotToldToBeFoundBeforeTheyAre) {
   Mesh mesh;
   shells::add_room(mesh, {0, 0, 0}, {50, 50, 3});
   const Survey survey = Survey::build({mesh});
-  WidestTree tree(survey, shells::person(), 0.2);
+  ways::WidestTree tree(survey, shells::person(), 0.2);
   double told = 0.0;
   std::size_t places_early = 0;
   (void)find_components(survey, shells::person(), tree, 1, [&](double done) {
@@ -301,13 +301,13 @@ TEST(TrainPlaces, TheOrderOfTrianglesAndAPlaceFarAwayChangeNothing) {
 
 TEST(TrainPlaces, FlyingTheClosedIsInsideAndTheAirAroundIsNot) {
   const Survey survey = Survey::build({house()}, {.threads = 1, .lossless = true, .progress = {}});
-  Measure measure;
+  ways::Measure measure;
   measure.mode = Mode::fly;
   measure.narrowest = 0.2;
   Box within = survey.world().bounds();
   within.lower -= Vec3(2.0);
   within.upper += Vec3(2.0);
-  WidestTree tree(survey, measure, 0.4, within);
+  ways::WidestTree tree(survey, measure, 0.4, within);
   const auto found = find_components(survey, measure, tree, 1);
   ASSERT_FALSE(found.empty());
   for (const Component& c : found) {

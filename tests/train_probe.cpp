@@ -9,6 +9,7 @@
 #include "messages.h"
 #include "roam/probe.h"
 #include "walker_scenes.h"
+#include "words/probe.h"
 
 namespace {
 

@@ -11,9 +11,12 @@
 #include "roam/probe.h"
 #include "roam/route.h"
 #include "roam/train.h"
+#include "words/training.h"
 
 namespace roam::test {
 namespace {
+
+using words::answer;
 
 Survey survey_of(const std::string& file, const ImportOptions& reading) {
   return Survey::build(import_scene(test_data() / file, reading).meshes, {.lossless = true, .progress = {}});
@@ -43,17 +46,17 @@ TEST(RealAnswers, DoorsOfAnOfficeAreAsWideAsMeasuredByHand) {
 TEST(RealAnswers, AnOfficeWithAPorchNeedsNoFoot) {
   ROAM_NEEDS_TEST_DATA();
   const Training t = train(survey_of("building/willowgarage_visual.dae", {.unit = LengthUnit::in}), {.height = 1.8});
-  EXPECT_TRUE(t.feasible) << t.answer;
-  EXPECT_EQ(t.support_radius, 0.0) << t.answer;
+  EXPECT_TRUE(t.feasible) << answer(t);
+  EXPECT_EQ(t.support_radius, 0.0) << answer(t);
   ASSERT_TRUE(t.largest);
-  EXPECT_NEAR(*t.largest, 12 * 0.0254, 1e-3) << t.answer;
+  EXPECT_NEAR(*t.largest, 12 * 0.0254, 1e-3) << answer(t);
 }
 
 TEST(RealAnswers, TheFootForTheGapInAScannedFloorCarriesOverItAndASmallerOneFalls) {
   ROAM_NEEDS_TEST_DATA();
   const Survey room = survey_of("scan/icl_nuim_living_room_kt2.ply", {.up = UpAxis::y});
   const Training t = train(room, {.height = 1.8});
-  EXPECT_TRUE(t.feasible) << t.answer;
+  EXPECT_TRUE(t.feasible) << answer(t);
   const std::array<Vec3, 4> over_the_gap{
       {{2.1, 1.43, -0.42}, {2.9, 1.43, -0.42}, {2.9, 1.9, -0.42}, {2.2, 1.9, -0.42}}};
   const auto goes = [&](double foot) {
@@ -64,7 +67,7 @@ TEST(RealAnswers, TheFootForTheGapInAScannedFloorCarriesOverItAndASmallerOneFall
     Walker walker(room.world(), body, Mode::walk, over_the_gap.front());
     return follow(walker, over_the_gap).outcome;
   };
-  EXPECT_EQ(goes(t.support_radius), Outcome::reached) << t.answer;
+  EXPECT_EQ(goes(t.support_radius), Outcome::reached) << answer(t);
   EXPECT_EQ(goes(0.85), Outcome::fell) << "as large as the gap is not enough";
   EXPECT_EQ(goes(0.0), Outcome::fell);
 }

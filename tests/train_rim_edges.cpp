@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "cracks/rim_edges.h"
 #include "floor_cases.h"
-#include "train/cracks/rim_edges.h"
 
 namespace {
 
@@ -21,9 +21,9 @@ using floors::FloorCase;
 using roam::Mesh;
 using roam::Survey;
 using roam::Vec3;
-using roam::training::find_cracks;
-using roam::training::FoundCrack;
-using roam::training::RimEdges;
+using roam::cracks::find_cracks;
+using roam::cracks::FoundCrack;
+using roam::cracks::RimEdges;
 
 Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
 

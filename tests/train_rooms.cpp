@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "train/places/places.h"
-#include "train/places/regions.h"
 #include "train_shells.h"
+#include "training/places/places.h"
+#include "training/places/regions.h"
 
 namespace roam::training {
 namespace {
@@ -71,10 +71,10 @@ void expect_four_rooms(const Look& look, double radius) {
   }
   EXPECT_EQ(found.dead_ends(), 2u);
   // Each place is in one room or one neck.
-  std::multiset<NodeId> all;
+  std::multiset<ways::NodeId> all;
   for (const Room& r : found.rooms) all.insert(r.nodes.begin(), r.nodes.end());
   for (const Neck& n : found.necks) all.insert(n.nodes.begin(), n.nodes.end());
-  EXPECT_EQ(std::vector<NodeId>(all.begin(), all.end()), scene.nodes);
+  EXPECT_EQ(std::vector<ways::NodeId>(all.begin(), all.end()), scene.nodes);
 }
 
 TEST(TrainRooms, AGalleryWithADoorAndTwoGrottosHasFourRoomsAndThreeNecks) {
@@ -131,7 +131,7 @@ TEST(TrainPaths, AGrottoOfTwoThousandthsOfTheFloorIsOnAPathForEverySeed) {
     EXPECT_EQ(paths.size(), 5u);
     const bool met = std::any_of(paths.begin(), paths.end(), [&](const Ends& ends) {
       const auto way = look.tree.way(ends.from, ends.to);
-      return std::any_of(way.begin(), way.end(), [&](NodeId id) { return look.tree.node(id).place.y < -0.3; });
+      return std::any_of(way.begin(), way.end(), [&](ways::NodeId id) { return look.tree.node(id).place.y < -0.3; });
     });
     EXPECT_TRUE(met) << "seed " << seed;
   }
@@ -144,14 +144,14 @@ TEST(TrainPaths, EveryRoomIsOnOneAndEveryNeckIsCrossed) {
   for (const int count : {0, 1, 2, 7}) {
     const auto paths = draw_paths(look.tree, scene, rooms, count, 3);
     EXPECT_EQ(paths.size(), count == 0 ? 5u : static_cast<std::size_t>(count));
-    std::set<NodeId> met;
+    std::set<ways::NodeId> met;
     for (const Ends& ends : paths) {
       EXPECT_NE(ends.from, ends.to);
       const auto way = look.tree.way(ends.from, ends.to);
       met.insert(way.begin(), way.end());
     }
-    const auto meets = [&](const std::vector<NodeId>& nodes) {
-      return std::any_of(nodes.begin(), nodes.end(), [&](NodeId id) { return met.count(id) == 1; });
+    const auto meets = [&](const std::vector<ways::NodeId>& nodes) {
+      return std::any_of(nodes.begin(), nodes.end(), [&](ways::NodeId id) { return met.count(id) == 1; });
     };
     for (const Room& r : rooms.rooms) EXPECT_TRUE(meets(r.nodes)) << count;
     for (const Neck& n : rooms.necks) EXPECT_TRUE(meets(n.nodes)) << count;
@@ -163,8 +163,8 @@ TEST(TrainPaths, EndsStandWhereItIsWide) {
   const Component& scene = scene_of(look);
   const Rooms rooms = find_rooms(look.survey, look.measure, look.tree, scene);
   for (const Ends& ends : draw_paths(look.tree, scene, rooms, 20, 1)) {
-    for (const NodeId end : {ends.from, ends.to}) {
-      const Node& node = look.tree.node(end);
+    for (const ways::NodeId end : {ends.from, ends.to}) {
+      const ways::Node& node = look.tree.node(end);
       EXPECT_GT(node.clearance, node.place.y < 0.0 ? 0.4F : 0.79F);
     }
   }
@@ -175,7 +175,7 @@ TEST(TrainPaths, TheSameSeedDrawsTheSameAndAnotherSeedOthers) {
   const Component& scene = scene_of(look);
   const Rooms rooms = find_rooms(look.survey, look.measure, look.tree, scene);
   const auto drawn = [&](std::uint64_t seed) {
-    std::vector<NodeId> all;
+    std::vector<ways::NodeId> all;
     for (const Ends& ends : draw_paths(look.tree, scene, rooms, 0, seed)) all.insert(all.end(), {ends.from, ends.to});
     return all;
   };

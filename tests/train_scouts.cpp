@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "seeded_gallery.h"
-#include "train/lattice/lattice.h"
+#include "ways/lattice/lattice.h"
 
 namespace {
 
 using roam::Survey;
 using roam::Vec3;
-using roam::training::AheadLimits;
-using roam::training::Measure;
-using roam::training::NodeId;
-using roam::training::WidestTree;
+using roam::ways::AheadLimits;
+using roam::ways::Measure;
+using roam::ways::NodeId;
+using roam::ways::WidestTree;
 
 /// All that is known of a lattice that was grown whole, or until `most` places were known and then whole.
 struct Grown {
@@ -34,12 +34,12 @@ Scouted grown(const seeded::Gallery& gallery, const Measure& measure, std::uint6
               const AheadLimits& ahead = {}) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const Survey survey = Survey::build({gallery.mesh}, {.threads = 1, .lossless = true, .progress = {}});
-  WidestTree tree(survey, measure, 0.2, roam::training::everywhere, ahead);
+  WidestTree tree(survey, measure, 0.2, roam::ways::everywhere, ahead);
   const auto root = tree.seed(gallery.from);
   Grown found;
   if (!root) return {};
-  tree.grow(*root, roam::training::no_node, [&](std::uint64_t places) { return places < most; });
-  tree.grow(*root, roam::training::no_node);
+  tree.grow(*root, roam::ways::no_node, [&](std::uint64_t places) { return places < most; });
+  tree.grow(*root, roam::ways::no_node);
   for (NodeId id = 0; id < tree.size(); ++id) {
     found.places.push_back(tree.node(id).place);
     found.clearances.push_back(tree.node(id).clearance);
@@ -91,7 +91,7 @@ TEST(Scouts, AreWaitedForWhereALatticeEndsBeforeThem) {
     WidestTree tree(survey, {.height = 1.9}, 0.2);
     const auto root = tree.seed(gallery.from);
     ASSERT_TRUE(root);
-    EXPECT_FALSE(tree.grow(*root, roam::training::no_node, [&](std::uint64_t places) { return places < 100; }));
+    EXPECT_FALSE(tree.grow(*root, roam::ways::no_node, [&](std::uint64_t places) { return places < 100; }));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "train/places/places.h"
+#include "training/places/places.h"
 #include "walker_scenes.h"
 
 namespace shells {
@@ -48,8 +48,8 @@ inline void add_wall_with_door(Mesh& mesh, double x0, double x1, double y, doubl
 }
 
 /// A person's body.
-inline roam::training::Measure person() {
-  roam::training::Measure m;
+inline roam::ways::Measure person() {
+  roam::ways::Measure m;
   m.height = 1.9;
   m.narrowest = 0.1;
   return m;
@@ -58,8 +58,8 @@ inline roam::training::Measure person() {
 /// A scene, and the places of it.
 struct Look {
   roam::Survey survey;
-  roam::training::Measure measure = person();
-  roam::training::WidestTree tree;
+  roam::ways::Measure measure = person();
+  roam::ways::WidestTree tree;
   std::vector<roam::training::Component> components;
 
   explicit Look(const Mesh& mesh, double spacing = 0.2, std::uint64_t most_places = 500'000)

@@ -20,6 +20,7 @@
 #include "tell.h"
 #include "validators.h"
 #include "verbs.h"
+#include "words/probe.h"
 
 namespace roam::app {
 namespace {
@@ -130,7 +131,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
-    json["answer"] = explain(o.question, answers.front());
+    json["answer"] = words::explain(o.question, answers.front());
     return json;
   }
   Json sizes = Json::array();
@@ -177,7 +178,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
-    print(o.matrix ? table(o.question, answers) : explain(o.question, first) + "\n");
+    print(o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
   }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });

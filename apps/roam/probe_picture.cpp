@@ -12,7 +12,8 @@
 #include "interrupt.h"
 #include "picture/opening.h"
 #include "probe_text.h"
-#include "train/probe/words.h"
+#include "words/measures.h"
+#include "words/probe.h"
 
 namespace roam::app {
 namespace {
@@ -74,8 +75,7 @@ OpeningView empty_view(const ProbeQuestion& question, const ProbeAnswer& answer)
 OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const ProbeLimit& limit = *answer.limit;
   OpeningView view = empty_view(question, answer);
-  view.heading = training::text_of(limit) + ", at " +
-                 fmt::format("({:.2f}, {:.2f}, {:.2f})", limit.point.x, limit.point.y, limit.point.z);
+  view.heading = words::text_of(limit) + ", at " + words::at(limit.point);
   view.heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(view.heading.front())));
   view.point = limit.point;
   view.direction = limit.direction;
@@ -129,8 +129,7 @@ std::optional<OpeningView> gap_view(const Survey& survey, const ProbeQuestion& q
   }
   if (view.direction == Vec3(0.0) || view.width <= 0.0) return std::nullopt;
   view.floor = place.z;
-  view.heading = fmt::format("Gap of the floor {:.3f} m wide, at ({:.2f}, {:.2f}, {:.2f})", view.width, view.point.x,
-                             view.point.y, view.point.z);
+  view.heading = fmt::format("Gap of the floor {:.3f} m wide, at {}", view.width, words::at(view.point));
   return view;
 }
 
@@ -144,8 +143,7 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
   overview.target = answer.target;
   overview.spacing = question.spacing;
   overview.way = answer.passage.way;
-  if (answer.limit)
-    overview.marks.push_back({answer.limit->point, training::text_of(*answer.limit), answer.wide_enough});
+  if (answer.limit) overview.marks.push_back({answer.limit->point, words::text_of(*answer.limit), answer.wide_enough});
   if (answer.walk && !answer.passable)
     overview.marks.push_back({answer.walk->at, std::string("walker ") + name(answer.walk->outcome), false});
   if (overview.way.empty()) {
@@ -167,7 +165,7 @@ picture::Sheet sheet_of(const std::string& title, const Survey& survey, const Pr
     if (auto gap = gap_view(survey, question, answer)) views.push_back(std::move(*gap));
   }
   if (answer.limit) views.push_back(view_of(survey, question, answer));
-  return picture::opening_sheet(title, views, survey.meshes(), explain(question, answer),
+  return picture::opening_sheet(title, views, survey.meshes(), words::explain(question, answer),
                                 overview_of(survey, question, answer));
 }
 

@@ -8,14 +8,13 @@
 #include <cmath>
 
 #include "exit_status.h"
-#include "train/answer.h"
-#include "train/probe/search.h"
-#include "train/probe/words.h"
+#include "words/measures.h"
+#include "words/probe.h"
 
 namespace roam::app {
 namespace {
 
-using namespace training;
+using namespace words;
 using Kind = ProbeLimit::Kind;
 
 bool is_number(const std::string& text, double& value) {
@@ -67,6 +66,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
                              : limit.kind == Kind::step                       ? "step_m"
                                                                               : "width_m";
     if (limit.kind != Kind::apart) opening[size] = limit.size;
+    if (limit.kind == Kind::height && limit.width > 0.0) opening["width_m"] = limit.width;
     opening["missing_m"] = limit.kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
     opening["direction"] = to_json(limit.direction);
     opening["along_m"] = limit.along;

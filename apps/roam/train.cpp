@@ -18,6 +18,7 @@
 #include "train_report.h"
 #include "validators.h"
 #include "verbs.h"
+#include "words/training.h"
 
 namespace roam::app {
 namespace {
@@ -45,9 +46,9 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
 /// Training in the stages that it names, on standard error.
 class StagedProgress {
  public:
-  bool at(const std::string& stage, double done) {
+  bool at(TrainStage stage, double done) {
     if (!progress_ || stage != stage_) {
-      progress_.emplace(stage, "");
+      progress_.emplace(words::stage(stage), "");
       stage_ = stage;
     }
     constexpr std::uint64_t whole = 1000;
@@ -56,7 +57,7 @@ class StagedProgress {
 
  private:
   std::optional<Progress> progress_;
-  std::string stage_;
+  TrainStage stage_ = TrainStage::places;
 };
 
 /// Where the profile goes; empty: nowhere.
@@ -114,7 +115,7 @@ ExitStatus train(TrainVerbOptions o) {
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}};
   {
     StagedProgress progress;
-    o.train.progress = [&](const std::string& stage, double done) { return progress.at(stage, done); };
+    o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };
     report.training = train(scene.survey, o.train);
   }
   Unwritten unwritten;
@@ -130,7 +131,7 @@ ExitStatus train(TrainVerbOptions o) {
     const std::vector<picture::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.
     drawing->write(picture::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
-                                          views.empty() ? report.training.answer : std::string()));
+                                          views.empty() ? words::answer(report.training, o.train) : std::string()));
   }
   unwritten.raise();
   if (!report.training.complete) return failed;

@@ -9,9 +9,13 @@
 
 #include "progress.h"
 #include "tell.h"
+#include "words/measures.h"
+#include "words/training.h"
 
 namespace roam::app {
 namespace {
+
+using words::at;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -28,8 +32,6 @@ Json json_of(const TrainedPath& path) {
   return {{"from", to_json(path.from)}, {"to", to_json(path.to)},      {"largest", or_null(path.largest)},
           {"smallest", path.smallest},  {"trials", std::move(trials)}, {"way", std::move(way)}};
 }
-
-std::string at(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
 
 /// "5 paths, 12 trials: 8 reached, 2 blocked, 2 fell"
 std::string trials_line(const Training& t) {
@@ -93,6 +95,8 @@ Json json_report(const TrainReport& report) {
                       {"direction", to_json(c.direction)},
                       {"on_a_path", c.on_a_path}});
   }
+  Json contradictions = Json::array();
+  for (const Contradiction& c : t.contradictions) contradictions.push_back(words::contradiction(c));
   Json parts = Json::array();
   for (const ConnectedPart& p : t.parts) {
     parts.push_back({{"place", to_json(p.place)},
@@ -100,14 +104,14 @@ Json json_report(const TrainReport& report) {
                      {"places", p.places},
                      {"trained", p.trained},
                      {"whole", p.whole},
-                     {"why", p.why}});
+                     {"why", words::why(p.left_out)}});
   }
   Json json = {{"scene", report.scene},
                {"triangles", report.triangles},
                {"mode", roam::name(report.options.mode)},
                {"method", name(report.options.method)},
                {"seed", report.options.seed},
-               {"answer", t.answer},
+               {"answer", words::answer(t, report.options)},
                {"radius", t.radius},
                {"height", t.height},
                {"support_radius", t.support_radius},
@@ -122,7 +126,7 @@ Json json_report(const TrainReport& report) {
                {"decisive", std::move(decisive)},
                {"regions", std::move(regions)},
                {"cracks", std::move(cracks)},
-               {"contradictions", t.contradictions},
+               {"contradictions", std::move(contradictions)},
                {"parts", std::move(parts)},
                {"places", t.places},
                {"profile", nullptr},
@@ -133,7 +137,7 @@ Json json_report(const TrainReport& report) {
 
 std::string text_report(const TrainReport& report) {
   const Training& t = report.training;
-  std::string text = t.answer + "\n";
+  std::string text = words::answer(t, report.options) + "\n";
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };

@@ -2,7 +2,6 @@
 #include <cstdio>
 
 #include "roam/import.h"
-#include "roam/profile.h"
 #include "roam/train.h"
 
 int main(int argc, char** argv) {
@@ -13,8 +12,9 @@ int main(int argc, char** argv) {
   try {
     const roam::Survey survey = roam::Survey::build(roam::import_scene(argv[1]).meshes, {.lossless = true});
     const roam::Training training = roam::train(survey, {.height = 1.8});
-    std::printf("%s\n", training.answer.c_str());
     if (training.places == 0) return 3;  // nobody fits anywhere
+    std::printf("%s a body with a radius of %.3f m: %zu paths were planned\n",
+                training.feasible ? "all are served by" : "the best is", training.radius, training.paths.size());
 
     roam::save_profile(roam::profile_of(training, survey), roam::profile_path(argv[1]));
     return training.feasible ? 0 : 3;

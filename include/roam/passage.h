@@ -17,7 +17,7 @@
 /// what stops it.
 ///
 /// Lengths are metres, up is +z. Same input, same bits, on every machine and for any number of threads.
-/// Library target roam::train.
+/// Library target roam::ways.
 
 #include <cstdint>
 #include <functional>
@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "roam/math.h"
+#include "roam/opening.h"
 #include "roam/survey.h"
 #include "roam/walker.h"
 
@@ -46,22 +47,6 @@ struct PassageOptions {
   /// Called now and then with the number of places looked at. Returning false ends the search: as most_places.
   std::function<bool(std::uint64_t)> progress = {};
 };
-
-/// The narrowest place of a way.
-struct Opening {
-  enum class Kind : std::uint8_t {
-    door,    ///< walls on both sides
-    lintel,  ///< something above, and floor or something below
-    gap,     ///< flying: any two sides
-  };
-  Kind kind = Kind::door;
-  Vec3 point{0.0};      ///< its middle: half way between the two sides, at the height where they are nearest
-  double width = 0.0;   ///< m: twice the largest radius that passes
-  Vec3 direction{0.0};  ///< unit, from one side to the other
-};
-
-/// "door", "lintel" or "gap".
-[[nodiscard]] const char* name(Opening::Kind kind);
 
 struct Passage {
   bool found = false;  ///< there is a way for `narrowest` at least

@@ -6,8 +6,8 @@
 ///     const roam::ProbeAnswer answer = roam::probe(survey, question, {.radius = 0.3, .height = 1.9});
 ///     if (answer.passable) {
 ///       go(roam::probed_path(survey, question, answer));
-///     } else {
-///       std::cout << roam::explain(question, answer) << "\n";  // "No: ... The door at ... is 0.520 m wide; ..."
+///     } else if (answer.limit) {
+///       std::cout << name(answer.limit->kind) << " " << answer.limit->size << " m\n";  // "door 0.52 m"
 ///     }
 ///
 /// passage.h says how wide the widest way is; this says what that means to one body, or to many in one search. A yes is
@@ -15,7 +15,7 @@
 /// a step, the wall beside an end. `roam probe` asks just this; docs/training.md, "Probing", has it in a shell's words.
 ///
 /// Lengths are metres, up is +z. Same input, same bits. Functions may be called at the same time for one survey.
-/// Library target roam::train.
+/// Library target roam::ways.
 
 #include <cstdint>
 #include <functional>
@@ -86,6 +86,7 @@ struct ProbeLimit {
   Vec3 feet{0.0};        ///< where the body stands there; flying: its centre
   double size = 0.0;     ///< what there is
   double needed = 0.0;   ///< what the body needs; of a step what it climbs
+  double width = 0.0;    ///< of a height: how wide it is there for a body that passes; 0: not known, or not narrow
   double along = 0.0;    ///< of the way up to there
   bool too_low = false;  ///< of an end: a headroom is measured, not a distance
 };
@@ -110,10 +111,6 @@ struct ProbeAnswer {
   std::optional<Vec3> room;       ///< where an end is in the way: the nearest place found where it would not be
   std::optional<ProbeWalk> walk;  ///< where the way is wide enough
 };
-
-/// The answer in words: yes or no, by which way, or what stops the body, where, and how sure that is; one to four
-/// sentences.
-[[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 
 /// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins
 /// with "from" or "to" and says why.

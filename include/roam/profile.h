@@ -9,7 +9,7 @@
 ///       walker.set_regions(profile->regions);
 ///     }
 ///
-/// Library target roam::train. docs/training.md describes the file member by member. A reader of format version 1
+/// Library target roam::profile. docs/training.md describes the file member by member. A reader of format version 1
 /// takes every file of version 1, and passes over members that it does not know.
 
 #include <cstdint>
@@ -23,13 +23,11 @@
 #include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/size_region.h"
-#include "roam/store.h"
 #include "roam/walker.h"
 
 namespace roam {
 
-class Survey;
-struct Training;
+struct StoreInfo;
 
 /// By what a scene, or the store that was made of it, is known again.
 struct SceneIdentity {
@@ -60,19 +58,15 @@ struct Profile {
   std::optional<double> largest;  ///< upper end of the feasible interval, m; none: no opening limits it
   double smallest = 0.0;          ///< lower end, m; 0: no crack
   std::vector<SizeRegion> regions;
-  std::string method = "interval";  ///< name(Method), or "roaming": learned by a SizeLearner
-  bool complete = true;             ///< false: training was interrupted, and this is the best so far
+  /// "interval" or "paper", by train.h; or "roaming": learned by a SizeLearner.
+  std::string method = "interval";
+  bool complete = true;  ///< false: training was interrupted, and this is the best so far
 
   /// Whether it is of this scene. Where the hash, or the geometry hash, is known of both, that decides. A scene and a
   /// store have neither in common: then the number of triangles and the box of them all decide, to the last bit, for
   /// nothing else of the source is left in a store. What has no hash at all, as Profile{}, is of no scene.
   [[nodiscard]] bool belongs_to(const SceneIdentity& other) const;
 };
-
-/// The profile of what was trained, ready to be saved: all members, of the scene that `survey` was built of (another
-/// identity_of where it was read from a store). A training that found no place (Training::places 0) is not worth it.
-[[nodiscard]] Profile profile_of(const Training& training, const Survey& survey);
-[[nodiscard]] Profile profile_of(const Training& training, const SceneIdentity& scene);
 
 /// Throws roam::Error, naming the member, its value and its range, for numbers that no body has.
 void check(const Profile& profile);

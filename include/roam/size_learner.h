@@ -6,7 +6,7 @@
 ///     for (;;) {
 ///       walker.step(input, dt);
 ///       if (const auto lesson = learner.watch(walker, input.velocity, dt)) {
-///         std::cout << lesson->why << "\n";       // "door 0.71 m wide: a body of 0.34 m here"
+///         std::cout << "an opening or a gap " << lesson->width << " m wide\n";
 ///         learner.take(walker, *lesson);          // or do not: it is an offer
 ///       }
 ///     }
@@ -19,11 +19,10 @@
 /// body violate what Walker promises.
 ///
 /// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson. Library target
-/// roam::train.
+/// roam::profile.
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "roam/profile.h"
 #include "roam/walker.h"
@@ -40,7 +39,7 @@ struct Lesson {
   Vec3 at{0.0};                 ///< the middle of the opening, or of the body where it fell, metres
   SizeRegion region;            ///< of a narrower body: where, and its size
   double support_radius = 0.0;  ///< of a larger foot, metres
-  std::string why;              ///< for people
+  double width = 0.0;           ///< of the opening, or of the gap of the floor, metres
 };
 
 struct LearnLimits {

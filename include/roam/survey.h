@@ -11,7 +11,7 @@
 /// and ceilings too, which nobody comes to stand on from below.
 ///
 /// A survey does not change once it is built; all members are const and safe to call from any number of threads.
-/// Library target roam::train.
+/// Library target roam::ways.
 
 #include <cstdint>
 #include <functional>

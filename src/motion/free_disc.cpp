@@ -1,10 +1,11 @@
-#include "motion/free_disc.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace roam::walking {
+#include "math/floating_point.h"
+#include "roam/support.h"
+
+namespace roam {
 namespace {
 
 /// A square that is smaller than this part of the foot's radius, or than this in metres where that is more, is not
@@ -44,7 +45,7 @@ struct Point {
 /// its middle is asked for, and it is divided.
 class Search {
  public:
-  Search(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis)
+  Search(const Space& space, const FloorPlane& plane, const SupportDisc& foot, const Vec3& axis)
       : space_(space), plane_(plane), foot_(foot), axis_(axis) {
     const double rise = std::hypot(plane.normal.x, plane.normal.y) / plane.normal.z;
     column_ = {0.0, std::min(foot.band + foot.radius * rise, Space::reach_limit)};
@@ -135,7 +136,7 @@ class Search {
 
   const Space& space_;
   const FloorPlane& plane_;
-  const Foot& foot_;
+  const SupportDisc& foot_;
   Vec3 axis_;
   Body column_;
   Floor floor_;
@@ -148,7 +149,8 @@ class Search {
 
 }  // namespace
 
-DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis) {
+DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& foot, const Vec3& axis) {
+  const DefaultFloatingPoint guard;
   Search search(space, plane, foot, axis);
   Search::Answer answer = search.run(true);
   // Walls only make fewer discs count: they are looked for only where there is one.
@@ -157,4 +159,4 @@ DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot
   return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;
 }
 
-}  // namespace roam::walking
+}  // namespace roam

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "motion/move.h"
+#include "roam/support.h"
 
 namespace roam::walking {
 
@@ -28,15 +29,6 @@ struct Footing {
 /// The same for everything that the body touches where it is. A body wedged between steep planes stands too, when
 /// gravity along them leads down at less than the slope limit.
 [[nodiscard]] std::optional<Footing> footing_here(const Move& move, const Stance& stance);
-
-/// The steepest contact with a rim that still carries, degrees. A crack of width w carries a sphere of radius r when
-/// r >= w / (2 sin 70) = 0.532 w, and lets it through when r < w / 2; in between it is caught between the rims, from
-/// where it can not step up.
-/// At 1.25 m: carried from 0.665 m on, through below 0.625 m.
-constexpr double rim_slope_degrees = 70.0;
-constexpr double rim_cosine = 0.34202014332566873;
-constexpr double rim_sine = 0.93969262078590838;
-constexpr double rim_tangent = rim_sine / rim_cosine;
 
 /// After a stride of `horizontal` metres over the ground: goes down to the ground, or up to its skin, when there is
 /// footing within reach; else the body is in the air.

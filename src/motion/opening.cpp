@@ -1,14 +1,20 @@
-#include "motion/opening.h"
+#include "roam/opening.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace roam::walking {
+#include "math/floating_point.h"
+#include "roam/walker.h"
+
+namespace roam {
 namespace {
 
 constexpr std::size_t contacts_looked_at = 48;
+
+/// Skins: a triangle that is as near as that is touched.
+constexpr double touched_skins = 4.0;
 
 /// The ray between two points of contact goes on for this part of the radius behind the farther one: a door in a wall,
 /// not a groove.
@@ -56,10 +62,25 @@ const Contact* most_against(const StepReport& report, const Vec3& way) {
   return most;
 }
 
-std::optional<Opening> measure_opening(const Space& space, const Body& body, const Vec3& place, const Vec3& ahead,
-                                       double reach) {
+const char* name(Opening::Kind kind) {
+  switch (kind) {
+    case Opening::Kind::door:
+      return "door";
+    case Opening::Kind::lintel:
+      return "lintel";
+    case Opening::Kind::gap:
+      return "gap";
+  }
+  return "unknown";
+}
+
+std::optional<Opening> measure_opening(const Walker& walker, const Vec3& ahead) {
+  const DefaultFloatingPoint guard;
+  const Space& space = walker.space();
+  const Body body = walker.body();
+  const Vec3& place = walker.position();
   std::array<Contact, contacts_looked_at> contacts;
-  const std::size_t found = space.contacts(body, place, Vec3(0.0), reach, contacts);
+  const std::size_t found = space.contacts(body, place, Vec3(0.0), touched_skins * walker.skin(), contacts);
   const Vec3 flat(ahead.x, ahead.y, 0.0);
   const double length = glm::length(flat);
   if (!(length > 0.0)) return std::nullopt;
@@ -67,7 +88,7 @@ std::optional<Opening> measure_opening(const Space& space, const Body& body, con
   const Frame frame{ahead, sideways, glm::cross(ahead, sideways)};
   std::optional<Opening> least;
   const auto consider = [&](const Contact& a, const Contact& b, const Opening& opening) {
-    if (least && opening.size >= least->size) return;
+    if (least && opening.width >= least->width) return;
     if (open_between(space, a.point, b.point, place, depth_part * body.radius, frame)) least = opening;
   };
   for (std::size_t i = 0; i < found; ++i) {
@@ -79,18 +100,19 @@ std::optional<Opening> measure_opening(const Space& space, const Body& body, con
       const double lean =
           std::max(std::abs(glm::dot(a.normal, frame.upward)), std::abs(glm::dot(b.normal, frame.upward)));
       if (lean < post && face_each_other(a, b, place, frame.sideways)) {
-        consider(a, b,
-                 {glm::length(apart - frame.upward * glm::dot(apart, frame.upward)), false, 0.5 * (a.point + b.point)});
+        const Vec3 level = apart - frame.upward * glm::dot(apart, frame.upward);
+        const double width = glm::length(level);
+        consider(a, b, {Opening::Kind::door, 0.5 * (a.point + b.point), width, level / width});
       }
       // The floor is touched below the body, and what hangs too low ahead of it: one above the other, not two posts
       // whose contacts lean a little up and down.
       const double height = std::abs(glm::dot(apart, frame.upward));
       if (height > std::abs(glm::dot(apart, frame.sideways)) && face_each_other(a, b, place, frame.upward)) {
-        consider(a, b, {height, true, 0.5 * (a.point + b.point)});
+        consider(a, b, {Opening::Kind::lintel, 0.5 * (a.point + b.point), height, frame.upward});
       }
     }
   }
   return least;
 }
 
-}  // namespace roam::walking
+}  // namespace roam

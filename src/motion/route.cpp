@@ -6,8 +6,8 @@
 #include <string>
 
 #include "math/floating_point.h"
-#include "motion/opening.h"
 #include "roam/error.h"
+#include "roam/opening.h"
 #include "text/number.h"
 
 namespace roam {
@@ -47,7 +47,7 @@ Vec3 way_to(const Vec3& waypoint, const Walker& walker) {
 
 /// Whether only the space's speed limit, and nothing that is touched, keeps the body from going on.
 bool waits_for_space(const Vec3& way, const StepReport& report) {
-  const Contact* c = walking::most_against(report, way);
+  const Contact* c = most_against(report, way);
   return report.has(EventKind::slowed) &&
          (c == nullptr || glm::dot(c->normal, way) >= -progress_part * glm::length(way));
 }
@@ -191,7 +191,7 @@ void Route::judge(const StepReport& report, double distance_before) {
   const double now = glm::length(way_to(waypoints_[next_], *walker_));
   if (window_best_ - now < progress_part * options_.speed * window_time_) {
     const Vec3 way = way_to(waypoints_[next_], *walker_);
-    const Contact* c = walking::most_against(report, way);
+    const Contact* c = most_against(report, way);
     const bool unknown = c != nullptr && c->unknown;
     describe_blockage(report);
     finish(unknown || waits_for_space(way, report) ? Outcome::held : Outcome::blocked);
@@ -202,15 +202,12 @@ void Route::judge(const StepReport& report, double distance_before) {
 
 void Route::describe_blockage(const StepReport& report) {
   const Vec3 way = way_to(waypoints_[next_], *walker_);
-  const Contact* c = walking::most_against(report, way);
+  const Contact* c = most_against(report, way);
   if (c == nullptr || waits_for_space(way, report)) return;
   Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint && !c->unknown) {
-    const double reach = walking::opening_skins * walker_->skin();
-    const auto opening =
-        walking::measure_opening(walker_->space(), walker_->body(), walker_->position(), way / length, reach);
-    if (opening) blockage.opening = opening->size;
+    if (const auto opening = measure_opening(*walker_, way / length)) blockage.opening = opening->width;
   }
   result_.blocked_at = blockage;
 }

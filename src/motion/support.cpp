@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "math/floating_point.h"
 #include "motion/ground.h"
+#include "roam/walker.h"
 
 namespace roam::walking {
 namespace {
@@ -26,7 +28,7 @@ double foot_radius(const WalkerSettings& settings) { return std::max(settings.su
 /// is as high or low as carries is no higher or lower for that.
 double stored_band(double skin) { return carrying_band + 2.0 * skin; }
 
-Foot foot_of(const WalkerSettings& settings, double skin, double height) {
+SupportDisc foot_of(const WalkerSettings& settings, double skin, double height) {
   const double band = stored_band(skin), knee = std::max(settings.step + 2.0 * skin, band);
   return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height), band};
 }
@@ -89,7 +91,7 @@ void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane, bool is_flo
 
 Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
                   const FloorPlane& plane, const Vec3& place) {
-  const Foot foot = foot_of(settings, skin, height);
+  const SupportDisc foot = foot_of(settings, skin, height);
   if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
   switch (free_disc(space, plane, foot, place)) {
     case DiscRoom::none:
@@ -181,3 +183,15 @@ void forget_other_storeys(const Move& m, Stance& stance) {
 }
 
 }  // namespace roam::walking
+
+namespace roam {
+
+Carrying carrying(const Walker& walker, double support_radius) {
+  const DefaultFloatingPoint guard;
+  WalkerSettings settings = walker.settings();
+  settings.support_radius = support_radius;
+  const FloorPlane plane{walker.stance().floor_point, walker.stance().floor_normal};
+  return walking::carrying(walker.space(), settings, walker.skin(), walker.body().height(), plane, walker.position());
+}
+
+}  // namespace roam

@@ -2,24 +2,15 @@
 /// \file
 /// The foot that carries a body over cracks: WalkerSettings::support_radius.
 
-#include <cstdint>
 #include <optional>
 
-#include "motion/free_disc.h"
 #include "motion/move.h"
+#include "roam/support.h"
 
 namespace roam::walking {
 
-/// Whether a foot carries.
-enum class Carrying : std::uint8_t {
-  no,
-  unknown,  ///< yes, if what is not known yet is solid
-  yes,
-};
-
 /// Whether a body with these settings, and so high now, is carried by its foot over the plane: there is no floor under
-/// its axis at `place`, and no room for a disc as large as the foot. The walker goes by this, and who asks what another
-/// foot would do.
+/// its axis at `place`, and no room for a disc as large as the foot.
 [[nodiscard]] Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
                                 const FloorPlane& plane, const Vec3& place);
 

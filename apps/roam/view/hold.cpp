@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "motion/opening.h"
+#include "roam/opening.h"
 #include "text/printable.h"
 
 namespace roam::app {
@@ -22,12 +22,11 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
   if (!object.empty()) text += ", " + printable(object);
   const double length = glm::length(wish);
   if (length <= 0.0) return text;
-  const auto opening = walking::measure_opening(walker.space(), walker.body(), walker.position(), wish / length,
-                                                walking::opening_skins * walker.skin());
+  const auto opening = measure_opening(walker, wish / length);
   if (!opening) return text;
-  const double needed = opening->is_height ? walker.body().height() : 2.0 * walker.settings().radius;
-  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->size, opening->is_height ? "high " : "",
-                      needed);
+  const bool is_low = opening->kind == Opening::Kind::lintel;
+  const double needed = is_low ? walker.body().height() : 2.0 * walker.settings().radius;
+  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->width, is_low ? "high " : "", needed);
   return text;
 }
 
@@ -101,7 +100,7 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
     blocked_at_ = now_;
     if (blocked_for_ < calm_seconds || now_ - measured_at_ < measuring_period) return;
     measured_at_ = now_;
-    const Contact& contact = *walking::most_against(report, wish);
+    const Contact& contact = *most_against(report, wish);
     blockage_ = contact.unknown ? std::string() : describe(walker, contact, wish);
   } else if (now_ - blocked_at_ > calm_seconds || !wished) {
     blocked_for_ = 0.0;

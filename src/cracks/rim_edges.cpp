@@ -1,0 +1,118 @@
+#include "cracks/rim_edges.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+#include "cracks/shared_edges.h"
+#include "cracks/voids.h"
+
+namespace roam::cracks {
+namespace {
+
+/// After those of SharedEdges.
+constexpr int last_phase = SharedEdges::phases;
+/// Floors between two questions whether to go on: some milliseconds of work.
+constexpr std::size_t asked_every = 2048;
+
+}  // namespace
+
+/// Outlives a RimEdges where a core comes to a piece too late.
+struct RimEdges::State {
+  State(const Survey& of, const CrackOptions& how, std::size_t together)
+      : survey(&of), probe(of, how), shared(of), options(how), floors_together(together) {}
+
+  const Survey* survey;
+  const VoidProbe probe;
+  SharedEdges shared;
+  const CrackOptions options;
+  const std::size_t floors_together;
+  std::vector<std::uint8_t> edges;  ///< from the last phase on
+  int phase = 0;                    ///< the next piece, last_phase + 1: all is done
+  std::size_t piece = 0;
+  std::size_t looked_at = 0;  ///< floors
+  std::mutex mutex;           ///< held while a piece is done ahead
+  bool ended = false;
+
+  [[nodiscard]] std::size_t pieces(int of_phase) const {
+    if (of_phase < last_phase) return shared.pieces(of_phase);
+    return (survey->floor_triangles().size() + floors_together - 1) / floors_together;
+  }
+  [[nodiscard]] std::size_t pieces() const { return pieces(phase); }
+  void look_at(std::size_t block) {
+    const auto floors = survey->floor_triangles();
+    const std::size_t end = std::min(floors.size(), (block + 1) * floors_together);
+    for (std::size_t f = block * floors_together; f < end; ++f)
+      edges[f] = edges_without_void(probe, options, survey->triangle(floors[f]), edges[f]);
+    looked_at = end;
+  }
+  void next_phase() {
+    piece = 0;
+    if (++phase == last_phase) edges = shared.take();
+  }
+  /// The next piece. False: there is none.
+  bool do_ahead() {
+    const std::lock_guard lock(mutex);
+    if (ended) return false;
+    try {
+      while (phase <= last_phase && piece == pieces()) next_phase();
+      if (phase > last_phase) return false;
+      phase < last_phase ? shared.run(phase, piece) : look_at(piece);
+      ++piece;
+      return true;
+    } catch (const std::exception&) {
+      ended = true;  // who asks does it again, and is told
+      return false;
+    }
+  }
+  void end() {
+    const std::lock_guard lock(mutex);
+    ended = true;
+  }
+};
+
+RimEdges::RimEdges(const Survey& survey, const CrackOptions& options, int floors_together)
+    : state_(std::make_shared<State>(survey, options, static_cast<std::size_t>(floors_together))) {}
+
+RimEdges::~RimEdges() noexcept { state_->end(); }
+
+const CrackOptions& RimEdges::options() const { return state_->options; }
+
+void RimEdges::look_ahead() {
+  if (tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) < 2) return;
+  std::size_t pieces = 0;
+  for (int phase = 0; phase <= last_phase; ++phase) pieces += state_->pieces(phase);
+  tbb::task_arena arena(1, 0, tbb::task_arena::priority::low);
+  for (std::size_t i = 0; i < pieces; ++i) arena.enqueue([state = state_] { state->do_ahead(); });
+}
+
+bool RimEdges::look_ahead_here() { return state_->do_ahead(); }
+
+bool RimEdges::look_at_all(const Look& look, const std::function<bool(double)>& goes_on) {
+  State& s = *state_;
+  s.end();
+  for (; s.phase < last_phase; s.next_phase())
+    tbb::parallel_for(s.piece, s.pieces(), [&](std::size_t piece) { s.shared.run(s.phase, piece); });
+  const std::size_t blocks = (s.edges.size() + asked_every - 1) / asked_every;
+  std::atomic<bool> is_ended{false};
+  std::mutex asking;
+  std::size_t done = 0;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    if (is_ended) return;
+    const std::size_t end = std::min((block + 1) * asked_every, s.edges.size());
+    for (std::size_t f = block * asked_every; f < end; ++f) look(f, s.edges[f], f < s.looked_at);
+    if (!goes_on) return;
+    const std::lock_guard lock(asking);
+    if (!is_ended && !goes_on(double(++done) / double(blocks))) is_ended = true;
+  });
+  if (!is_ended) s.looked_at = s.edges.size();
+  return !is_ended;
+}
+
+}  // namespace roam::cracks

@@ -1,0 +1,400 @@
+#include "cracks/void_measure.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <tuple>
+
+#include "math/disjoint_sets.h"
+
+namespace roam::cracks {
+
+namespace {
+
+constexpr double kWindow = 4.0;        ///< m around a rim's disc that one flood fills
+constexpr double kSpacingShare = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
+constexpr double kSinkMargin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
+constexpr double kFinest = 0.1 * VoidProbe::precision;  ///< m
+constexpr std::size_t kMostDiscs = 32;                  ///< of one flood that are grown
+constexpr std::size_t kMostBeside = 3;                  ///< likewise, up to where an open drop begins, which takes long
+
+/// A place of the lattice at the level of one void.
+struct Cell {
+  std::int64_t x = 0, y = 0;
+  double level = 0.0;
+  double distance = 0.0;  ///< of floor or wall
+  double floor = 0.0;     ///< of floor
+  std::uint32_t flood = 0;
+  bool inside = false;  ///< of the flood; else floor, a wall, filled up, or an open drop
+  bool drop = false;    ///< turned out to belong to an open drop
+};
+
+/// The voids of one part of the scene that no other part's floods come to.
+class Floods {
+ public:
+  /// `ended`: what is being flooded is measured as far as it came.
+  Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
+         const std::function<bool(const Vec3& foot)>& is_reached, const std::atomic<bool>& ended)
+      : options_(options),
+        probe_(probe),
+        drops_(drops),
+        is_reached_(is_reached),
+        ended_(ended),
+        spacing_(kSpacingShare * probe.radius()) {}
+
+  void add(const RimPlace& place) {
+    if (drops_.cover(place.outside)) return;
+    std::optional<std::uint32_t> flood = flood_at(place.outside);
+    if (!flood) flood = fill(place.outside);
+    rims_[*flood].push_back(place.rim);
+  }
+
+  /// Whether a place lies in what was flooded already; then it belongs to that.
+  bool add_to_known(const RimPlace& place) {
+    const std::optional<std::uint32_t> flood = flood_at(place.outside);
+    if (flood) rims_[*flood].push_back(place.rim);
+    return flood.has_value();
+  }
+
+  /// Of each void that floods make up, the largest disc that is no open drop; and what of it is one, by itself.
+  std::vector<MeasuredVoid> measured() {
+    std::map<std::pair<std::uint32_t, bool>, MeasuredVoid> voids;
+    for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
+      const Disc& disc = discs_[flood];
+      const bool is_open = disc.radius >= probe_.open();
+      MeasuredVoid& whole = voids[{sets_.find(flood), is_open}];
+      whole.foot = std::max({whole.foot, disc.radius, feet_[flood]});
+      if (disc.radius > whole.disc.radius ||
+          (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
+        whole.disc = disc;
+      whole.rim.insert(whole.rim.end(), rims_[flood].begin(), rims_[flood].end());
+    }
+    std::vector<MeasuredVoid> all;
+    for (auto& [set, whole] : voids) {
+      if (whole.disc.radius > 0.0) all.push_back(std::move(whole));
+    }
+    return all;
+  }
+
+ private:
+  Vec3 place_of(std::int64_t x, std::int64_t y, double level) const {
+    return {double(x) * spacing_, double(y) * spacing_, level};
+  }
+  Vec3 place_of(const Cell& cell) const { return place_of(cell.x, cell.y, cell.level); }
+  double half_diagonal() const { return 0.5 * std::numbers::sqrt2 * spacing_; }
+
+  /// The cell of a flood at about the level, or what was looked at on just this level.
+  Cell* find(std::int64_t x, std::int64_t y, double level) {
+    const auto square = cells_.find(square_number(x, y));
+    if (square == cells_.end()) return nullptr;
+    for (Cell& cell : square->second) {
+      const double apart = std::abs(cell.level - level);
+      if (cell.x == x && cell.y == y && apart <= (cell.inside ? options_.step : 0.0)) return &cell;
+    }
+    return nullptr;
+  }
+
+  /// The four places of the lattice about a place, the nearest first.
+  std::array<Cell, 4> about(const Vec3& place) const {
+    const auto x = std::int64_t(std::floor(place.x / spacing_)), y = std::int64_t(std::floor(place.y / spacing_));
+    std::array<Cell, 4> cells{{{.x = x, .y = y}, {.x = x + 1, .y = y}, {.x = x, .y = y + 1}, {.x = x + 1, .y = y + 1}}};
+    for (Cell& cell : cells) cell.level = place.z;
+    std::sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
+      const double to_a = level_distance(place_of(a), place), to_b = level_distance(place_of(b), place);
+      return std::tie(to_a, a.x, a.y) < std::tie(to_b, b.x, b.y);
+    });
+    return cells;
+  }
+
+  std::optional<std::uint32_t> flood_at(const Vec3& place) {
+    for (const Cell& near : about(place)) {
+      const Cell* cell = find(near.x, near.y, place.z);
+      if (cell && cell->inside && probe_.sees(place, place_of(near))) return cell->flood;
+    }
+    return std::nullopt;
+  }
+
+  /// Floods the void about `seed`; answers the flood's number.
+  std::uint32_t fill(const Vec3& seed) {
+    const std::uint32_t flood = sets_.add();
+    rims_.emplace_back();
+    std::deque<Cell> open;
+    std::vector<Cell> filled;
+    const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
+      if (level_distance(place_of(x, y, seed.z), seed) > kWindow) return;
+      if (const std::optional<Cell> cell = entered(from, x, y, seed.z, flood)) {
+        open.push_back(*cell);
+        filled.push_back(*cell);
+      }
+    };
+    for (const Cell& near : about(seed)) enter(seed, near.x, near.y);
+    while (!open.empty() && !ended_) {
+      const Cell cell = open.front();
+      open.pop_front();
+      const Vec3 from = place_of(cell);
+      enter(from, cell.x + 1, cell.y);
+      enter(from, cell.x - 1, cell.y);
+      enter(from, cell.x, cell.y + 1);
+      enter(from, cell.x, cell.y - 1);
+    }
+    std::vector<Vec3> own_drops = open_discs(filled);
+    discs_.push_back(largest(seed, filled, own_drops));
+    const Disc& disc = discs_.back();
+    feet_.push_back(disc.radius > 0.0 && disc.radius < probe_.open() ? foot_over(filled, own_drops) : 0.0);
+    return flood;
+  }
+
+  /// The cell at (x, y) if it is new to all floods and belongs to this one. What another has joins the two.
+  std::optional<Cell> entered(const Vec3& from, std::int64_t x, std::int64_t y, double level, std::uint32_t flood) {
+    Cell* cell = find(x, y, level);
+    if (cell && cell->inside) {
+      if (cell->flood != flood && probe_.sees(from, place_of(*cell) + Vec3(0.0, 0.0, level - cell->level)))
+        sets_.unite(cell->flood, flood);
+      return std::nullopt;
+    }
+    const Vec3 place = place_of(x, y, level);
+    if (!cell) {
+      const double floor = probe_.floor().nearest(place, options_.support_max).distance;
+      const double body = probe_.body().nearest_wall(place, floor).distance;
+      std::vector<Cell>& square = cells_[square_number(x, y)];
+      square.push_back({x, y, level, body, floor, flood, false, false});
+      cell = &square.back();
+    }
+    // A ridge where the probe just fits has cells on it with so much less.
+    const double least = probe_.radius() - half_diagonal();
+    if (cell->distance < least) return std::nullopt;
+    if (drops_.cover(place, cell->floor)) return std::nullopt;
+    const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
+    if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
+    cell->level = level;
+    cell->flood = flood;
+    cell->inside = true;
+    return *cell;
+  }
+
+  /// None of the flood's cells about it is higher, but for some that belong to an open drop and rise from it slowly, as
+  /// along a ridge. One that rises steeply has this cell on the flank of its ridge.
+  bool is_highest(const Cell& cell) {
+    constexpr double slowly = 0.5;
+    for (std::int64_t x = cell.x - 1; x <= cell.x + 1; ++x) {
+      for (std::int64_t y = cell.y - 1; y <= cell.y + 1; ++y) {
+        const Cell* near = find(x, y, cell.level);
+        if (!near || !near->inside) continue;
+        const double rise = near->distance - cell.distance;
+        if (rise > (near->drop ? slowly * level_distance(place_of(*near), place_of(cell)) : 0.0)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether one of a flood's own open discs takes in a place of it.
+  bool is_in(const std::vector<Vec3>& own_drops, const Vec3& place, double floor) const {
+    return std::any_of(own_drops.begin(), own_drops.end(),
+                       [&](const Vec3& centre) { return takes_in(options_, probe_, centre, place, floor); });
+  }
+
+  /// Whether a place lies in an open disc that is known.
+  bool is_open(const Vec3& place, const std::vector<Vec3>& own_drops) const {
+    const double floor = probe_.floor().nearest(place, options_.support_max).distance;
+    return drops_.cover(place, floor) || is_in(own_drops, place, floor);
+  }
+
+  /// Whether a place in no open disc is a part of the drop that it lies beside.
+  bool is_beside_drop(const Vec3& place, const std::vector<Vec3>& own_drops) const {
+    // Of a body and on to where it comes to, and of an arc about a corner: open discs are known on its two ends.
+    const double reach = 2.5 * options_.support_max;
+    return (drops_.any_near(place, reach) || is_near(own_drops, place, reach)) &&
+           opens_into_drop(options_, probe_, is_reached_, place, ended_);
+  }
+
+  /// The farthest from floor that the axis of a smallest body comes, outside open drops: no foot carries there.
+  double foot_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+      return a.floor != b.floor ? a.floor > b.floor : std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    });
+    std::vector<Vec3> beside;
+    for (const Cell& cell : cells) {
+      const Vec3 place = place_of(cell);
+      if (cell.distance < probe_.radius() || cell.floor >= probe_.open() || is_in(own_drops, place, cell.floor) ||
+          is_near(beside, place, 2.0 * options_.smallest))
+        continue;
+      if (!is_beside_drop(place, own_drops)) return cell.floor;
+      beside.push_back(place);
+    }
+    return 0.0;
+  }
+
+  static bool is_near(const std::vector<Vec3>& places, const Vec3& place, double reach) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Vec3& other) { return level_distance(other, place) < reach; });
+  }
+
+  /// Grown from the best cells that none beside them exceeds, and from the seed, but to no place that belongs to an
+  /// open drop. Radius 0 where no place is left; open where the flood itself found such a drop. The open discs that are
+  /// met go to `own_drops`.
+  Disc largest(const Vec3& seed, std::vector<Cell>& cells, std::vector<Vec3>& own_drops) {
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+      return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    });
+    Disc best = grown_outside(seed, own_drops);
+    if (best.radius > 0.0 && is_beside_drop(best.centre, own_drops)) best = {};
+    std::vector<Vec3> starts, beside;
+    std::size_t again = 0;
+    for (const Cell& cell : cells) {
+      const double most = cell.distance + half_diagonal();
+      if (most <= std::max(best.radius, options_.smallest - VoidProbe::precision) || starts.size() == kMostDiscs) break;
+      const Vec3 start = place_of(cell);
+      Cell& marked = *find(cell.x, cell.y, cell.level);
+      marked.drop = cell.floor >= probe_.open() || is_in(own_drops, start, cell.floor) ||
+                    is_near(beside, start, std::max(0.25 * cell.distance, 2.0 * options_.smallest));
+      if (marked.drop || is_near(starts, start, 0.5 * cell.distance) || !is_highest(cell)) continue;
+      Disc disc = grown_outside(start, own_drops);
+      if (disc.radius > best.radius && is_beside_drop(disc.centre, own_drops)) {
+        marked.drop = is_beside_drop(start, own_drops);
+        if (marked.drop) {
+          beside.push_back(start);
+          continue;
+        }
+        disc = again++ < kMostBeside ? grown_beside(start, own_drops) : Disc{start, cell.distance};
+      }
+      starts.push_back(start);
+      if (disc.radius > best.radius) best = disc;
+    }
+    if (best.radius > 0.0 || own_drops.empty()) return best;
+    return {own_drops.front(), options_.support_max};
+  }
+
+  /// As grown, into no open disc; those that are met go to `own_drops`. Radius 0 where one takes in `start`.
+  Disc grown_outside(const Vec3& start, std::vector<Vec3>& own_drops) const {
+    while (!is_open(start, own_drops)) {
+      const Disc disc = grown(start, [&](const Vec3& to) { return !is_open(to, own_drops); });
+      if (disc.radius < probe_.open()) return disc;
+      own_drops.push_back(disc.centre);
+    }
+    return {};
+  }
+
+  /// As grown, past no place that belongs to an open drop, as far as `about`.
+  Disc grown_beside(const Vec3& start, const std::vector<Vec3>& own_drops) const {
+    constexpr double about = 0.01;  // m: where such places begin is not sharper
+    const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
+    const Disc near = grow(probe_.body(), start, probe_.open(), about,
+                           [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
+    const auto in_reach = [&](const Vec3& to) {
+      return level_distance(to, near.centre) <= about && !is_open(to, own_drops);
+    };
+    const Disc body = grow(probe_.body(), near.centre, probe_.open(), kFinest,
+                           [&](const Vec3& from, const Vec3& to) { return stays(from, to) && in_reach(to); });
+    // Where it must stop before it is on the ridge it is that much nearer to a wall than to floor, and no wall decides.
+    const double floor = probe_.floor().nearest(body.centre, probe_.open()).distance;
+    return floor <= body.radius + 2.0 * about ? body : grown(near.centre, in_reach);
+  }
+
+  /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
+  std::vector<Vec3> open_discs(const std::vector<Cell>& cells) const {
+    std::vector<Vec3> discs;
+    for (const Cell& cell : cells) {
+      if (cell.floor < probe_.open()) continue;
+      const Vec3 centre = place_of(cell);
+      if (std::none_of(discs.begin(), discs.end(),
+                       [&](const Vec3& other) { return level_distance(other, centre) < 2.0 * options_.smallest; }))
+        discs.push_back(centre);
+    }
+    return discs;
+  }
+
+  /// The way between two places lies in the void.
+  bool stays(const Vec3& from, const Vec3& to) const {
+    return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - kSinkMargin);
+  }
+
+  /// The largest body that goes in near `start` and where it may, and a foot that carries it there. Where walls leave
+  /// no room for a body as wide as the gap, it takes the foot that carries the widest bodies that they let in.
+  Disc grown(const Vec3& start, const std::function<bool(const Vec3& to)>& may_be) const {
+    constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
+    constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
+    const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
+    const Disc body = grow(probe_.body(), start, probe_.open(), kFinest, may_move);
+    if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
+    return grow(probe_.floor(), body.centre, probe_.open(), kFinest, [&](const Vec3& from, const Vec3& to) {
+      const double room = widest_share * body.radius;
+      return may_move(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
+    });
+  }
+
+  const CrackOptions& options_;
+  const VoidProbe& probe_;
+  const OpenDrops& drops_;
+  const std::function<bool(const Vec3& foot)>& is_reached_;
+  const std::atomic<bool>& ended_;
+  double spacing_;
+  std::unordered_map<std::uint64_t, std::vector<Cell>> cells_;
+  DisjointSets sets_;
+  std::vector<Disc> discs_;              ///< of each flood
+  std::vector<std::vector<Vec3>> rims_;  ///< likewise
+  std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
+};
+
+/// What was climbed to and not measured: the widest disc of each void.
+std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& drops, std::vector<RimPlace> places) {
+  std::erase_if(places, [&](const RimPlace& place) { return drops.cover(place.outside); });
+  std::vector<MeasuredVoid> voids;
+  std::vector<Vec3> centres;
+  for (const RimPlace& place : places) centres.push_back(place.disc.centre);
+  for (const std::vector<std::size_t>& group : together(centres, options.support_max, options.step)) {
+    MeasuredVoid& found = voids.emplace_back();
+    for (const std::size_t i : group) {
+      if (places[i].disc.radius > found.disc.radius) found.disc = places[i].disc;
+      found.rim.push_back(places[i].rim);
+    }
+    found.foot = found.disc.radius;
+  }
+  return voids;
+}
+
+}  // namespace
+
+std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
+                                        const std::vector<RimPlace>& places,
+                                        const std::function<bool(const Vec3& foot)>& is_reached,
+                                        const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
+  std::vector<Vec3> seeds;
+  for (const RimPlace& place : places) seeds.push_back(place.outside);
+  const std::vector<std::vector<std::size_t>> parts = apart(seeds, 2.0 * kWindow + 0.5);
+  std::vector<std::vector<MeasuredVoid>> measured(parts.size());
+  std::vector<std::vector<RimPlace>> left(parts.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto asked = [&] {
+    if (!goes_on || ended) return;
+    const std::lock_guard lock(mutex);
+    if (!ended && !goes_on(double(done++) / double(places.size()))) ended = true;
+  };
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    Floods floods(options, probe, drops, is_reached, ended);
+    for (const std::size_t k : parts[i]) {
+      const RimPlace& place = places[k];
+      asked();
+      if (!ended)
+        floods.add(place);
+      else if (!floods.add_to_known(place))
+        left[i].push_back(place);
+    }
+    measured[i] = floods.measured();
+  });
+  std::vector<MeasuredVoid> all;
+  std::vector<RimPlace> rest;
+  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
+  for (std::vector<RimPlace>& part : left) std::move(part.begin(), part.end(), std::back_inserter(rest));
+  for (MeasuredVoid& found : climbed(options, drops, std::move(rest))) all.push_back(std::move(found));
+  return all;
+}
+
+}  // namespace roam::cracks

@@ -1,0 +1,165 @@
+#include "cracks/voids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "cracks/rim_edges.h"
+
+namespace roam::cracks {
+
+namespace {
+
+/// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
+constexpr double kStepSlack = 0.003;
+/// Of the smallest gap that is looked for: the sphere that sinks into it, and the one that looks about at knee height.
+constexpr double kProbeShare = 0.9, kSightShare = 0.2 * kProbeShare;
+/// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
+constexpr double kClimbPrecision = 0.004;
+/// Two corners of an edge nearer than this in the plan have no side.
+constexpr double kShortest = 1e-9;
+
+}  // namespace
+
+bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double knee, double smallest) {
+  const double sphere = kSightShare * smallest;
+  const Vec3 eye = from + Vec3(0.0, 0.0, knee);
+  Impact met = world.sweep({sphere, 0.0}, eye, to - from);
+  // A sphere that came to touch a wall may not be let go again: a smaller one is.
+  if (met.hit && met.time == 0.0) met = world.sweep({0.7 * sphere, 0.0}, eye, to - from);
+  return !met.hit;
+}
+
+VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
+    : survey_(survey),
+      options_(options),
+      step_(options.step + kStepSlack),
+      radius_(kProbeShare * options.smallest),
+      outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
+      floor_(survey, step_),
+      body_(survey, floor_, options.knee) {}
+
+bool VoidProbe::has_floor(const Vec3& place) const {
+  return survey_.floor().ray(place + Vec3(0.0, 0.0, step_), Vec3(0.0, 0.0, -2.0 * step_)).hit;
+}
+
+bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
+  return sees_at_knee(survey_.world(), from, to, options_.knee, options_.smallest);
+}
+
+bool VoidProbe::lets_pass(const Vec3& from, const Vec3& to, double body) const {
+  if (body <= 0.0) return true;
+  return !survey_.world().sweep({body, 0.0}, from + Vec3(0.0, 0.0, options_.knee + body), to - from).hit;
+}
+
+bool VoidProbe::sinks(const Vec3& place, double radius) const {
+  const Vec3 knee = place + Vec3(0.0, 0.0, options_.knee);
+  return !survey_.world().sweep({radius, 0.0}, knee, {0.0, 0.0, radius - step_ - options_.knee}).hit;
+}
+
+std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
+  const double depth = place.z - survey_.world().bounds().lower.z + 1.0;
+  const Impact down = survey_.world().ray(place, {0.0, 0.0, -depth});
+  if (!down.hit) return std::nullopt;
+  return place - Vec3(0.0, 0.0, down.time * depth);
+}
+
+namespace {
+
+/// A place of a rim, the way out of the floor there, and the place just outside.
+struct Rim {
+  Vec3 at{0.0}, out{0.0}, outside{0.0};
+};
+
+/// The rims of one floor triangle.
+class Rims {
+ public:
+  Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
+
+  /// Calls take(rim) with each for which asks(place) and that has a void outside, whoever comes there, of the edges
+  /// that `known` does not say have none, until it returns false for that edge. Those that have none beside `known`.
+  template <class Asks, class Take>
+  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Asks& asks, const Take& take) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((known >> k & 1u) != 0) continue;
+      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], asks, take))
+        known = static_cast<std::uint8_t>(known | 1u << k);
+    }
+    return known;
+  }
+
+ private:
+  /// Whether there may be any.
+  template <class Asks, class Take>
+  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Asks& asks, const Take& take) const {
+    const Vec3 along = b - a;
+    const double level = std::hypot(along.x, along.y);
+    if (level < kShortest) return false;
+    Vec3 out(along.y / level, -along.x / level, 0.0);
+    if (out.x * (inner.x - a.x) + out.y * (inner.y - a.y) > 0.0) out = -out;
+    const double length = std::hypot(level, along.z);
+    const double parts = std::max(std::ceil(length / spacing_), 1.0);
+    bool any = false;
+    for (double i = 0.5; i < parts; i += 1.0) {
+      const Vec3 at = a + (i / parts) * along;
+      const Rim rim{at, out, at + probe_.outside() * out};
+      const bool is_asked = asks(at);
+      if (is_asked && !is_void(rim)) continue;
+      any = true;
+      if (is_asked && !take(rim)) break;
+    }
+    return any;
+  }
+
+  /// The cheap questions first: most edges have floor on both sides, and most others have a wall.
+  bool is_void(const Rim& rim) const {
+    // Seen from a little inside, or a wall on the rim itself would be touched from its far side as well.
+    return !probe_.has_floor(rim.outside) && probe_.sees(rim.at - probe_.outside() * rim.out, rim.outside) &&
+           probe_.sinks(rim.outside, probe_.radius());
+  }
+
+  const VoidProbe& probe_;
+  double spacing_;
+};
+
+Disc climb(const VoidProbe& probe, const Vec3& outside) {
+  return grow(probe.floor(), outside, probe.open(), kClimbPrecision,
+              [&](const Vec3& from, const Vec3& to) { return probe.sees(from, to); });
+}
+
+}  // namespace
+
+std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options, const Triangle& floor,
+                                std::uint8_t known) {
+  return Rims(probe, options)
+      .with_void(
+          floor, known, [](const Vec3&) { return true; }, [](const Rim&) { return false; });
+}
+
+std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,
+                                 RimEdges& edges, const std::function<bool(const Vec3& foot)>& is_reached,
+                                 const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
+  const auto floors = survey.floor_triangles();
+  const Rims rims(probe, options);
+  std::vector<RimPlace> all;
+  std::mutex mutex;
+  const auto look = [&](std::size_t f, std::uint8_t& without, bool is_known) {
+    std::vector<RimPlace> found;
+    // Most of the edges that are left by now have a void somewhere: who comes there is asked first.
+    without = rims.with_void(
+        survey.triangle(floors[f]), without, [&](const Vec3& at) { return !is_known || is_reached(at); },
+        [&](const Rim& rim) {
+          if (is_known || is_reached(rim.at)) found.push_back({rim.at, rim.outside, climb(probe, rim.outside)});
+          return true;
+        });
+    if (found.empty()) return;
+    const std::lock_guard lock(mutex);
+    all.insert(all.end(), found.begin(), found.end());
+  };
+  if (!edges.look_at_all(look, goes_on)) ended = true;
+  std::sort(all.begin(), all.end(), lies_before);
+  return all;
+}
+
+}  // namespace roam::cracks

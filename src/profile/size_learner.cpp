@@ -1,0 +1,230 @@
+#include "roam/size_learner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "math/floating_point.h"
+#include "roam/opening.h"
+#include "roam/support.h"
+
+namespace roam {
+namespace {
+
+/// Of half an opening's width: the body that is offered. The width is measured to a few millimetres.
+constexpr double room_part = 0.97;
+/// Metres that a foot is made larger than the disc that falls through.
+constexpr double support_margin = 0.02;
+/// Metres to which that disc is measured.
+constexpr double disc_precision = 1e-3;
+/// Metres below the floor last stood on firmly, from where on a body that is stuck has sunk into something.
+constexpr double sunk = 0.02;
+
+/// Of a unit normal's z, so that a ramp exactly at the slope limit is floor.
+constexpr double cosine_rounding = 1e-9;
+/// Of the radius: who has moved less stands where it stood.
+constexpr double moved_part = 0.1;
+/// Who tries a foot walks at this speed, m/s, in steps of so many seconds, and not for longer than a minute.
+constexpr double trial_speed = 1.4;
+constexpr double trial_step = 1.0 / 60.0;
+constexpr int trial_limit = 3600;
+/// Metres from where it was to go.
+constexpr double arrived = 1e-3;
+
+bool is_sphere(const WalkerSettings& settings) { return settings.height <= 2.0 * settings.radius; }
+
+/// The body of another radius with the same lowest point, and its centre.
+struct Placed {
+  Body body;
+  Vec3 centre{0.0};
+};
+
+Placed resized(const Walker& walker, double radius) {
+  const double height = is_sphere(walker.settings()) ? 2.0 * radius : walker.body().height();
+  const Vec3 feet = walker.feet();
+  return {Body::capsule(radius, height), feet + Vec3(0.0, 0.0, 0.5 * height)};
+}
+
+/// Whether a body goes from `place` sideways until it is in line with `middle`, and then ahead until it is through, as
+/// it is or lifted by a step. Where it ends: nothing when it does not.
+std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const Vec3& middle, const Vec3& ahead) {
+  const Vec3 sideways(-ahead.y, ahead.x, 0.0);
+  const Vec3 aside = sideways * glm::dot(middle - small.centre, sideways);
+  const double forward = std::max(0.0, glm::dot(middle - small.centre, ahead)) + 2.0 * walker.body().radius;
+  const Space& space = walker.space();
+  for (const double lift : {0.0, std::min(walker.settings().step, small.body.height())}) {
+    Vec3 place = small.centre;
+    bool free = true;
+    for (const Vec3& leg : std::array{Vec3(0.0, 0.0, lift), aside, ahead * forward}) {
+      free = free && (leg == Vec3(0.0) || !space.sweep(small.body, place, leg).hit);
+      place += leg;
+    }
+    if (free) return place;
+  }
+  return std::nullopt;
+}
+
+/// Whether there is floor under the axis, and not only under a rim that still carries: from there one sees its plane.
+bool floor_below(const Walker& walker) {
+  const double radius = walker.body().radius;
+  const double slope = walker.settings().slope_degrees * std::numbers::pi / 180.0;
+  const double lifted = (radius + walker.skin()) * (1.0 / std::cos(slope) - 1.0);
+  const Vec3 down(0.0, 0.0, -(radius + lifted + 3.0 * walker.skin()));
+  const Impact floor = walker.space().ray(walker.feet() + Vec3(0.0, 0.0, radius), down);
+  return floor.hit && floor.normal.z >= std::cos(slope) - cosine_rounding;
+}
+
+/// A walker with this foot that was put to `from` and has gone straight to where the axis is that of `to`. Nothing when
+/// it does not get there, or is not carried there: by its foot, and over floor that is known.
+std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& from, const Vec3& to) {
+  WalkerSettings settings = walker.settings();
+  settings.support_radius = foot;
+  Walker trial(walker.space(), settings, Mode::walk, from);
+  const Vec3 whole(to.x - from.x, to.y - from.y, 0.0);
+  const int most = 2 * static_cast<int>(glm::length(whole) / (trial_speed * trial_step)) + 2;
+  for (int i = 0; i < std::min(most, trial_limit); ++i) {
+    const Vec3 left(to.x - trial.position().x, to.y - trial.position().y, 0.0);
+    const double distance = glm::length(left);
+    if (distance < arrived) break;
+    trial.step({.velocity = left * (std::min(distance / trial_step, trial_speed) / distance)}, trial_step);
+    if (!trial.grounded() || trial.report().has(EventKind::fell)) return std::nullopt;
+  }
+  const Vec3& end = trial.position();
+  const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
+  if (!there || !trial.stance().carried || trial.stance().unknown) return std::nullopt;
+  return trial;
+}
+
+bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
+
+}  // namespace
+
+SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
+  const DefaultFloatingPoint guard;
+  if (!(profile_.radius > 0.0))
+    throw Error(fmt::format("learning begins with a body: the profile's radius is {:g} m; it must be greater than 0",
+                            profile_.radius));
+  if (!(limits.radius_min > 0.0 && limits.radius_min <= Space::reach_limit))
+    throw Error(
+        fmt::format("the smallest radius that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
+                    limits.radius_min, Space::reach_limit));
+  if (!(limits.support_max > 0.0 && limits.support_max <= 0.25 * Space::reach_limit))
+    throw Error(
+        fmt::format("the largest foot that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
+                    limits.support_max, 0.25 * Space::reach_limit));
+  if (!(limits.patience >= 0.0 && std::isfinite(limits.patience)))
+    throw Error(fmt::format("the patience of learning is {:g} s; it must be a number of at least 0", limits.patience));
+}
+
+std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {
+  const DefaultFloatingPoint guard;
+  const StepReport& report = walker.report();
+  const Stance& stance = walker.stance();
+  const bool on_foot = walker.mode() == Mode::walk;
+  if (walker.mode() == Mode::ghost || report.met_unknown) {
+    pushed_ = 0.0;
+    return std::nullopt;
+  }
+  if (on_foot && stance.firm && !stance.carried) {
+    lost_ = false;
+    const bool moved = !firm_ || glm::length(walker.position() - firm_at_) > moved_part * walker.body().radius;
+    if (moved && !report.blocked && floor_below(walker)) {
+      firm_ = true;
+      firm_at_ = walker.position();
+      firm_feet_ = walker.feet().z;
+    }
+  }
+  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held && !report.put_back) {
+    lost_ = true;
+    lost_at_ = walker.position();
+  }
+  const bool fell = on_foot && (report.has(EventKind::fell) || report.put_back);
+  pushed_ = report.blocked && wishes(wish) ? pushed_ + seconds : 0.0;
+  const bool stuck = pushed_ >= limits_.patience;
+  if (!fell && !stuck) {
+    if (!report.blocked) offered_ = false;
+    return std::nullopt;
+  }
+  if (offered_) return std::nullopt;
+  offered_ = true;
+  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm;
+  if (fell || has_sunk) {
+    if (std::optional<Lesson> lesson = support(walker)) return lesson;
+  }
+  return fell ? std::nullopt : narrower(walker, wish);
+}
+
+std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wish) const {
+  const Vec3 flat(wish.x, wish.y, 0.0);
+  const double length = glm::length(flat);
+  if (!(length > 0.0)) return std::nullopt;
+  const Vec3 ahead = flat / length;
+  const double radius = walker.body().radius;
+  const auto opening = measure_opening(walker, ahead);
+  // Low openings are crouching's.
+  if (!opening || opening->kind == Opening::Kind::lintel) return std::nullopt;
+  const double fits = room_part * 0.5 * opening->width;
+  if (fits >= radius || fits < limits_.radius_min) return std::nullopt;
+  const Placed small = resized(walker, fits);
+  const std::optional<Vec3> end = way_through(walker, small, opening->point, ahead);
+  if (!end) return std::nullopt;
+  Lesson lesson;
+  lesson.kind = Lesson::Kind::narrower;
+  lesson.at = opening->point;
+  lesson.region.radius = fits;
+  lesson.region.support_radius = walker.settings().support_radius;
+  const Vec3 room(radius, radius, walker.settings().step);
+  for (const Vec3& place : {walker.position(), small.centre, *end}) {
+    lesson.region.bounds.include(place - room);
+    lesson.region.bounds.include(place + room);
+  }
+  lesson.region.bounds.include(walker.feet());
+  lesson.width = opening->width;
+  lesson.region.why = fmt::format("opening {:.2f} m wide", opening->width);
+  return lesson;
+}
+
+std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
+  if (!firm_ || !lost_) return std::nullopt;
+  double low = std::max(walker.body().radius, walker.settings().support_radius), high = limits_.support_max;
+  if (high <= low) return std::nullopt;
+  // Not even the largest: a pit, a cliff. Else it knows the plane of the floor, and is carried where it is.
+  const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
+  if (!largest) return std::nullopt;
+  while (high - low > disc_precision) {
+    const double foot = 0.5 * (low + high);
+    (carrying(*largest, foot) == Carrying::yes ? high : low) = foot;
+  }
+  Lesson lesson;
+  lesson.kind = Lesson::Kind::support;
+  lesson.at = walker.position();
+  lesson.support_radius = std::min(high + support_margin, limits_.support_max);
+  if (!carried_at(walker, lesson.support_radius, firm_at_, lost_at_)) return std::nullopt;
+  lesson.width = 2.0 * high;
+  return lesson;
+}
+
+void SizeLearner::take(Walker& walker, const Lesson& lesson) {
+  const DefaultFloatingPoint guard;
+  if (lesson.kind == Lesson::Kind::narrower) {
+    profile_.regions.push_back(lesson.region);
+    walker.set_regions(profile_.regions);
+  } else {
+    profile_.support_radius = std::max(profile_.support_radius, lesson.support_radius);
+    for (SizeRegion& region : profile_.regions)
+      region.support_radius = std::max(region.support_radius, lesson.support_radius);
+    walker.set_regions(profile_.regions);
+    static_cast<void>(walker.resize(profile_.radius, profile_.support_radius));
+    if (firm_) static_cast<void>(walker.place(firm_at_));
+  }
+  profile_.method = "roaming";
+  pushed_ = 0.0;
+  changed_ = true;
+}
+
+}  // namespace roam

@@ -1,0 +1,342 @@
+#include "training/confirm.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "training/crossings.h"
+#include "training/judgement.h"
+#include "training/over_gap.h"
+#include "ways/trials/on_way.h"
+
+namespace roam::training {
+namespace {
+
+/// How often the ways are planned again.
+constexpr int most_rounds = 12;
+/// Places that a way round may be looked for beyond those that are known.
+constexpr std::uint64_t most_new_places = 100'000;
+/// m: a way that rises by more where a walker was stopped climbs something, and places at its top are shut; to this
+/// above and below.
+constexpr double climbs = 0.1;
+/// What is shut grows by so much each time that the way is stopped near by, up to so many metres.
+constexpr double growth = 1.6;
+constexpr double most_shut = 2.0;
+
+/// A body that is stopped at a crack becomes larger by so much, so often; then it gets a foot.
+constexpr double larger = 1.08;
+constexpr int most_larger = 2;
+/// A body that is so much larger than what the rims carry is not stopped by them.
+constexpr double unhindered = 1.25;
+/// m: who is stopped no farther from a gap, and a radius, may be by that.
+constexpr double beside_gap = 0.2;
+
+/// Where no way leads any more: a disc, seen from above, at one level.
+struct Shut {
+  Vec3 place{0.0};
+  double reach = 0.0;
+  double level = 0.0;  ///< how far above and below
+  [[nodiscard]] bool holds(const Vec3& p) const {
+    return std::hypot(p.x - place.x, p.y - place.y) <= reach && std::abs(p.z - place.z) <= level;
+  }
+};
+
+/// How a walker was stopped.
+struct Stop {
+  Trial trial;
+  double along = 0.0;                ///< m of the way
+  std::optional<std::size_t> crack;  ///< at which it was
+};
+
+/// What is known of one path.
+struct Tries {
+  std::vector<ways::NodeId> nodes;
+  std::vector<Shut> shut;
+  std::optional<Stop> stop;
+  BodySize walked;    ///< that came through
+  bool gone = false;  ///< no way is left
+};
+
+class Confirmation {
+ public:
+  Confirmation(const Survey& survey, const TrainOptions& options, const ways::BodyKind& kind, Evidence& evidence,
+               Layout& layout, Stages& stages)
+      : survey_(survey),
+        options_(options),
+        kind_(kind),
+        evidence_(evidence),
+        layout_(layout),
+        stages_(stages),
+        crossings_(survey, evidence.cracks, layout.measure.narrowest) {}
+
+  void run() {
+    std::vector<Tries> tries(layout_.paths.size());
+    for (std::size_t i = 0; i < tries.size(); ++i)
+      tries[i].nodes = layout_.tree.way(layout_.paths[i].ends.from, layout_.paths[i].ends.to);
+    for (int round = 0; walk_all(tries) && !stages_.ended(); ++round) {
+      if (ask_for_more(tries)) {
+        --round;
+        continue;
+      }
+      for (std::size_t i = 0; i < tries.size(); ++i)
+        if (tries[i].stop) go_round(layout_.paths[i], tries[i], round < most_rounds);
+      plan_again(tries);
+      take_out(tries);
+      stages_.at(std::min(1.0, static_cast<double>(round) / most_rounds));
+    }
+  }
+
+ private:
+  /// Walks what has not been walked by the body that comes of the paths. False: nobody is stopped on any.
+  bool walk_all(std::vector<Tries>& tries) {
+    const BodySize body = body_of_paths(kind_, options_, evidence_, crossings_, layout_);
+    tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
+      Tries& t = tries[i];
+      PlannedPath& path = layout_.paths[i];
+      // Where that body does not fit, one that does.
+      BodySize fitting = body;
+      if (path.passage.limited && path.passage.radius < body.radius)
+        fitting.radius = inside_share * path.passage.radius;
+      if (path.walked && BodySize{path.walked->radius, path.walked->support_radius} == fitting) t.walked = fitting;
+      if (t.walked == fitting) t.stop.reset();  // by another body
+      if (stages_.ended() || t.walked == fitting) return;
+      t.stop = stop_on(path, fitting);
+      if (!t.stop) t.walked = fitting;
+    });
+    return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
+  }
+
+  /// Where walkers were stopped at cracks whose rims may carry a larger body, or a foot. Each crack asks for more at
+  /// most so often; where nothing helped, it asks for what it did before. Whether there is another body to be sent.
+  bool ask_for_more(std::vector<Tries>& tries) {
+    std::set<std::size_t> cracks;
+    for (const Tries& t : tries)
+      if (t.stop && t.stop->crack) cracks.insert(*t.stop->crack);
+    for (const std::size_t crack : cracks) {
+      double& carried = evidence_.carried[crack];
+      const auto [asked, is_new] = asked_.try_emplace(crack, Asked{carried, 0});
+      ++asked->second.times;
+      if (asked->second.times <= most_larger) {
+        carried *= larger;
+      } else if (asked->second.times == most_larger + 1) {
+        carried = std::numeric_limits<double>::infinity();
+      } else {
+        carried = asked->second.before;
+      }
+    }
+    for (Tries& t : tries) {
+      if (!t.stop || !t.stop->crack) continue;
+      t.stop.reset();
+      t.walked = {};
+    }
+    return !cracks.empty();
+  }
+
+  /// The crack at which a body is that stops between two places of a way.
+  [[nodiscard]] std::optional<std::size_t> crack_at(const std::vector<Vec3>& way, double from, double to,
+                                                    const BodySize& body) const {
+    for (const Crossing& crossing : crossings_.on(way)) {
+      if (!is_asked(crossing.crack, body)) continue;
+      const double radius = evidence_.cracks[crossing.crack].radius;
+      const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
+      if (gap && to >= gap->from - body.radius - beside_gap && from <= gap->to + body.radius + beside_gap)
+        return crossing.crack;
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a crack that stops such a body may be asked for what it carries.
+  [[nodiscard]] bool is_asked(std::size_t crack, const BodySize& body) const {
+    const cracks::FoundCrack& found = evidence_.cracks[crack];
+    const auto asked = asked_.find(crack);
+    const bool given_up = asked != asked_.end() && asked->second.times > most_larger + 1;
+    return found.kind == Crack::Kind::crack && found.shallow_depth == 0.0 && !given_up &&
+           (body.support_radius < found.radius || asked != asked_.end()) &&
+           (asked != asked_.end() || body.radius < unhindered * evidence_.carried[crack]);
+  }
+
+  /// Where a body is stopped on its way back, up over a gap that it came down over.
+  [[nodiscard]] std::optional<Stop> stop_back(const std::vector<Vec3>& way, const BodySize& body) const {
+    for (const Crossing& crossing : crossings_.on(way)) {
+      if (!is_asked(crossing.crack, body)) continue;
+      const double radius = evidence_.cracks[crossing.crack].radius;
+      const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
+      if (!gap) continue;
+      const std::vector<Vec3> back = back_over(survey_, way, *gap, body.radius, layout_.measure.step);
+      if (back.empty()) continue;
+      const Trial trial =
+          try_way(survey_, kind_, body.radius, body.support_radius, back, [this] { return !stages_.ended(); });
+      if (trial.outcome != Outcome::reached) return Stop{trial, gap->to, crossing.crack};
+    }
+    return std::nullopt;
+  }
+
+  /// Where a body is stopped or falls; none where it comes through, which is kept, or is not meant to.
+  [[nodiscard]] std::optional<Stop> stop_on(PlannedPath& path, const BodySize& body) const {
+    const Passage& passage = path.passage;
+    const auto tried = [&](const std::vector<Vec3>& way) {
+      return try_way(survey_, kind_, body.radius, body.support_radius, way, [this] { return !stages_.ended(); });
+    };
+    Stop stop{.trial = tried(passage.way), .crack = {}};
+    if (stop.trial.outcome == Outcome::reached) {
+      std::optional<Stop> back = stop_back(passage.way, body);
+      if (!back) path.walked = stop.trial;
+      return back;
+    }
+    if (sinks_into_shallow(passage.way, body.radius)) return std::nullopt;
+    stop.along = ways::nearest_on(passage.way, feet(stop.trial), kind_.mode).along;
+    if (judged(stop.trial.outcome) != Judgement::flies_off) {
+      if (stop.trial.outcome == Outcome::blocked) stop.crack = crack_at(passage.way, stop.along, stop.along, body);
+      return stop;
+    }
+    // Where it left the level of the way, and not where it came to lie.
+    double goes = 0.0, falls = passage.length;
+    while (falls - goes > 0.5 * options_.spacing && !stages_.ended()) {
+      const double half = 0.5 * (goes + falls);
+      (tried(stretch(passage.way, 0.0, half)).outcome == Outcome::reached ? goes : falls) = half;
+    }
+    stop.along = goes;
+    stop.crack = crack_at(passage.way, goes, falls, body);
+    return stop;
+  }
+
+  /// No foot helps over such a trench: the answer says so.
+  [[nodiscard]] bool sinks_into_shallow(const std::vector<Vec3>& way, double radius) const {
+    const std::vector<Crossing> on = crossings_.on(way);
+    return std::any_of(on.begin(), on.end(), [&](const Crossing& crossing) {
+      const cracks::FoundCrack& crack = evidence_.cracks[crossing.crack];
+      return crack.kind == Crack::Kind::crack && crack.shallow_depth > 0.0 && sinks_into(radius, crack);
+    });
+  }
+
+  [[nodiscard]] Vec3 feet(const Trial& trial) const {
+    const double height = kind_.height > 0.0 ? kind_.height : 2.0 * trial.radius;
+    return trial.at - Vec3(0.0, 0.0, 0.5 * height);
+  }
+
+  /// Shuts the lattice where the walker was stopped, and looks for another way of it.
+  void go_round(const PlannedPath& path, Tries& t, bool may_try) {
+    t.gone = true;
+    if (!may_try || t.stop->trial.outcome == Outcome::held) return;
+    shut_at(path.passage, t);
+    const Vec3 end = layout_.tree.node(path.ends.to).place;
+    const auto blocked = [&](const ways::Node& node) {
+      return node.place != end &&
+             std::any_of(t.shut.begin(), t.shut.end(), [&](const Shut& s) { return s.holds(node.place); });
+    };
+    const std::uint64_t most = layout_.tree.size() + most_new_places;
+    t.nodes = layout_.tree.way_round(path.ends.from, path.ends.to, blocked, 0.0,
+                                     [&](std::uint64_t places) { return places < most && !stages_.ended(); });
+    t.gone = t.nodes.size() < 2;
+  }
+
+  void shut_at(const Passage& passage, Tries& t) const {
+    const double spacing = options_.spacing, from = t.stop->along, ahead = t.stop->trial.radius + spacing;
+    const Vec3 behind = place_on(passage.way, from - spacing);
+    Vec3 top = behind;
+    for (double at = 0.0; at <= ahead; at += 0.25 * spacing) {
+      const Vec3 place = place_on(passage.way, from + at);
+      if (place.z > top.z + 0.2 * climbs) top = place;
+    }
+    const bool up = top.z - behind.z > climbs;
+    Shut shut{up ? top : place_on(passage.way, from + 0.5 * ahead), (up ? 1.5 : 1.0) * spacing,
+              up ? climbs : layout_.measure.step};
+    const double most = up ? most_shut : 3.0 * spacing;
+    for (const Shut& other : t.shut) {
+      if (std::hypot(other.place.x - shut.place.x, other.place.y - shut.place.y) <= other.reach + 2.0 * spacing &&
+          std::abs(other.place.z - shut.place.z) <= shut.level)
+        shut.reach = std::max(shut.reach, std::min(most, growth * other.reach));
+    }
+    t.shut.push_back(shut);
+    // The way itself is shut in any case.
+    if (t.nodes.size() < 3) return;
+    const auto apart = [&](ways::NodeId id) { return glm::distance(layout_.tree.node(id).place, shut.place); };
+    const ways::NodeId nearest = *std::min_element(t.nodes.begin() + 1, t.nodes.end() - 1,
+                                                   [&](ways::NodeId a, ways::NodeId b) { return apart(a) < apart(b); });
+    t.shut.push_back({layout_.tree.node(nearest).place, 0.01 * spacing, climbs});
+  }
+
+  void plan_again(std::vector<Tries>& tries) {
+    tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
+      Tries& t = tries[i];
+      if (!t.stop || t.gone || stages_.ended()) return;
+      Passage passage = plan_along(survey_, layout_, options_.spacing, t.nodes);
+      // A way round that is too narrow for the body that was stopped is no way of its.
+      const bool enough = passage.found && !(passage.limited && passage.radius < t.stop->trial.radius);
+      t.gone = !enough || passage.way.size() < 2;
+      if (t.gone) return;
+      layout_.paths[i].passage = std::move(passage);
+      layout_.paths[i].is_widest = false;
+      layout_.paths[i].walked.reset();
+      t.walked = {};
+      t.stop.reset();
+    });
+  }
+
+  void take_out(std::vector<Tries>& tries) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < tries.size(); ++i) {
+      if (tries[i].gone) {
+        const Passage& p = layout_.paths[i].passage;
+        const Trial& last = tries[i].stop->trial;
+        layout_.unwalked.push_back({layout_.paths[i].ends, p.way.front(), p.way.back(), last, feet(last)});
+        continue;
+      }
+      if (kept != i) {
+        tries[kept] = std::move(tries[i]);
+        layout_.paths[kept] = std::move(layout_.paths[i]);
+      }
+      ++kept;
+    }
+    tries.resize(kept);
+    layout_.paths.resize(kept);
+  }
+
+  const Survey& survey_;
+  const TrainOptions& options_;
+  const ways::BodyKind& kind_;
+  Evidence& evidence_;
+  Layout& layout_;
+  Stages& stages_;
+  const Crossings crossings_;
+  /// What a crack was asked for.
+  struct Asked {
+    double before = 0.0;  ///< Evidence::carried, before
+    int times = 0;
+  };
+  std::map<std::size_t, Asked> asked_;
+};
+
+}  // namespace
+
+void confirm_paths(const Survey& survey, const TrainOptions& options, const ways::BodyKind& kind, Evidence& evidence,
+                   Layout& layout, Stages& stages) {
+  stages.begin(TrainStage::walking);
+  Confirmation(survey, options, kind, evidence, layout, stages).run();
+  if (layout.unwalked.empty() || stages.ended()) return;
+  // Other ends, once: of the parts whose ends could not be walked to.
+  const std::size_t before = layout.paths.size();
+  for (std::size_t i = 0; i < layout.components.size(); ++i) {
+    const std::vector<ways::NodeId>& nodes = layout.components[i].nodes;
+    const auto count = std::count_if(layout.unwalked.begin(), layout.unwalked.end(), [&](const Unwalked& u) {
+      return std::binary_search(nodes.begin(), nodes.end(), u.ends.from);
+    });
+    if (count == 0) continue;
+    for (const Ends& ends : draw_paths(layout.tree, layout.components[i], layout.rooms[i], static_cast<int>(count),
+                                       options.seed + i + layout.components.size())) {
+      Passage passage = plan_path(survey, layout, options.spacing, ends);
+      if (passage.found && passage.way.size() > 1) layout.paths.push_back({ends, std::move(passage)});
+    }
+  }
+  if (layout.paths.size() > before) Confirmation(survey, options, kind, evidence, layout, stages).run();
+}
+
+}  // namespace roam::training

@@ -1,0 +1,301 @@
+#include "training/interval.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "roam/support.h"
+#include "training/detour.h"
+#include "training/neck_ways.h"
+#include "training/over_gap.h"
+#include "training/places/regions.h"
+#include "ways/refine/refine.h"
+
+namespace roam::training {
+
+namespace {
+
+/// m, of a grown person: what a body is where nothing asks for another.
+constexpr double person = 0.3;
+/// m: FoundCrack::foot is found to this, and for the thinnest body that was asked for.
+constexpr double foot_precision = 0.03;
+/// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
+constexpr std::size_t most_searched = 8;
+constexpr double least_searched = 0.01;
+
+/// Radii that a body of this kind can have at all.
+double cap(const ways::BodyKind& kind, const TrainOptions& options) {
+  return std::min(options.radius_max, ways::largest_radius(kind));
+}
+
+/// m: what lets less through decides no body and gets no region.
+double least_useful(const ways::BodyKind& kind, const TrainOptions& options) {
+  return std::min(options.radius_min, 0.5 * cap(kind, options));
+}
+
+/// The least of what the paths let through, of those that let `useful` through; none where there are none.
+std::optional<double> least_from(double useful, const Training& training) {
+  std::optional<double> least;
+  for (const TrainedPath& path : training.paths) {
+    const double most = path.largest.value_or(std::numeric_limits<double>::infinity());
+    if (most >= useful && (!least || most < *least)) least = most;
+  }
+  return least;
+}
+
+/// Component by component, for the floor at the bottom of a gap is a step down only where one can walk there.
+std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptions& options, const Layout& layout,
+                                          cracks::RimEdges& ahead, Stages& stages) {
+  std::vector<cracks::FoundCrack> cracks;
+  const cracks::CrackOptions how = crack_options(options, layout.measure);
+  std::optional<cracks::RimEdges> others;
+  cracks::RimEdges& edges = ahead.options() == how ? ahead : others.emplace(survey, how);
+  for (std::size_t i = 0; i < layout.components.size() && i < most_searched && !stages.ended(); ++i) {
+    const Component& component = layout.components[i];
+    if (static_cast<double>(component.nodes.size()) < least_searched * layout.components[0].nodes.size()) break;
+    const Reached reached(survey, layout, options.spacing, {&component, 1});
+    std::vector<cracks::FoundCrack> found = find_cracks(
+        survey, edges, [&](const Vec3& foot) { return reached(foot); }, [&](double done) { return stages.at(done); });
+    // Floor behind a thin wall counts, for what is an open drop there is one on this side too; not for a crack.
+    std::erase_if(found, [&](const cracks::FoundCrack& crack) {
+      return crack.kind != Crack::Kind::open_drop &&
+             std::none_of(crack.rim.begin(), crack.rim.end(), [&](const Vec3& rim) { return reached.in_sight(rim); });
+    });
+    cracks.insert(cracks.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+  }
+  std::stable_sort(cracks.begin(), cracks.end(),
+                   [](const cracks::FoundCrack& a, const cracks::FoundCrack& b) { return a.radius > b.radius; });
+  return cracks;
+}
+
+void note_width(const cracks::FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
+  // Beside a wall a foot's disc finds room where no body does. Elsewhere the largest foot carries over all that is no
+  // open drop.
+  const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
+  const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest + foot_margin
+                                     : std::min(crack.radius + foot_margin, options.support_max);
+  evidence.least_foot = std::max(evidence.least_foot, foot);
+}
+
+/// Fills in what is found out path by path.
+class Paths {
+ public:
+  Paths(const Survey& survey, const TrainOptions& options, Layout& layout, Training& training, Evidence& evidence)
+      : survey_(survey), options_(options), layout_(layout), training_(training), evidence_(evidence) {
+    for (std::size_t i = 0; i < layout.paths.size(); ++i) describe(i);
+  }
+
+  void cross_all() {
+    const Crossings crossings(survey_, evidence_.cracks, layout_.measure.narrowest);
+    for (std::size_t i = 0; i < training_.paths.size(); ++i) cross(crossings, i);
+    if (options_.paths == 0) add_crossings(crossings);
+    training_.cracks.assign(evidence_.cracks.begin(), evidence_.cracks.end());
+  }
+
+ private:
+  void describe(std::size_t i) {
+    const Passage& passage = layout_.paths[i].passage;
+    TrainedPath path;
+    path.from = passage.way.front();
+    path.to = passage.way.back();
+    path.way = passage.way;
+    if (passage.limited) path.largest = passage.radius;
+    if (path.largest && (!training_.largest || *path.largest < *training_.largest)) {
+      training_.largest = path.largest;
+      evidence_.narrowest = i;
+    }
+    training_.paths.push_back(std::move(path));
+  }
+
+  void cross(const Crossings& crossings, std::size_t i) {
+    TrainedPath& path = training_.paths[i];
+    for (const Crossing& crossing : crossings.on(path.way)) {
+      cracks::FoundCrack& crack = evidence_.cracks[crossing.crack];
+      crack.on_a_path = true;
+      if (crack.kind != Crack::Kind::crack) continue;
+      evidence_.crossings.push_back({i, crossing});
+      path.smallest = std::max(path.smallest, crack.radius);
+      if (crack.radius > training_.smallest) {
+        training_.smallest = crack.radius;
+        evidence_.widest = crossing.crack;
+      }
+      note_hardest(crossing.crack);
+    }
+  }
+
+  void note_hardest(std::size_t crack) {
+    const double carried = evidence_.carried[crack];
+    if (carried <= carried_share * evidence_.cracks[crack].radius) return;
+    if (!evidence_.hardest || carried > evidence_.carried[*evidence_.hardest]) evidence_.hardest = crack;
+  }
+
+  /// Cracks are in the order of their width: the first that must be crossed decides.
+  void add_crossings(const Crossings& crossings) {
+    const Reached reached(survey_, layout_, options_.spacing, layout_.components);
+    for (const cracks::FoundCrack& crack : evidence_.cracks) {
+      if (crack.kind != Crack::Kind::crack || crack.on_a_path) continue;
+      if (crack.radius <= training_.smallest) return;
+      const std::optional<Ends> ends = must_be_crossed(survey_, layout_, reached, crack);
+      if (!ends) continue;
+      Passage passage = plan_path(survey_, layout_, options_.spacing, *ends);
+      if (passage.way.size() < 2 || !passage.found) continue;
+      layout_.paths.push_back({*ends, std::move(passage)});
+      describe(layout_.paths.size() - 1);
+      cross(crossings, layout_.paths.size() - 1);
+    }
+  }
+
+  const Survey& survey_;
+  const TrainOptions& options_;
+  Layout& layout_;
+  Training& training_;
+  Evidence& evidence_;
+};
+
+/// The lower end of which `carried` (m) is with its margin: of level rims it is half the width.
+double without_margin(double carried, double smallest) {
+  return carried > carried_share * smallest ? std::max(smallest, carried / (carried_share * rim_sine)) : smallest;
+}
+
+/// `lower` (m): what is carried over all cracks on the paths.
+void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence, double lower,
+            Training& training) {
+  const double largest = training.largest.value_or(cap(kind, options));
+  // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
+  const double useful = least_useful(kind, options);
+  const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
+  const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
+  const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
+  const double least = without_margin(lower, training.smallest);
+  training.feasible = !most_of_others && least <= most;
+  training.radius = std::min(person, upper);
+  if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (least + most);
+  training.support_radius = 0.0;
+  const auto widest = std::max_element(evidence.carried.begin(), evidence.carried.end());
+  if (widest != evidence.carried.end() && training.radius < *widest)
+    training.support_radius = std::min(options.support_max, evidence.least_foot);
+  // Over rims that only a larger body rolls up over, a foot that is hardly larger than the body is one of its own.
+  if (training.support_radius > 0.0 && training.support_radius <= training.radius)
+    training.support_radius = std::min(options.support_max, training.radius + foot_margin);
+  if (training.support_radius <= training.radius) training.support_radius = 0.0;
+}
+
+void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
+  if (evidence.narrowest) {
+    const Passage& passage = layout.paths[*evidence.narrowest].passage;
+    const Opening opening = passage.opening.value_or(Opening{.width = 2.0 * passage.radius});
+    training.decisive.push_back({Decisive::Kind::opening, opening.point, opening.width, opening.direction});
+  }
+  if (evidence.widest) {
+    const Crack& crack = evidence.cracks[*evidence.widest];
+    training.decisive.push_back({Decisive::Kind::split, crack.point, 2.0 * crack.radius, crack.direction});
+  }
+}
+
+}  // namespace
+
+cracks::CrackOptions crack_options(const TrainOptions& options, const ways::Measure& measure) {
+  cracks::CrackOptions how;
+  how.step = options.step;
+  how.knee = cracks::knee_height(options.step);
+  how.smallest = std::min(measure.narrowest, 0.5 * options.support_max);
+  how.support_max = options.support_max;
+  how.threads = options.threads;
+  return how;
+}
+
+Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout, cracks::RimEdges& ahead,
+                     Stages& stages) {
+  Evidence evidence;
+  if (options.mode != Mode::walk || layout.components.empty() || stages.ended()) return evidence;
+  stages.begin(TrainStage::cracks);
+  evidence.cracks = cracks_of(survey, options, layout, ahead, stages);
+  evidence.complete = !stages.ended();
+  evidence.carried.assign(evidence.cracks.size(), 0.0);
+  for (std::size_t i = 0; i < evidence.cracks.size(); ++i) {
+    const cracks::FoundCrack& crack = evidence.cracks[i];
+    if (crack.kind != Crack::Kind::crack) continue;
+    if (crack.shallow_depth == 0.0) {
+      note_width(crack, options, layout.measure.narrowest, evidence);
+      const double rise = rise_of(survey, crack, layout.measure.step);
+      // No foot carries up to what is higher than its band, and what climbs there does so by its step.
+      evidence.carried[i] = carried_from(crack.radius, rise > carrying_band ? 0.0 : rise, survey.slope_degrees());
+    } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {
+      evidence.shallow = i;
+    }
+  }
+  return evidence;
+}
+
+BodySize body_of_paths(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
+                       const Crossings& crossings, const Layout& layout) {
+  Training first;
+  double carried = 0.0;
+  for (const PlannedPath& planned : layout.paths) {
+    const Passage& passage = planned.passage;
+    TrainedPath& path = first.paths.emplace_back();
+    if (passage.limited) path.largest = passage.radius;
+    if (path.largest) first.largest = std::min(first.largest.value_or(passage.radius), passage.radius);
+    for (const Crossing& crossing : crossings.on(passage.way)) {
+      const cracks::FoundCrack& crack = evidence.cracks[crossing.crack];
+      if (crack.kind != Crack::Kind::crack) continue;
+      first.smallest = std::max(first.smallest, crack.radius);
+      carried = std::max(carried, evidence.carried[crossing.crack]);
+    }
+  }
+  choose(kind, options, evidence, std::max(carried, carried_share * first.smallest), first);
+  return {first.radius, first.support_radius};
+}
+
+void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Evidence& evidence,
+               Training& training) {
+  Paths paths(survey, options, layout, training, evidence);
+  if (!evidence.cracks.empty()) paths.cross_all();
+  training.trapped_radius = trapped_below(training.smallest, options.step);
+  describe_decisive(layout, evidence, training);
+}
+
+bool sinks_into(double radius, const Crack& crack) { return radius < carried_share * crack.radius; }
+
+double trapped_below(double crack_radius, double step) {
+  return crack_radius > step && step > 0.0 ? (crack_radius * crack_radius + step * step) / (2.0 * step) : 0.0;
+}
+
+double carried_on_paths(const Evidence& evidence, const Training& training) {
+  const double level = carried_share * training.smallest;
+  return evidence.hardest ? std::max(level, evidence.carried[*evidence.hardest]) : level;
+}
+
+double least_on_paths(const Evidence& evidence, const Training& training) {
+  return without_margin(carried_on_paths(evidence, training), training.smallest);
+}
+
+void choose_body(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
+                 Training& training) {
+  choose(kind, options, evidence, carried_on_paths(evidence, training), training);
+}
+
+void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
+                 Training& training) {
+  stages.begin(TrainStage::beside_paths);
+  const double least = least_useful(kind_of(survey, options), options);
+  for (const Component& component : layout.components) {
+    if (stages.ended()) return;
+    const Rooms rooms = find_rooms(survey, layout.measure, layout.tree, component, training.radius);
+    const std::vector<std::vector<Vec3>> ways = neck_ways(layout.tree, rooms);
+    std::vector<Passage> openings(ways.size());
+    tbb::parallel_for(std::size_t(0), ways.size(), [&](std::size_t i) {
+      if (ways[i].size() > 1 && !stages.ended()) openings[i] = refine(survey, layout.measure, options.spacing, ways[i]);
+    });
+    if (stages.ended()) return;
+    for (SizeRegion& region : make_regions(layout.measure, layout.tree, rooms, least, training.radius, openings)) {
+      region.support_radius = training.support_radius;
+      training.regions.push_back(std::move(region));
+    }
+  }
+}
+
+}  // namespace roam::training

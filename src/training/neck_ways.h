@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// The widest way through each neck, so that it can be refined.
+
+#include <vector>
+
+#include "training/places/places.h"
+#include "ways/lattice/lattice.h"
+
+namespace roam::training {
+
+/// For each of rooms.necks, in their order: the places of the widest way through it from the first room that it touches
+/// to another, with the last places before it and the first behind, as far as it widens there; empty where the lattice
+/// has none.
+[[nodiscard]] std::vector<std::vector<Vec3>> neck_ways(const ways::WidestTree& tree, const Rooms& rooms);
+
+}  // namespace roam::training

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// The paper's procedure: paths are roamed in turn; where the viewpoint cannot enter the radius goes down, where it
+/// flies off the scene it goes up (Xie & Niu 2020, figure 6).
+///
+/// What the paper leaves open is settled so: the largest radius that fell and the smallest that was blocked are kept,
+/// and the next one lies half way between them; a path that changed the radius has the earlier ones roamed again; it
+/// ends when all paths are passed with one radius, or when none can.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/train.h"
+
+namespace roam::training {
+
+struct PaperOptions {
+  double start = 0.3;       ///< m, the radius that is tried first
+  double smallest = 0.05;   ///< m, and
+  double largest = 1.0;     ///< m: no other radius is tried
+  double precision = 0.01;  ///< m: bounds that are so near to each other leave nothing to try between them
+  int most_trials = 20;     ///< of each path
+};
+
+struct PaperRun : PaperResult {
+  std::vector<Trial> trials;  ///< all, in their order
+};
+
+/// Adjusts the radius over `paths` paths. `roam` sends a body along one of them; none: it was told to stop.
+[[nodiscard]] PaperRun adjust_radius(std::size_t paths, const PaperOptions& options,
+                                     const std::function<std::optional<Trial>(std::size_t path, double radius)>& roam);
+
+}  // namespace roam::training

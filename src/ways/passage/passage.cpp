@@ -1,0 +1,255 @@
+#include "roam/passage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "math/parallel_floating_point.h"
+#include "ways/flight/way.h"
+#include "ways/lattice/walk_place.h"
+#include "ways/passage/ends.h"
+#include "ways/refine/refine.h"
+
+namespace roam {
+namespace {
+
+using namespace ways;
+
+/// Ways through other openings that are looked for, at most.
+constexpr int most_others = 32;
+/// Metres: less is no difference between two widths.
+constexpr double same_width = 1e-3;
+/// Metres: a bound as near as this to the radius proves it.
+constexpr double proof = 5e-3;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error("cannot look for a way: " + what); }
+
+void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
+  const auto positive = [](double value, const char* what) {
+    if (!(value > 0.0 && value <= Space::reach_limit))
+      refuse(fmt::format("{} is {} m; it must be more than 0 and at most 1000 m", what, value));
+  };
+  for (const auto& [end, p] : {std::pair("start", from), std::pair("end", to)}) {
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(p[k]) <= Space::coordinate_limit))
+        refuse(fmt::format("its {} is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin", end, p.x, p.y,
+                           p.z));
+  }
+  if (o.mode == Mode::ghost) refuse("a ghost passes everything; say walk or fly");
+  positive(o.widest, "the widest radius");
+  positive(o.narrowest, "the narrowest radius");
+  positive(o.spacing, "the spacing");
+  positive(o.support_max, "the largest foot");
+  if (!(o.narrowest < o.widest)) refuse("the narrowest radius must be less than the widest");
+  if (o.mode == Mode::fly) return;
+  if (!(o.step >= 0.0 && o.step <= Space::reach_limit)) refuse("the step must be between 0 and 1000 m");
+  if (o.height == 0.0) return;
+  if (!(o.height >= o.step + 2.0 * o.narrowest && o.height <= Space::reach_limit))
+    refuse(fmt::format("a body {} m high leaves no room above the step for the narrowest radius", o.height));
+}
+
+Vec3 end_at(const Survey& survey, const Measure& measure, const Vec3& point) {
+  const auto place = free_end(survey, measure, point);
+  if (place) return *place;
+  refuse(fmt::format(
+      "no body with a radius of {} m fits at ({}, {}, {}) or within sight of it; choose a place with free space "
+      "around it{}",
+      measure.narrowest, point.x, point.y, point.z, measure.mode == Mode::walk ? " and floor below" : ""));
+}
+
+/// What all searches for one answer may look at together.
+class Budget {
+ public:
+  explicit Budget(const PassageOptions& options) : options_(options) {}
+
+  /// Whether a search goes on that has looked at so many places.
+  bool goes_on(std::uint64_t places) {
+    places += before_;
+    ended_ = ended_ || places >= options_.most_places || (options_.progress && !options_.progress(places));
+    return !ended_;
+  }
+  [[nodiscard]] bool ended() const { return ended_; }
+  /// A search is over. Returns the places of all by now.
+  std::uint64_t add(std::uint64_t places) { return before_ += places; }
+
+ private:
+  const PassageOptions& options_;
+  std::uint64_t before_ = 0;
+  bool ended_ = false;
+};
+
+/// One search on foot with one step.
+class Search {
+ public:
+  Search(const Survey& survey, const PassageOptions& options, const Measure& measure, Budget& budget)
+      : survey_(survey),
+        options_(options),
+        measure_(measure),
+        budget_(budget),
+        tree_(survey, measure, options.spacing) {}
+
+  Passage run(const Vec3& from, const Vec3& to) {
+    from_ = end_at(survey_, measure_, from);
+    to_ = end_at(survey_, measure_, to);
+    const auto a = tree_.seed(from_), b = tree_.seed(to_);
+    Passage best;
+    best.bound = end_bound();
+    if (a && b) {
+      const bool joined = grow_together(*a, *b);
+      const std::vector<NodeId> way = joined ? tree_.way(*a, *b) : std::vector<NodeId>{};
+      if (!way.empty()) {
+        best = refined(way);
+        others(*a, *b, way, best);
+      } else if (!budget_.ended()) {
+        best.opening = gap_between(tree_, *a, *b);
+        only_floor_parts_ = best.opening && only_floor_parts(survey_, measure_, tree_, *a, *b);
+      }
+    }
+    best.proven = best.found && best.bound - best.radius <= proof;
+    best.complete = !budget_.ended();
+    best.places = budget_.add(tree_.size());
+    return best;
+  }
+  /// Steep stairs, or a gap below a sill, may be found from one side alone, where the lattice lies badly. Where there
+  /// are walls all along what parts the two ends, neither finds a way.
+  [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_parts_; }
+
+ private:
+  /// What fits at the ends bounds every way, and so does what the height leaves. Of a sphere that may lift only what
+  /// fits is certain, not that nothing larger does.
+  [[nodiscard]] double end_bound() const {
+    constexpr double rounding = 1e-4;  // m: of a clearance
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (measure_.height == 0.0) return unknown;
+    const double limit = largest_radius(measure_);
+    const double ends = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
+    if (ends < limit) return ends + rounding + survey_.world().largest_error();
+    return limit < measure_.widest ? limit : unknown;
+  }
+  /// Grows from both ends in turn, four times as far each time, until they meet or all that is in reach of one is
+  /// known: an end in a closet is not looked for all over a country. Returns whether they meet.
+  bool grow_together(NodeId a, NodeId b) {
+    constexpr std::uint64_t first = 20'000;
+    constexpr std::uint64_t factor = 4;
+    std::uint64_t budget = first;
+    const auto grows_whole = [&](NodeId root, NodeId until) {
+      const std::uint64_t most = tree_.size() + budget;
+      return tree_.grow(root, until, [&](std::uint64_t places) { return goes_on()(places) && places < most; });
+    };
+    for (;; budget *= factor) {
+      for (const auto& [root, until] : {std::pair(a, b), std::pair(b, a)}) {
+        const bool whole = grows_whole(root, until);
+        if (tree_.root(until) == tree_.root(root)) return true;
+        if (budget_.ended()) return false;
+        if (!whole) continue;
+        // As much of the other side, to say where they come nearest.
+        (void)grows_whole(until, root);
+        return false;
+      }
+    }
+  }
+  [[nodiscard]] std::function<bool(std::uint64_t)> goes_on() {
+    return [this](std::uint64_t places) { return budget_.goes_on(places); };
+  }
+  [[nodiscard]] Passage refined(const std::vector<NodeId>& way) const {
+    std::vector<Vec3> places{from_};
+    for (const NodeId id : way) places.push_back(tree_.node(id).place);
+    places.push_back(to_);
+    Passage passage = refine(survey_, measure_, options_.spacing, places);
+    passage.bound = end_bound();
+    return passage;
+  }
+  /// Ways round the openings that were found, as long as one may be wider.
+  void others(NodeId a, NodeId b, const std::vector<NodeId>& first, Passage& best) {
+    // All ways have these ends.
+    const double most = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
+    std::vector<Opening> found;
+    std::vector<NodeId> before = first;
+    Passage last = best;
+    while (last.limited && last.opening && best.limited && best.radius + proof < best.bound &&
+           best.radius + same_width < most && !budget_.ended() && found.size() < most_others) {
+      found.push_back(*last.opening);
+      const double around = best.radius + options_.spacing;
+      // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
+      const double narrow = std::hypot(best.radius, lattice_error * options_.spacing) + same_width;
+      const auto blocked = [&](const Node& node) {
+        return node.clearance < narrow && std::any_of(found.begin(), found.end(), [&](const Opening& o) {
+                 const Vec3 off = o.point - node.place;
+                 const double above = std::max(off.z - tall(), std::min(0.0, off.z));
+                 return std::hypot(off.x, off.y) < around && std::abs(above) < around;
+               });
+      };
+      const double least = std::max(measure_.narrowest, best.radius - lattice_error * options_.spacing);
+      std::vector<NodeId> way = tree_.way_round(a, b, blocked, least, goes_on());
+      if (way.empty() || way == before) return;
+      last = refined(way);
+      before = std::move(way);
+      if (last.found && last.radius > best.radius) best = last;
+    }
+  }
+  [[nodiscard]] double tall() const { return measure_.height > 0.0 ? measure_.height : 2.0 * measure_.widest; }
+
+  const Survey& survey_;
+  const PassageOptions& options_;
+  const Measure measure_;
+  Budget& budget_;
+  WidestTree tree_;
+  Vec3 from_{0.0}, to_{0.0};
+  bool only_floor_parts_ = false;
+};
+
+Passage reversed(Passage passage) {
+  std::reverse(passage.way.begin(), passage.way.end());
+  if (passage.opening) passage.opening->direction = -passage.opening->direction;
+  return passage;
+}
+
+Passage found_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
+  check(from, to, options);
+  Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
+                  options.step,      options.widest,
+                  options.narrowest, options.support_max};
+  if (options.mode == Mode::fly) {
+    const Vec3 first = end_at(survey, measure, from), last = end_at(survey, measure, to);
+    Passage passage =
+        widest_flight(survey, measure, first, last, {options.spacing, options.most_places, options.progress});
+    passage.proven = passage.found && passage.bound - passage.radius <= proof;
+    return passage;
+  }
+  const bool rolls = options.height == 0.0;
+  if (rolls) measure.step = std::min(options.step, options.widest);
+  Budget budget(options);
+  const auto search = [&] {
+    std::optional<Search> there(std::in_place, survey, options, measure, budget);
+    Passage passage = there->run(from, to);
+    const bool again = there->may_be_found_from_other_end();
+    there.reset();  // the places of one search at a time
+    if (!again) return passage;
+    Passage back = Search(survey, options, measure, budget).run(to, from);
+    if (back.found) return reversed(std::move(back));
+    passage.complete = back.complete;
+    passage.places = back.places;
+    return passage;
+  };
+  for (;;) {
+    Passage passage = search();
+    // A sphere climbs at most its radius: the largest that gets through with the step that is its own. Less climbs
+    // less, so this comes down to it.
+    constexpr double same_step = 1e-4;
+    if (!rolls || !passage.found || passage.radius >= measure.step - same_step) return passage;
+    measure.step = passage.radius;
+  }
+}
+
+}  // namespace
+
+Passage widest_way(const Survey& survey, const Vec3& from, const Vec3& to, const PassageOptions& options) {
+  return in_default_floating_point([&] { return found_way(survey, from, to, options); });
+}
+
+}  // namespace roam

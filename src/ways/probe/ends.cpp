@@ -1,0 +1,201 @@
+// Where the ends of a way stand, and where they could.
+#include "ways/passage/ends.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "roam/sweep.h"
+#include "ways/lattice/walk_place.h"
+#include "ways/probe/search.h"
+
+namespace roam::ways {
+namespace {
+
+/// Metres.
+constexpr double ring = 0.05;         ///< from one circle of places that are tried to the next
+constexpr double in_sight = 3.0;      ///< how far room is looked for in sight
+constexpr double around_floor = 1.5;  ///< how far from a floor's nearest point room is looked for
+constexpr double same_floor = 0.5;    ///< nearer points of floors are tried once
+constexpr int ring_places = 24;
+constexpr std::size_t most_candidates = 100'000;  ///< of them that are kept on the way
+constexpr std::size_t most_floors = 48;           ///< points of floors that are tried
+constexpr double farthest_off = 100.0;            ///< or the scene's diagonal: who flies begins and ends no farther off
+
+/// The floor that a foot near a place comes to; flying, the place.
+std::optional<Vec3> placed(const ProbeSearch& search, const Measure& measure, const Vec3& near) {
+  return measure.mode == Mode::walk ? foot_at(search.survey, measure, near) : std::optional(near);
+}
+
+/// Where one looks out from: on foot over what is stepped on.
+Vec3 eye_of(const Measure& measure, const Vec3& place) {
+  return place + Vec3(0.0, 0.0, measure.mode == Mode::walk ? measure.step + 0.01 : 0.0);
+}
+
+/// Points of the floors, the nearest first, each far from those before it.
+std::vector<Vec3> nearest_floors(const Survey& survey, const Vec3& place) {
+  struct Candidate {
+    double apart;
+    Vec3 point;
+  };
+  const auto is_nearer = [](const Candidate& a, const Candidate& b) { return a.apart < b.apart; };
+  std::vector<Candidate> all;
+  for (const TriangleId id : survey.floor_triangles()) {
+    const Proximity p = proximity({0.0, 0.0}, place, survey.triangle(id));
+    all.push_back({p.distance, p.point});
+    if (all.size() < 2 * most_candidates) continue;
+    std::nth_element(all.begin(), all.begin() + most_candidates, all.end(), is_nearer);
+    all.resize(most_candidates);
+  }
+  std::sort(all.begin(), all.end(), is_nearer);
+  std::vector<Vec3> points;
+  for (const Candidate& candidate : all) {
+    const bool near = std::any_of(points.begin(), points.end(),
+                                  [&](const Vec3& p) { return glm::distance(p, candidate.point) < same_floor; });
+    if (!near) points.push_back(candidate.point);
+    if (points.size() == most_floors) break;
+  }
+  return points;
+}
+
+std::string text_of(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
+
+/// The nearest place where a body of `radius` has room, at most `reach` m away; `seen`: in sight.
+std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, double radius, double reach, bool seen) {
+  Measure measure = search.measure();
+  measure.widest = std::max(radius, 2.0 * measure.narrowest);
+  const int layers = measure.mode == Mode::walk ? 0 : 1;
+  for (double away = 0.0; away <= reach; away += ring) {
+    std::optional<Vec3> best;
+    double widest = 0.0;
+    for (int layer = -layers; layer <= layers; ++layer) {
+      for (int k = 0; k < (away > 0.0 ? ring_places : 1); ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / ring_places;
+        const Vec3 off = away * glm::normalize(Vec3(std::cos(angle), std::sin(angle), layer));
+        const auto there = placed(search, measure, place + off);
+        if (!there) continue;
+        const double clearance = clearance_at(search.survey, measure, *there);
+        const Vec3 eye = eye_of(measure, place);
+        if (clearance < radius || clearance <= widest) continue;
+        if (seen && search.survey.world().ray(eye, eye_of(measure, *there) - eye).hit) continue;
+        best = there;
+        widest = clearance;
+      }
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+/// Metres from the box of the scene; on foot above it is over it.
+double off_scene(const ProbeSearch& search, const Vec3& place) {
+  const Box box = search.survey.world().bounds();
+  Vec3 off = glm::max(glm::max(box.lower - place, place - box.upper), Vec3(0.0));
+  if (search.options.mode == Mode::walk && place.z > box.upper.z) off.z = 0.0;
+  return glm::length(off);
+}
+
+/// The nearest place for a body of `radius` from anywhere: on foot one that is no higher, and in sight, if there is
+/// one.
+std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& asked, double radius) {
+  const Measure measure = search.measure();
+  // From far off a floor is mostly hidden, and to look around each takes long.
+  constexpr int most_from_off = 8;
+  const bool is_off = off_scene(search, asked) > 0.0;
+  int tried = 0;
+  std::array<std::optional<Vec3>, 4> found;
+  for (const Vec3& floor : nearest_floors(search.survey, asked)) {
+    if (is_off && (found.front() || tried++ == most_from_off)) break;
+    const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
+    const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
+    if (!room) continue;
+    const bool hidden = search.survey.world().ray(asked, eye_of(measure, *room) - asked).hit;
+    const bool higher = measure.mode == Mode::walk && room->z > asked.z + measure.step;
+    std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
+    if (!best || glm::distance(*room, asked) < glm::distance(*best, asked)) best = room;
+  }
+  for (const auto& place : found) {
+    if (place) return place;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked) {
+  return free_end(search.survey, search.measure(), asked);
+}
+
+std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius) {
+  const auto room = room_around(search, place, radius, in_sight, true);
+  return room ? room : nearest_from_afar(search, place, radius);
+}
+
+std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end) {
+  Measure measure = search.measure();
+  if (measure.mode != Mode::walk || measure.height == 0.0) return std::nullopt;
+  const double tall = measure.height;
+  double low = measure.step + 2.0 * measure.narrowest, high = tall;
+  measure.height = low;
+  const auto place = free_end(search.survey, measure, asked);
+  if (!place) return std::nullopt;
+  constexpr double precision = 1e-4;  // m
+  while (high - low > precision) {
+    measure.height = 0.5 * (low + high);
+    (clearance_at(search.survey, measure, *place) > 0.0 ? low : high) = measure.height;
+  }
+  ProbeLimit limit;
+  limit.kind = end;
+  limit.too_low = true;
+  limit.feet = *place;
+  limit.point = *place + Vec3(0.0, 0.0, 0.5 * low);
+  limit.direction = {0.0, 0.0, 1.0};
+  limit.size = low;
+  limit.needed = tall;
+  return limit;
+}
+
+void refuse_far_end(const ProbeSearch& search, const Vec3& asked, const char* end) {
+  const Box bounds = search.survey.world().bounds();
+  if (search.options.mode != Mode::fly || bounds.empty()) return;
+  const double off = off_scene(search, asked), most = std::max(farthest_off, glm::length(bounds.size()));
+  if (off <= most) return;
+  throw NoRoomAtEnd(fmt::format("{} {}: it is {:.0f} m outside the scene, which spans {} to {}; choose a place in it, "
+                                "or at most {:.0f} m outside",
+                                end, text_of(asked), off, text_of(bounds.lower), text_of(bounds.upper), most),
+                    std::nullopt);
+}
+
+void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius) {
+  const Box bounds = search.survey.world().bounds();
+  const bool walks = search.options.mode == Mode::walk;
+  std::string why;
+  if (search.survey.triangles() == 0) {
+    throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(asked)), std::nullopt);
+  }
+  const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(asked.z, bounds.lower.z));
+  if (off_scene(search, asked) > 0.0) {
+    why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
+  } else if (walks && !search.survey.floor().ray(asked + Vec3(0.0, 0.0, 0.1), down).hit) {
+    why = fmt::format("there is no floor below it: nothing that is at most {:g} degrees steep",
+                      search.survey.slope_degrees());
+  } else {
+    why = "what is around it leaves no room, as within a wall";
+  }
+  const auto place = nearest_from_afar(search, asked, radius);
+  throw NoRoomAtEnd(
+      fmt::format(
+          "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", end, text_of(asked),
+          search.options.narrowest, why,
+          place
+              ? fmt::format("The nearest place found for a radius of {:g} m is {}", radius, text_of(*place))
+              : fmt::format("No place for a radius of {:g} m was found near it; choose one with free space around it{}",
+                            radius, walks ? " and floor below" : "")),
+      place);
+}
+
+}  // namespace roam::ways

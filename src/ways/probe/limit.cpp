@@ -1,0 +1,307 @@
+// What it is that decides: a door, a wall beside an end, a lintel that is too low, a step that is too high.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "ways/lattice/walk_place.h"
+#include "ways/probe/search.h"
+#include "ways/refine/stations.h"
+#include "ways/trials/on_way.h"
+
+namespace roam::ways {
+namespace {
+
+/// Metres.
+constexpr double same_clearance = 1e-3;  ///< an end with no more than that beyond the way's decides it
+constexpr double aside = 0.02;           ///< by how much a body is moved to see whether it has room on one side
+constexpr double station = 0.01;         ///< between the places of a way where the height is measured
+constexpr double precision = 1e-3;       ///< of a headroom
+constexpr double slack = 5e-4;           ///< that ways are certified to
+constexpr double rounding = 1e-6;        ///< of the floor's height
+constexpr double headroom_beyond = 0.5;  ///< over the body something above it is looked for
+constexpr double rise_reach = 0.6;       ///< to both sides of where a way breaks off, the floor's height is compared
+constexpr double rise_within = 0.3;      ///< a floor that rises over more than this is a ramp
+/// Part of a move aside that the clearance grows by where only one side is near.
+constexpr double one_sided = 0.4;
+/// Metres, and part of a normal's length: what a body at a narrowest place has on both sides.
+constexpr double side_reach = 0.02;
+constexpr double side_cosine = 0.3;
+/// Steeper than this towards what is nearest, and it is above.
+constexpr double upright = 0.7;
+
+Vec3 level(const Vec3& v) {
+  const Vec3 flat(v.x, v.y, 0.0);
+  const double length = glm::length(flat);
+  return length > 0.0 ? flat / length : Vec3(0.0);
+}
+
+/// Whether a body at an end has more room as soon as it moves off: what is near is on one side.
+bool has_room_aside(const ProbeSearch& search, const Vec3& place, double clearance) {
+  const Measure measure = search.measure();
+  constexpr int directions = 16;
+  const int layers = measure.mode == Mode::walk ? 0 : 1;
+  for (int layer = -layers; layer <= layers; ++layer) {
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / directions;
+      const Vec3 there = place + aside * glm::normalize(Vec3(std::cos(angle), std::sin(angle), layer));
+      const auto foot = measure.mode == Mode::walk ? foot_at(search.survey, measure, there) : std::optional(there);
+      if (foot && clearance_at(search.survey, measure, *foot) > clearance + one_sided * aside) return true;
+    }
+  }
+  return false;
+}
+
+/// The end as what decides, if the wall beside it does.
+std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& passage, const Vec3& place,
+                                    ProbeLimit::Kind kind, double radius) {
+  const Measure measure = search.measure();
+  const double clearance = clearance_at(search.survey, measure, place);
+  if (passage.found) {
+    if (!passage.opening || clearance > passage.radius + same_clearance || !has_room_aside(search, place, clearance))
+      return std::nullopt;
+  } else if (clearance >= radius) {
+    return std::nullopt;
+  }
+  Stand stand{clearance, 0.0};
+  if (measure.mode == Mode::walk)
+    stand = stand_at(search.survey, measure, place, clearance, 0.99 * clearance).value_or(stand);
+  const Vec3 centre = centre_of(measure, place, stand);
+  std::array<Contact, 1> wall;
+  if (search.survey.world().contacts(body_of(measure, clearance), centre, Vec3(0.0), 5.0 * same_clearance, wall) == 0)
+    return std::nullopt;
+  if (measure.mode == Mode::walk && std::abs(wall[0].normal.z) >= upright) return std::nullopt;
+  ProbeLimit limit;
+  limit.kind = kind;
+  limit.feet = place;
+  limit.direction = measure.mode == Mode::walk ? -level(wall[0].normal) : -wall[0].normal;
+  limit.size = clearance;
+  limit.needed = radius;
+  limit.point = Vec3(place.x, place.y, measure.mode == Mode::walk ? wall[0].point.z : place.z) +
+                0.5 * clearance * limit.direction;
+  limit.along = kind == ProbeLimit::Kind::start ? 0.0 : passage.length;
+  return limit;
+}
+
+/// Whether something stands on both sides of a body at the narrowest place of a way.
+bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& opening) {
+  const Measure measure = search.measure();
+  const double radius = 0.5 * opening.width;
+  const Stand stand = stand_at(search.survey, measure, place, radius, 0.9 * radius).value_or(Stand{radius, 0.0});
+  std::array<Contact, 64> near;
+  const std::size_t count = search.survey.world().contacts(body_of(measure, radius), centre_of(measure, place, stand),
+                                                           Vec3(0.0), side_reach, near);
+  bool ahead = false, behind = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double facing = glm::dot(near[i].normal, opening.direction);
+    ahead = ahead || facing < -side_cosine;
+    behind = behind || facing > side_cosine;
+  }
+  return ahead && behind;
+}
+
+/// The headroom of a way: the least height of a body of that radius that something above lets through. Looks for it up
+/// to `most`.
+ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
+  ProbeLimit limit;
+  limit.kind = ProbeLimit::Kind::height;
+  limit.direction = {0.0, 0.0, 1.0};
+  limit.size = most;
+  const Body body{radius - slack, 0.0};
+  const double bottom = search.options.step + radius, rise = most - bottom - radius;
+  double gone = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const Vec3 run = way[i + 1] - way[i];
+    const double length = glm::length(run);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
+    for (int k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      const Vec3 feet = way[i] + part * run;
+      const Impact up = search.survey.world().sweep(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
+      if (!up.hit || bottom + up.time * rise + body.radius >= limit.size) continue;
+      limit.size = bottom + up.time * rise + body.radius;
+      limit.feet = feet;
+      limit.heading = level(run);
+      limit.along = gone + part * length;
+    }
+    gone += length;
+  }
+  return limit;
+}
+
+/// How wide a way is where it is lowest, for the bodies of that search: 0 where that is not known, or nothing narrows
+/// it.
+double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const ProbeLimit& lowest, double radius) {
+  const Measure measure = search.measure();
+  Station narrowest{lowest.feet, measure.widest, false};
+  double gone = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const Vec3 run = way[i + 1] - way[i];
+    const double length = glm::length(run);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
+    for (int k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      if (std::abs(gone + part * length - lowest.along) > radius) continue;
+      const Station here = station_at(search.survey, measure, way[i] + part * run);
+      if (here.free < narrowest.free) narrowest = here;
+    }
+    gone += length;
+  }
+  if (narrowest.free >= measure.widest || !(narrowest.free > 0.0)) return 0.0;
+  const double reach = search.options.spacing;
+  const double widest = widest_beside(search.survey, measure, narrowest, lowest.heading, reach).free;
+  return widest < measure.widest ? 2.0 * widest : 0.0;
+}
+
+/// The heights of the floors within `rise_reach` of where a way breaks off, ascending.
+std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) {
+  const double above = search.options.height;
+  std::vector<double> heights;
+  constexpr int rings = 12, angles = 16;
+  for (int k = 0; k < rings * angles; ++k) {
+    const double angle = 2.0 * std::numbers::pi * (k % angles) / angles, away = rise_reach * (1 + k / angles) / rings;
+    const Vec3 from = place + Vec3(away * std::cos(angle), away * std::sin(angle), above);
+    const Impact down = search.survey.floor().ray(from, {0.0, 0.0, -2.0 * above});
+    if (down.hit) heights.push_back(down.point.z);
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
+/// The place of a way where the floor below it changes its height by as much as `most` within a stride.
+ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double most) {
+  ProbeLimit limit;
+  limit.kind = ProbeLimit::Kind::step;
+  limit.direction = {0.0, 0.0, 1.0};
+  std::vector<Vec3> floor;
+  for (std::size_t i = 0; i + 1 < passage.way.size(); ++i) {
+    const Vec3 run = passage.way[i + 1] - passage.way[i];
+    const int parts = std::max(1, static_cast<int>(std::ceil(glm::length(run) / station)));
+    for (int k = 0; k < parts; ++k) {
+      const Vec3 knee = passage.way[i] + static_cast<double>(k) / parts * run + Vec3(0.0, 0.0, search.options.step);
+      const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
+      if (down.hit) floor.push_back(down.point);
+    }
+  }
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    for (std::size_t k = i + 1; k < floor.size(); ++k) {
+      const Vec3 run = floor[k] - floor[i];
+      if (std::hypot(run.x, run.y) > rise_within) break;
+      if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
+      // The last place before it and the first after it.
+      limit.size = std::abs(run.z);
+      limit.point = floor[k - 1] + 0.5 * (floor[k] - floor[k - 1]);
+      limit.point.z = 0.5 * (floor[i].z + floor[k].z);
+      limit.feet = floor[i];
+      limit.heading = level(run);
+    }
+  }
+  limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
+  return limit;
+}
+
+}  // namespace
+
+Measure ProbeSearch::measure() const {
+  Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
+                  options.step,      options.widest,
+                  options.narrowest, options.support_max};
+  // As the widest way begins; a sphere's step comes down to its radius.
+  if (measure.mode == Mode::walk && measure.height == 0.0) measure.step = std::min(measure.step, measure.widest);
+  return measure;
+}
+
+Passage ProbeSearch::widest() const {
+  PassageOptions asked = options;
+  bool wanted = true;
+  asked.progress = [&](std::uint64_t places) { return wanted = !question.progress || question.progress(places); };
+  Passage passage = widest_way(survey, question.from, question.to, asked);
+  if (!wanted) throw Cancelled();
+  return passage;
+}
+
+std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
+                                   double radius) {
+  auto end = end_limit(search, passage, ends.start, ProbeLimit::Kind::start, radius);
+  if (!end) end = end_limit(search, passage, ends.target, ProbeLimit::Kind::target, radius);
+  if (end) return end;
+  if (!passage.opening) return std::nullopt;
+  const Opening& opening = *passage.opening;
+  ProbeLimit limit;
+  limit.kind = !passage.found                          ? ProbeLimit::Kind::apart
+               : opening.kind == Opening::Kind::lintel ? ProbeLimit::Kind::lintel
+               : opening.kind == Opening::Kind::gap    ? ProbeLimit::Kind::gap
+                                                       : ProbeLimit::Kind::door;
+  const OnWay on = nearest_on(passage.way, opening.point, search.options.mode);
+  limit.point = opening.point;
+  limit.direction = opening.direction;
+  limit.size = opening.width;
+  limit.needed = 2.0 * radius;
+  limit.along = on.along;
+  limit.heading = level(on.heading);
+  limit.feet = passage.found ? on.place : opening.point;
+  if (limit.kind == ProbeLimit::Kind::door && !is_between(search, on.place, opening)) {
+    limit.kind = ProbeLimit::Kind::edge;
+    limit.size = 0.5 * opening.width;
+    limit.needed = radius;
+  }
+  return limit;
+}
+
+std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
+  const double tall = search.options.height;
+  double low = search.options.step + 2.0 * radius + precision, high = tall;
+  if (search.options.mode != Mode::walk || tall == 0.0 || low >= tall) return std::nullopt;
+  ProbeSearch lower = search;
+  std::optional<ProbeLimit> best;
+  std::vector<Vec3> way;
+  const auto passes = [&](double height) {
+    lower.options.height = height;
+    const Passage passage = lower.widest();
+    if (!passage.found || passage.radius < radius) return false;
+    const ProbeLimit found = lowest(lower, passage.way, radius, tall + headroom_beyond);
+    if (!best || found.size > best->size) {
+      best = found;
+      way = passage.way;
+    }
+    low = std::max(height, best->size < tall ? best->size : 0.0);
+    return true;
+  };
+  if (!passes(low)) return std::nullopt;
+  // Where the way's own headroom is all there is, one more search says so; else it is halved.
+  for (bool beyond = true; high - low > precision; beyond = !beyond) {
+    const double next = beyond ? low + precision : 0.5 * (low + high);
+    if (!passes(next)) high = next;
+  }
+  // Where nothing is above the way of the lower body, it is not the height that stops the higher one.
+  if (best->size >= tall + headroom_beyond) return std::nullopt;
+  best->size = low;
+  best->needed = tall;
+  best->point = best->feet + Vec3(0.0, 0.0, 0.5 * low);
+  lower.options.height = low - precision;
+  best->width = width_at(lower, way, *best, radius);
+  return best;
+}
+
+std::optional<ProbeLimit> step_up(const ProbeSearch& search, const Passage& broken, double radius) {
+  const PassageOptions& o = search.options;
+  if (o.mode != Mode::walk || o.height == 0.0 || !broken.opening) return std::nullopt;
+  const std::vector<double> heights = floors_around(search, broken.opening->point);
+  double rise = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+    const double apart = heights[i + 1] - heights[i];
+    if (apart > o.step) rise = std::min(rise, apart);
+  }
+  ProbeSearch higher = search;
+  higher.options.step = rise + 2.0 * precision;
+  if (higher.options.step > 0.5 * o.height || higher.options.step + 2.0 * radius > o.height) return std::nullopt;
+  const Passage passage = higher.widest();
+  if (!passage.found || passage.radius < radius) return std::nullopt;
+  ProbeLimit limit = steepest(higher, passage, higher.options.step);
+  if (limit.size <= o.step) return std::nullopt;
+  limit.needed = o.step;
+  return limit;
+}
+
+}  // namespace roam::ways

@@ -1,0 +1,289 @@
+#include "roam/probe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+
+#include "math/floating_point.h"
+#include "math/parallel_floating_point.h"
+#include "roam/standing.h"
+#include "ways/probe/search.h"
+#include "ways/trials/on_way.h"
+#include "ways/trials/open_space.h"
+
+namespace roam {
+
+using namespace ways;
+
+namespace {
+
+/// Wider ways than this, metres, or than this many times the body, are not told apart.
+constexpr double wide = 1.0;
+constexpr double wide_times = 1.25;
+/// The narrowest ways that are looked for, to name the opening that stops the body: metres, and parts of its radius.
+constexpr double narrow = 0.05;
+constexpr double narrow_part = 0.5;
+/// Radii. A route has left the scene more than two beyond its box; one beyond it nothing is met.
+constexpr double beside_scene = 1.9;
+
+bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
+
+/// The nearest place of a box.
+Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lower, box.upper); }
+
+/// A way that is taken to a box wherever it leads beside it; its ends stay. What is straight stays straight, and on the
+/// box's sides a body is as far from all that lies in it as the box is larger.
+std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
+  std::vector<Vec3> near;
+  const auto add = [&](const Vec3& place) {
+    if (near.empty() || near.back() != place) near.push_back(place);
+  };
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    // Between two crossings of the sides' planes it is taken straight to a straight line.
+    std::vector<double> crossings{0.0, 1.0};
+    const Vec3 along = way[i + 1] - way[i];
+    for (int k = 0; k < 3; ++k) {
+      for (const double side : {box.lower[k], box.upper[k]}) {
+        const double at = (side - way[i][k]) / along[k];
+        if (at > 0.0 && at < 1.0) crossings.push_back(at);
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    if (i == 0) add(way[i]);
+    for (const double at : crossings) add(nearest_in(box, at < 1.0 ? way[i] + at * along : way[i + 1]));
+    if (i + 2 == way.size()) add(way[i + 1]);
+  }
+  return near;
+}
+
+/// Sends the walker along the way.
+ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const std::vector<Vec3> path = probed_path(survey, question, answer);
+  // Flying, an end may lie over the scene or beside it.
+  Box box;
+  for (const Vec3& place : path) box.include(place);
+  const OpenSpace space(survey.world(), question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(space, probed_body(question, answer.size, survey.slope_degrees()), question.mode, path.front());
+  const RouteResult result = follow(walker, path);
+  ProbeWalk walk{result.outcome, result.end, Vec3(0.0)};
+  // Where the ground ended, not how deep it was then.
+  for (const RouteEvent& e : result.events) {
+    if (result.outcome != Outcome::fell || e.event.kind == EventKind::fell) break;
+    if (e.event.kind == EventKind::airborne) walk.at = e.event.point;
+  }
+  walk.on_way = nearest_on(answer.passage.way, walk.at, question.mode).place;
+  return walk;
+}
+
+bool falls_short(const ProbeLimit& limit) {
+  return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
+}
+
+/// What decides for one size of a search.
+void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
+  const double radius = answer.size.radius;
+  answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
+  const bool at_end = answer.limit && is_end(answer.limit->kind);
+  if (!answer.wide_enough && !at_end) {
+    auto other = headroom(search, radius);
+    if (!other && !answer.passage.found) other = step_up(search, answer.passage, radius);
+    if (other) answer.limit = other;
+  }
+  if (!answer.limit || answer.limit->kind == ProbeLimit::Kind::apart) return;
+  if (!answer.wide_enough && falls_short(*answer.limit))
+    answer.missing = std::abs(answer.limit->needed - answer.limit->size);
+  if (at_end && !answer.wide_enough) answer.room = nearest_room(search, answer.limit->feet, radius);
+}
+
+}  // namespace
+
+const char* name(ProbeLimit::Kind kind) {
+  using Kind = ProbeLimit::Kind;
+  switch (kind) {
+    case Kind::door:
+      return "door";
+    case Kind::lintel:
+      return "lintel";
+    case Kind::gap:
+      return "gap";
+    case Kind::edge:
+      return "edge";
+    case Kind::start:
+    case Kind::target:
+      return "end";
+    case Kind::height:
+      return "height";
+    case Kind::step:
+      return "step";
+    case Kind::apart:
+      return "apart";
+  }
+  return "unknown";
+}
+
+double climbed(const ProbeQuestion& question, const ProbedSize& size) {
+  const DefaultFloatingPoint guard;
+  return std::min(question.step, is_sphere(size) ? size.radius : size.height - 2.0 * size.radius);
+}
+
+WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {
+  const DefaultFloatingPoint guard;
+  WalkerSettings settings;
+  settings.radius = size.radius;
+  settings.height = size.height;
+  settings.eye = is_sphere(size) ? size.radius : std::min(settings.eye, settings.height);
+  settings.step = std::min(question.step, 0.5 * settings.height);
+  settings.slope_degrees = slope_degrees;
+  settings.support_radius = question.support_radius;
+  check(settings);
+  return settings;
+}
+
+PassageOptions ways::options_for(const ProbeQuestion& question, const ProbedSize& largest, double smallest) {
+  PassageOptions options;
+  options.mode = question.mode;
+  options.spacing = question.spacing;
+  options.most_places = question.most_places;
+  options.widest = std::max(wide, wide_times * largest.radius);
+  options.narrowest = std::min(narrow, narrow_part * smallest);
+  if (question.mode == Mode::fly) return options;
+  options.height = is_sphere(largest) ? 0.0 : largest.height;
+  options.step = climbed(question, largest);
+  return options;
+}
+
+namespace {
+
+std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& question,
+                                    std::span<const ProbedSize> sizes) {
+  for (const ProbedSize& size : sizes) {
+    static_cast<void>(probed_body(question, size));
+    if (question.mode == Mode::fly && !is_sphere(size))
+      throw Error(fmt::format("what flies is a sphere: a height of {:g} m is not twice the radius of {:g} m",
+                              size.height, size.radius));
+  }
+  for (const auto& [end, place] : {std::pair("from", question.from), std::pair("to", question.to)}) {
+    for (int k = 0; k < 3; ++k) {
+      if (!(std::abs(place[k]) <= Space::coordinate_limit))
+        throw Error(
+            fmt::format("cannot probe: \"{}\" is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin",
+                        end, place.x, place.y, place.z));
+    }
+  }
+  // Bodies that are measured alike, each with its largest and smallest radius.
+  struct Group {
+    double least = std::numeric_limits<double>::infinity();
+    ProbedSize largest{0.0, 0.0};
+    std::optional<ProbeSearch> search;
+    Vec3 start{0.0}, target{0.0};
+    std::optional<ProbeLimit> low;  ///< an end where none of them can stand upright
+    Passage passage;
+  };
+  using Kind = std::pair<double, double>;  // height, or 0 for spheres; step
+  const auto kind_of = [&](const ProbedSize& size) {
+    if (question.mode == Mode::fly) return Kind{0.0, 0.0};
+    return Kind{is_sphere(size) ? 0.0 : size.height, climbed(question, size)};
+  };
+  std::map<Kind, Group> groups;
+  for (const ProbedSize& size : sizes) {
+    Group& group = groups[kind_of(size)];
+    group.least = std::min(group.least, size.radius);
+    if (size.radius > group.largest.radius) group.largest = size;
+  }
+  for (auto& [kind, group] : groups) {
+    const PassageOptions options = options_for(question, group.largest, group.least);
+    group.search.emplace(ProbeSearch{survey, question, options});
+    const auto stand = [&](const Vec3& asked, ProbeLimit::Kind end, const char* name) {
+      refuse_far_end(*group.search, asked, name);
+      const auto place = stand_for(*group.search, asked);
+      if (place) return *place;
+      const auto low = low_end(*group.search, asked, end);
+      if (!low) refuse_end(*group.search, asked, name, group.least);
+      if (!group.low) group.low = low;
+      return low->feet;
+    };
+    group.start = stand(question.from, ProbeLimit::Kind::start, "from");
+    group.target = stand(question.to, ProbeLimit::Kind::target, "to");
+    if (!group.low) group.passage = group.search->widest();
+  }
+  std::vector<ProbeAnswer> answers;
+  for (const ProbedSize& size : sizes) {
+    const Group& group = groups[kind_of(size)];
+    ProbeAnswer answer;
+    answer.size = size;
+    answer.narrowest = group.search->options.narrowest;
+    answer.passage = group.passage;
+    answer.start = group.start;
+    answer.target = group.target;
+    const Passage& p = answer.passage;
+    answer.wide_enough = p.found && p.radius >= size.radius;
+    answer.proven = answer.wide_enough ? p.proven : p.bound < size.radius;
+    if (group.low) {
+      answer.limit = group.low;
+      answer.missing = group.low->needed - group.low->size;
+      answer.proven = true;
+      answer.room = nearest_room(*group.search, group.low->feet, size.radius);
+    } else {
+      find_limit(*group.search, answer);
+    }
+    if (answer.wide_enough) answer.walk = walk_way(survey, question, answer);
+    answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
+    answers.push_back(std::move(answer));
+  }
+  return answers;
+}
+
+}  // namespace
+
+std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
+  return in_default_floating_point([&] { return answers_to(survey, question, sizes); });
+}
+
+std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const DefaultFloatingPoint guard;
+  const std::vector<Vec3>& way = answer.passage.way;
+  if (question.mode != Mode::fly) return standing(way, probed_body(question, answer.size, survey.slope_degrees()));
+  const Box box = survey.world().bounds();
+  return box.empty() ? way : taken_to(box.grown(beside_scene * answer.size.radius), way);
+}
+
+ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const ProbedSize& size) {
+  return probe(survey, question, std::span(&size, 1)).front();
+}
+
+namespace {
+
+ProbeReach reached(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer, std::uint64_t most) {
+  const ProbeSearch search{survey, question, options_for(question, answer.size)};
+  WidestTree tree(survey, search.measure(), question.spacing);
+  const auto grown = [&](const Vec3& end) {
+    std::vector<Vec3> places;
+    const auto root = tree.seed(end);
+    if (!root) return places;
+    const std::uint64_t until = tree.size() + most;
+    bool wanted = true;
+    static_cast<void>(tree.grow(*root, no_node, [&](std::uint64_t now) {
+      wanted = !question.progress || question.progress(now);
+      return wanted && now < until;
+    }));
+    if (!wanted) throw Cancelled();
+    for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
+      if (tree.root(id) == *root) places.push_back(tree.node(id).place);
+    }
+    return places;
+  };
+  return {grown(answer.start), grown(answer.target)};
+}
+
+}  // namespace
+
+ProbeReach probed_reach(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer,
+                        std::uint64_t most) {
+  return in_default_floating_point([&] { return reached(survey, question, answer, most); });
+}
+
+}  // namespace roam

@@ -1,0 +1,135 @@
+#include "ways/refine/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "ways/lattice/walk_place.h"
+#include "ways/refine/way.h"
+
+namespace roam::ways {
+namespace {
+
+/// Each finer lattice about a narrow place is this much finer.
+constexpr double zoom = 0.3;
+/// Spacings that a window goes on beyond what is narrow, so that it begins and ends in wider places.
+constexpr double window_margin = 2.0;
+/// Places of one window, at most: a longer one is polished as it is.
+constexpr std::uint64_t most_window_places = 300'000;
+/// Metres: less is no difference between two widths.
+constexpr double same_width = 1e-6;
+
+double least_free(const Stations& way) {
+  double least = way.front().free;
+  for (const Station& s : way) least = std::min(least, s.free);
+  return least;
+}
+
+/// The widest way through a finer lattice about the given one; the given one where that finds none as wide.
+Stations zoomed(const Survey& survey, const Measure& measure, const Stations& way, double spacing) {
+  const double least = least_free(way);
+  Box window;
+  for (const Station& s : way) window.include(s.place);
+  const double margin = least + window_margin * spacing;
+  window.lower -= Vec3(margin, margin, measure.step + margin);
+  window.upper += Vec3(margin, margin, measure.step + margin);
+  Measure closer = measure;
+  closer.narrowest = std::max(measure.narrowest, 0.9 * least);
+  WidestTree tree(survey, closer, zoom * spacing, window);
+  const auto from = tree.seed(way.front().place), to = tree.seed(way.back().place);
+  if (!from || !to) return way;
+  if (!tree.grow(*from, *to, [](std::uint64_t places) { return places < most_window_places; })) return way;
+  Stations finer;
+  for (const NodeId id : tree.way(*from, *to)) finer.push_back({tree.node(id).place, tree.node(id).clearance, false});
+  if (finer.empty()) return way;
+  finer.front() = way.front();
+  finer.push_back(way.back());
+  return least_free(finer) >= least - same_width ? finer : way;
+}
+
+/// Whom a window about station `i` begins and ends with.
+struct Run {
+  std::size_t begin = 0, end = 0;
+};
+Run run_about(const Stations& way, std::size_t i, double narrow, double margin) {
+  const auto reach = [&](std::size_t k, std::size_t last, std::ptrdiff_t step) {
+    double beyond = 0.0;
+    while (k != last) {
+      const std::size_t next = k + static_cast<std::size_t>(step);
+      beyond = way[k].free < narrow ? 0.0 : beyond + glm::length(way[next].place - way[k].place);
+      if (beyond > margin) break;
+      k = next;
+    }
+    return k;
+  };
+  return {reach(i, 0, -1), reach(i, way.size() - 1, 1)};
+}
+
+/// The narrowest of the unpolished stations near which the way may be narrower than where it is polished.
+std::optional<std::size_t> next_narrow(const Stations& way, double limit, double spacing) {
+  double least = limit;
+  for (const Station& s : way)
+    if (s.polished) least = std::min(least, s.free);
+  // Between two places of the lattice may stand a thin door that is this much narrower than they are.
+  const double between = std::hypot(least, lattice_error * spacing);
+  std::optional<std::size_t> next;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (way[i].polished || way[i].free >= std::min(between, limit - same_width)) continue;
+    if (!next || way[i].free < way[*next].free) next = i;
+  }
+  return next;
+}
+
+void polish_narrow_places(const Survey& survey, const Measure& measure, double spacing, Stations& way) {
+  const double limit = largest_radius(measure);
+  while (const auto narrow = next_narrow(way, limit, spacing)) {
+    const double below = std::min(limit, way[*narrow].free + lattice_error * spacing);
+    const Run run = run_about(way, *narrow, below, window_margin * spacing);
+    Stations window(way.begin() + static_cast<std::ptrdiff_t>(run.begin),
+                    way.begin() + static_cast<std::ptrdiff_t>(run.end) + 1);
+    const double before = least_free(window);
+    Stations ridge = polish(survey, measure, zoomed(survey, measure, window, spacing), zoom * spacing);
+    // Narrower by more than a thin door between two places explains: a corner that the ridge does not follow.
+    if (std::hypot(least_free(ridge), lattice_error * spacing) < before) ridge = window;
+    for (Station& s : ridge)
+      if (&s != &ridge.front() && &s != &ridge.back()) s.polished = true;
+    // The window's first and last place are only done with when the window ends with the way or began there.
+    const auto first = way.begin() + static_cast<std::ptrdiff_t>(run.begin);
+    if (*narrow == run.begin) ridge.front().polished = true;
+    if (*narrow == run.end) ridge.back().polished = true;
+    const auto at = way.erase(first, way.begin() + static_cast<std::ptrdiff_t>(run.end) + 1);
+    way.insert(at, ridge.begin(), ridge.end());
+  }
+}
+
+}  // namespace
+
+Passage refine(const Survey& survey, const Measure& measure, double spacing, std::span<const Vec3> places) {
+  Passage passage;
+  passage.bound = std::numeric_limits<double>::infinity();
+  if (places.empty()) return passage;
+  Stations way;
+  for (const Vec3& place : places) {
+    if (!way.empty() && place == way.back().place) continue;
+    way.push_back({place, clearance_at(survey, measure, place), false});
+  }
+  way.front().polished = way.back().polished = true;  // where the way begins and ends is given
+  if (least_free(way) < measure.narrowest) return passage;
+  polish_narrow_places(survey, measure, spacing, way);
+  const double limit = largest_radius(measure);
+  const double seen = least_free(way);
+  const auto narrowest =
+      std::min_element(way.begin(), way.end(), [](const Station& a, const Station& b) { return a.free < b.free; });
+  const Vec3 decides = narrowest->place;
+  passage.radius = mend(survey, measure, way, seen, spacing);
+  passage.found = passage.radius >= measure.narrowest;
+  passage.limited = passage.radius < limit - certified_margin(survey);
+  if (!passage.limited) passage.radius = limit;
+  passage.way = straightened(survey, measure, way, passage.radius);
+  for (std::size_t i = 1; i < passage.way.size(); ++i)
+    passage.length += glm::length(passage.way[i] - passage.way[i - 1]);
+  if (passage.limited) passage.opening = opening_at(survey, measure, decides, passage.radius);
+  return passage;
+}
+
+}  // namespace roam::ways

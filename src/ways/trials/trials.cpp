@@ -1,0 +1,111 @@
+#include "ways/trials/trials.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "ways/trials/open_space.h"
+
+namespace roam::ways {
+
+namespace {
+
+/// s. A body on foot looks for ground every half radius of its own accord: longer steps only save reports.
+constexpr double trial_dt = 1.0 / 30.0;
+/// Steps between two questions whether to go on.
+constexpr std::uint64_t asked_every = 256;
+/// m. A body that was put so much beside the start did not fit there.
+constexpr double put_aside = 0.05;
+/// m. What a floor that is not even lets a body stand lower than the way that was planned over it.
+constexpr double uneven = 0.02;
+
+/// A body's centre over a foot: lifted by a part of a step, so that no bump of the floor is in it, where there is room.
+Vec3 start_over(const Survey& survey, const Body& body, const Vec3& foot, double step) {
+  constexpr std::array parts{1.0, 0.5, 0.25, 0.1, 0.03, 0.01};
+  for (const double part : parts) {
+    const Vec3 centre = foot + Vec3(0.0, 0.0, 0.5 * body.height() + part * step);
+    if (!survey.world().clearance(body, centre, 0.0).found) return centre;
+  }
+  return foot + Vec3(0.0, 0.0, 0.5 * body.height());
+}
+
+bool was_put_aside(const RouteResult& result, const Vec3& start) {
+  const Vec3 by = result.end - start;
+  return std::hypot(by.x, by.y) > put_aside && result.steps == 0;
+}
+
+/// The level of the way where a body stopped that was under way to `next`.
+double level_at(std::span<const Vec3> way, std::size_t next, const Vec3& place) {
+  if (next == 0 || next >= way.size()) return way.back().z;
+  const Vec3 from = way[next - 1], along = way[next] - from;
+  const double length = std::hypot(along.x, along.y);
+  if (!(length > 0.0)) return std::min(from.z, way[next].z);
+  const double at = ((place.x - from.x) * along.x + (place.y - from.y) * along.y) / (length * length);
+  return from.z + std::clamp(at, 0.0, 1.0) * along.z;
+}
+
+/// The steps that free motion along a way takes, and two seconds more: each step ends at the next place of the way.
+double free_steps(std::span<const Vec3> way, double speed) {
+  constexpr double more = 2.0;  // s
+  double steps = more / trial_dt;
+  for (std::size_t i = 1; i < way.size(); ++i) steps += 1.0 + glm::distance(way[i - 1], way[i]) / (speed * trial_dt);
+  return steps;
+}
+
+}  // namespace
+
+double largest_radius(const BodyKind& kind) {
+  return kind.mode == Mode::walk && kind.height > 0.0 ? 0.5 * (kind.height - kind.step) : Space::reach_limit / 4.0;
+}
+
+WalkerSettings settings_of(const BodyKind& kind, double radius, double support_radius) {
+  WalkerSettings settings = WalkerSettings::sphere(radius);
+  if (kind.mode == Mode::walk && kind.height > 0.0) {
+    settings.height = kind.height;
+    settings.eye = kind.height;
+  }
+  settings.step = std::min(kind.step, 0.5 * settings.height);
+  settings.slope_degrees = kind.slope_degrees;
+  settings.crouch_height = settings.height;
+  settings.clearance_reach = 0.0;
+  settings.speed = kind.speed;
+  settings.support_radius = support_radius;
+  return settings;
+}
+
+Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
+              std::span<const Vec3> way, const std::function<bool()>& goes_on, double patience) {
+  Trial trial{.radius = radius, .support_radius = support_radius};
+  const WalkerSettings settings = settings_of(kind, radius, support_radius);
+  const Body body = Body::capsule(settings.radius, settings.height);
+  std::vector<Vec3> centres(way.begin(), way.end());
+  if (kind.mode == Mode::walk) {
+    for (Vec3& place : centres) place.z += 0.5 * settings.height;
+    centres.front() = start_over(survey, body, way.front(), settings.step);
+  }
+  // Flying, the way may lead over the scene and beside it.
+  Box box;
+  for (const Vec3& place : centres) box.include(place);
+  const OpenSpace space(survey.world(), kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(space, settings, kind.mode, centres.front());
+  Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt});
+  const RouteResult& result = route.result();
+  const bool fits = !was_put_aside(result, centres.front());
+  const double most_steps = patience * free_steps(way, kind.speed);
+  bool ended = false;
+  while (fits && !route.done() && !ended && static_cast<double>(result.steps) < most_steps) {
+    route.advance();
+    ended = goes_on && result.steps % asked_every == 0 && !goes_on();
+  }
+  trial.outcome = !fits || ended ? Outcome::held : route.done() ? result.outcome : Outcome::blocked;
+  trial.at = result.end;
+  if (kind.mode == Mode::walk && (trial.outcome == Outcome::blocked || trial.outcome == Outcome::reached)) {
+    const double sunk = level_at(way, result.waypoints, result.end) - (result.end.z - 0.5 * settings.height);
+    if (sunk > settings.step + uneven) trial.outcome = Outcome::fell;
+  }
+  return trial;
+}
+
+}  // namespace roam::ways

@@ -1,0 +1,242 @@
+#include "words/probe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "math/floating_point.h"
+#include "words/measures.h"
+
+namespace roam::words {
+
+using Kind = ProbeLimit::Kind;
+
+namespace {
+
+/// Which way it is measured.
+const char* extent(const ProbeLimit& limit) { return std::abs(limit.direction.z) > 0.7 ? "high" : "wide"; }
+
+}  // namespace
+
+bool is_end(Kind kind) { return kind == Kind::start || kind == Kind::target; }
+
+const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target"; }
+
+bool is_shut(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  return !p.found && p.complete && answer.proven && p.bound <= answer.narrowest;
+}
+
+bool is_unknown(const ProbeAnswer& answer) {
+  return !answer.wide_enough && !answer.passage.found && !answer.passage.complete && !answer.proven;
+}
+
+bool falls(const ProbeWalk& walk, Mode mode) {
+  return walk.outcome == Outcome::fell || (mode == Mode::walk && walk.outcome == Outcome::left_scene);
+}
+
+std::string text_of(const ProbeLimit& limit) {
+  switch (limit.kind) {
+    case Kind::door:
+    case Kind::gap:
+      return fmt::format("{} {} {}", name(limit.kind), metres(limit.size), extent(limit));
+    case Kind::lintel:
+      return fmt::format("lintel for a radius of {}", metres(0.5 * limit.size));
+    case Kind::start:
+    case Kind::target:
+      return fmt::format("{} {} {}", end_name(limit.kind), metres(limit.size),
+                         limit.too_low ? "below what is above it" : "from a wall");
+    case Kind::height:
+      return fmt::format("headroom {}", metres(limit.size));
+    case Kind::edge:
+      return fmt::format("edge of the floor, {} from a wall", metres(limit.size));
+    case Kind::step:
+      return fmt::format("step of {}", metres(limit.size));
+    case Kind::apart:
+      return "nearest approach";
+  }
+  return "";
+}
+
+namespace {
+
+/// Metres: an end that stands farther than that from the place that was asked for is told, both of them.
+constexpr double moved_aside = 0.05;
+constexpr double tall = 2.0;  ///< eyes are at most that far above the feet
+
+std::string body_text(const ProbedSize& size) {
+  if (size.height <= 2.0 * size.radius) return fmt::format("a sphere of radius {:.3g} m", size.radius);
+  return fmt::format("a body of radius {:.3g} m and height {:.3g} m", size.radius, size.height);
+}
+
+/// "the narrowest place is ..." of a way that is wide enough.
+std::string narrowest(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (!answer.limit) return fmt::format("nothing on it leaves less than {}", metres(2.0 * p.radius));
+  const ProbeLimit& limit = *answer.limit;
+  const std::string where = fmt::format("at {}, {:.1f} m on the way", at(limit.point), limit.along);
+  if (is_end(limit.kind)) {
+    return fmt::format("nothing on it is narrower than the {} itself, which stands {} from a wall",
+                       end_name(limit.kind), metres(limit.size));
+  }
+  if (limit.kind == Kind::edge)
+    return fmt::format(
+        "the narrowest place has a wall on one side, {} from the way, and the floor's end on the other, {}",
+        metres(limit.size), where);
+  if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
+    return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
+  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), name(limit.kind),
+                     where);
+}
+
+/// Of what nobody was found to pass.
+std::string no_way(const ProbeAnswer& answer) {
+  const ProbedSize& size = answer.size;
+  return fmt::format(
+      "{}, not even for a radius of {}{}: what is reached from the start and what is reached from the target do not "
+      "meet",
+      is_shut(answer) ? "There is no way at all" : "No way was found", metres(answer.narrowest),
+      size.height > 2.0 * size.radius ? fmt::format(" and a height of {:.3g} m", size.height) : "");
+}
+
+/// What stops the body.
+std::string stopped_by(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (!answer.limit) {
+    if (p.found) return fmt::format("No way leaves more than {}.", metres(2.0 * p.radius));
+    std::string text = no_way(answer) + ", nor come near each other.";
+    const double rise = answer.target.z - answer.start.z;
+    if (std::abs(rise) > tall) {
+      text += fmt::format(" The target lies {:.1f} m {}; no stairs or ramp join the two.", std::abs(rise),
+                          rise > 0.0 ? "higher" : "lower");
+    }
+    return text;
+  }
+  const ProbeLimit& limit = *answer.limit;
+  const std::string missing =
+      answer.missing < 1e-3 ? "less than 1 mm is missing" : metres(answer.missing) + " are missing";
+  switch (limit.kind) {
+    case Kind::start:
+    case Kind::target: {
+      std::string text = limit.too_low
+                             ? fmt::format("The {} is too low: at {} there are {} from the floor to what is above; {}.",
+                                           end_name(limit.kind), at(limit.feet), metres(limit.size), missing)
+                             : fmt::format("The {} stands {} from a wall, at {}; {}.", end_name(limit.kind),
+                                           metres(limit.size), at(limit.feet), missing);
+      if (answer.room) text += fmt::format(" The nearest place with room for it is {}.", at(*answer.room));
+      return text;
+    }
+    case Kind::edge:
+      return fmt::format(
+          "At {} there is a wall on one side and the floor's end on the other: a way leads {} from the wall; {}.",
+          at(limit.point), metres(limit.size), missing);
+    case Kind::height: {
+      std::string text =
+          fmt::format("The body is too high: near {} one of that radius passes up to a height of {}; {}.",
+                      at(limit.feet), metres(limit.size), missing);
+      if (p.found) text += fmt::format(" At its whole height only a radius of {} passes.", metres(p.radius));
+      return text;
+    }
+    case Kind::step:
+      return fmt::format("A step stops it: at {} the floor {} by {} at once, and the body steps {}.", at(limit.point),
+                         limit.feet.z < limit.point.z ? "rises" : "falls", metres(limit.size), metres(limit.needed));
+    case Kind::apart:
+      return no_way(answer) + fmt::format("; it breaks off at {}.", at(limit.point));
+    case Kind::lintel:
+      if (answer.size.height > 2.0 * answer.size.radius) {
+        return fmt::format("The lintel at {} lets a radius of {} through at that height; {}.", at(limit.point),
+                           metres(0.5 * limit.size), metres(0.5 * answer.missing) + " are missing");
+      }
+      break;
+    case Kind::door:
+    case Kind::gap:
+      break;
+  }
+  return fmt::format("The {} at {} is {} {}; {}.", name(limit.kind), at(limit.point), metres(limit.size), extent(limit),
+                     missing);
+}
+
+/// Of a search that came to its most places.
+std::string ended(const Passage& p) {
+  return fmt::format(
+      " the search ended after {} places, the most that are looked at. A wider spacing (--spacing) looks at fewer.",
+      p.places);
+}
+
+/// What is certified of ways, to a millimetre that is not too few.
+std::string certified(const Passage& p) {
+  return fmt::format("That none for a radius over {:.3f} m exists is certified", std::ceil(1e3 * p.bound - 1e-6) / 1e3);
+}
+
+/// How sure a no is.
+std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
+  if (!p.complete && !answer.proven) return " A wider way may exist:" + ended(p);
+  if (!p.complete) return fmt::format(" {}; of narrower ones not all were looked for:", certified(p)) + ended(p);
+  if (is_shut(answer)) return " That is certified.";
+  // Within what the proof leaves open, the body's radius may lie.
+  if (p.found && (answer.proven || p.proven)) return fmt::format(" {}.", certified(p));
+  const double overlooked = 0.7 * question.spacing;
+  if (answer.proven)
+    return fmt::format(" {}; for smaller ones, openings under {:.2g} m may be overlooked.", certified(p), overlooked);
+  return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
+                     p.found ? " wider" : "", question.spacing, overlooked);
+}
+
+/// Where the walker was, as all places are told: of the feet, flying of the centre.
+std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  Vec3 place = answer.walk->at;
+  if (question.mode == Mode::walk) place.z -= 0.5 * answer.size.height;
+  return at(place);
+}
+
+/// Where an end had to be taken elsewhere.
+std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode mode) {
+  const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
+  if (mode == Mode::fly ? glm::distance(asked, stands) > moved_aside : aside > moved_aside) {
+    return fmt::format(" The {} has no room where it was asked for: {} was taken.", end, at(stands));
+  }
+  if (mode == Mode::walk && down > tall)
+    return fmt::format(" The {} is {:.2f} m above the floor: {} was taken.", end, down, at(stands));
+  if (mode == Mode::walk && std::abs(down) > moved_aside) return fmt::format(" The {}'s floor is {}.", end, at(stands));
+  return "";
+}
+
+}  // namespace
+
+std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  const DefaultFloatingPoint guard;
+  const Passage& p = answer.passage;
+  const std::string ways = fmt::format("from {} to {}", at(question.from), at(question.to));
+  const std::string body = body_text(answer.size);
+  std::string text;
+  if (answer.passable) {
+    text = fmt::format("Yes: {} gets {} on a way of {:.1f} m; {}.", body, ways, p.length, narrowest(answer));
+  } else if (answer.walk && falls(*answer.walk, question.mode)) {
+    text = fmt::format(
+        "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (a support radius, "
+        "--support-radius), or a bridge. Else it would get {} on a way of {:.1f} m; {}.",
+        body, walked_to(question, answer), ways, p.length, narrowest(answer));
+  } else if (answer.walk) {
+    const char* how = answer.walk->outcome == Outcome::left_scene ? "left the scene"
+                      : answer.walk->outcome == Outcome::held     ? "was held"
+                                                                  : "was blocked";
+    text = fmt::format(
+        "Not shown: the walker that was sent along the way {} at {}. By its measures {} gets {} on a way of {:.1f} m; "
+        "{}.",
+        how, walked_to(question, answer), body, ways, p.length, narrowest(answer));
+  } else if (is_unknown(answer)) {
+    text = fmt::format("Not known: no way was found on which {} gets {}, but", body, ways) + ended(p);
+  } else if (!p.complete && !p.found && !answer.limit) {
+    text = fmt::format("No: {} does not get {}.", body, ways) + sureness(question, answer);
+  } else {
+    text = fmt::format("No: {} does not get {}. {}", body, ways, stopped_by(answer)) + sureness(question, answer);
+  }
+  return text + moved("start", question.from, answer.start, question.mode) +
+         moved("target", question.to, answer.target, question.mode);
+}
+
+}  // namespace roam::words
