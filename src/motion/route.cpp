@@ -140,7 +140,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   inside_ = inside(result_.end, walker.space().bounds(), walker.body());
   note_events(start);
   start_window();
-  coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
+  coming_down_ = walker.mode() == Mode::walk && !walker.stance().level && walker.settings().gravity > 0.0;
   if (walker.held()) {
     finish(Outcome::held);
   } else if (next_ == waypoints_.size()) {
@@ -200,13 +200,13 @@ void Route::judge(const StepReport& report, double distance_before) {
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(Outcome::held);
-  if (report.put_back) return finish(walker_->stance().stood ? Outcome::fell : Outcome::held);
+  if (report.put_back) return finish(walker_->stance().level ? Outcome::fell : Outcome::held);
   const bool inside_now = inside(report.to, scene, walker_->body());
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;
   if (coming_down_) {
     // Without ground it may also be caught between slopes, and then goes on from there.
-    coming_down_ = !walker_->stance().stood && walker_->rise_speed() < 0.0;
+    coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
     start_window();
     return;
   }

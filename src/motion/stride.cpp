@@ -39,12 +39,12 @@ double stride_seconds(const Move& move, const Vec3& velocity) {
 
 double fine_stride_seconds(const Move& move, const Vec3& velocity) { return stride_seconds(move, velocity) / 6.0; }
 
-bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
+bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, wish = glm::length(velocity);
   const Vec3 origin = move.place;
-  const bool was_carried = stance.carried;
+  const bool was_carried = gait.footing == Footing::foot;
   PlaneSet walls, grounds;
-  grounds.add(stance.ground);
+  grounds.add(gait.ground);
   Vec3 v = velocity;
   double left = seconds;
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
@@ -62,17 +62,17 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     }
     const Vec3& normal = a.contact.normal;
     const bool underfoot = normal.z > 0.0 && glm::dot(Vec3(normal.x, normal.y, 0.0), v) >= 0.0;
-    if (underfoot || footing(move, stance, a.contact)) {
+    if (underfoot || footing(move, gait, a.contact)) {
       grounds.add(normal);
       continue;
     }
     const Vec3 rest = v * left;
     if (crouch_under(move, a.contact, over_grounds(rest, grounds))) continue;
-    if (const std::optional<double> made = step_up(move, stance, rest, left)) {
+    if (const std::optional<double> made = step_up(move, gait, rest, left)) {
       left = std::max(0.0, left - *made * left);
       walls.clear();
       grounds.clear();
-      grounds.add(stance.ground);
+      grounds.add(gait.ground);
       v = velocity;
       continue;
     }
@@ -86,13 +86,13 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     if (!move.report.has(EventKind::slid)) move.note(EventKind::slid, a.contact.point);
   }
   const Vec3 gone = move.place - origin;
-  keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
+  keep_ground(move, gait, glm::length(Vec3(gone.x, gone.y, 0.0)));
   // What rolls off a rim goes on down as it came, at most as steeply as a rim carries: thrown off level it would cross
   // cracks that it does not bridge. What its foot carries no more has no rim below it that could show it the way.
-  if (!stance.grounded && seconds > 0.0) {
+  if (!gait.grounded() && seconds > 0.0) {
     const double steepest = -wish * rim_tangent;
     const double down = was_carried ? steepest : std::max((move.place.z - origin.z) / seconds, steepest);
-    stance.rise_speed = std::min(0.0, down);
+    gait.rise_speed = std::min(0.0, down);
   }
   move.time = start + seconds;
   return true;

@@ -11,6 +11,7 @@
 
 #include "math/floating_point.h"
 #include "motion/opening.h"
+#include "motion/state.h"
 #include "motion/support.h"
 
 namespace roam {
@@ -98,7 +99,7 @@ std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& 
   }
   const Vec3& end = trial.position();
   const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
-  if (!there || !trial.stance().carried || trial.stance().unknown) return std::nullopt;
+  if (!there || trial.stance().footing != Footing::foot || trial.stance().unknown) return std::nullopt;
   return trial;
 }
 
@@ -132,7 +133,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
     pushed_ = 0.0;
     return std::nullopt;
   }
-  if (on_foot && stance.firm && !stance.carried) {
+  if (on_foot && stance.footing == Footing::ground) {
     lost_ = false;
     const bool moved = !firm_ || glm::length(walker.position() - firm_at_) > moved_part * walker.body().radius;
     if (moved && !report.blocked && floor_below(walker)) {
@@ -141,7 +142,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
       firm_feet_ = walker.feet().z;
     }
   }
-  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held && !report.put_back) {
+  if (on_foot && firm_ && !stance.firm() && !lost_ && !report.held && !report.put_back) {
     lost_ = true;
     lost_at_ = walker.position();
   }
@@ -154,7 +155,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
   }
   if (offered_) return std::nullopt;
   offered_ = true;
-  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm;
+  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm();
   if (fell || has_sunk) {
     if (std::optional<Lesson> lesson = support(walker)) return lesson;
   }
@@ -199,7 +200,7 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
   // Not even the largest: a pit, a cliff. Else it knows the plane of the floor, and is carried where it is.
   const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
   if (!largest) return std::nullopt;
-  const walking::FloorPlane plane{largest->stance().floor_point, largest->stance().floor_normal};
+  const walking::FloorPlane& plane = largest->state().floor();
   WalkerSettings settings = largest->settings();
   while (high - low > disc_precision) {
     settings.support_radius = 0.5 * (low + high);
