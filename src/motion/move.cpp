@@ -239,6 +239,11 @@ void Move::touch(const Impact& contact, double gap) {
   last_direction_ = Vec3(0.0);
 }
 
+void Move::block(const Vec3& point) {
+  if (!report.blocked && !was_blocked) note(EventKind::blocked, point);
+  report.blocked = true;
+}
+
 void Move::note(EventKind kind, const Vec3& point) {
   if (!is_frequent(kind) || report.events.size() < events_of_motion) report.events.push({kind, point});
 }

@@ -55,6 +55,7 @@ struct Mover {
   StepReport& report;
   double skin;  ///< metres
   double slope_cosine;
+  bool was_blocked;  ///< at the end of the step before
 };
 
 /// From the first advance on, `known.fit` is not `unproven`.
@@ -107,6 +108,8 @@ class Move : public Mover, public Whereabouts {
   void resize(double new_height, const Vec3& new_place);
 
   void touch(const Impact& contact, double gap);
+  /// The body can not go on, because of what it touches at `point`.
+  void block(const Vec3& point);
   void note(EventKind kind, const Vec3& point);
   void note(EventKind kind) { note(kind, place); }
   [[nodiscard]] Mark mark() const;

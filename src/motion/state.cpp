@@ -57,7 +57,7 @@ WalkerInput Walker::State::slowed(const WalkerInput& input) {
 }
 
 walking::Move Walker::State::under_way() {
-  return {{*space_, vicinity_, settings_, report_, skin_, slope_cosine_}, at_};
+  return {{*space_, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
 }
 
 void Walker::State::begin() {
@@ -237,6 +237,7 @@ const StepReport& Walker::State::step(const WalkerInput& input, double dt) {
     }
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
+  was_blocked_ = report_.blocked;
   finish();
   return report_;
 }
@@ -344,6 +345,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   gait_ = {};
   at_.known = {};
   vicinity_.forget();
+  was_blocked_ = false;
   release();
   safe_.height = ground_.height = 0.0;
   looked_at_ = space_->revision();

@@ -90,6 +90,7 @@ class Walker::State {
   walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
   walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode
   walking::Hold hold_ = walking::Hold::none;
+  bool was_blocked_ = false;     ///< at the end of the last step, and has not been put elsewhere since
   bool was_put_back_ = false;    ///< and has not been put elsewhere since
   bool resized_ = false;         ///< another size may be wanted than when the body was held
   std::uint64_t known_at_ = 0;   ///< the revision of the space of which at_.known is

@@ -47,9 +47,15 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   grounds.add(gait.ground);
   Vec3 v = velocity;
   double left = seconds;
+  Vec3 in_vain(0.0);  // the motion that led nowhere from where the body is
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
     const Vec3 before = move.place;
     const Vec3 motion = over_grounds(v, grounds) * left;
+    if (motion == in_vain) {
+      if (move.place == origin) move.block(move.report.contacts.back().point);
+      break;
+    }
+    const bool looks = !move.known.touching;  // else a second try may find free what the first did not
     const Advance a = move.advance(motion, left);
     left -= a.fraction * left;
     if (!a.touched) break;
@@ -60,6 +66,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
       walls.clear();
       grounds.clear();
     }
+    in_vain = looks && move.place == before ? motion : Vec3(0.0);
     const Vec3& normal = a.contact.normal;
     const bool underfoot = normal.z > 0.0 && glm::dot(Vec3(normal.x, normal.y, 0.0), v) >= 0.0;
     if (underfoot || footing(move, gait, a.contact)) {
@@ -79,8 +86,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
     walls.add(as_wall(normal, v));
     v = along_planes(velocity, walls);
     if (glm::length(v) <= standstill_part * wish) {
-      move.report.blocked = true;
-      move.note(EventKind::blocked, a.contact.point);
+      move.block(a.contact.point);
       break;
     }
     if (!move.report.has(EventKind::slid)) move.note(EventKind::slid, a.contact.point);

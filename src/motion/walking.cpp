@@ -15,6 +15,8 @@ constexpr int stride_limit = 4096;
 
 bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.space.bounds().lower.z; }
 
+bool at_same_place(const Whereabouts& a, const Whereabouts& b) { return a.place == b.place && a.height == b.height; }
+
 }  // namespace
 
 void jump(Move& move, Gait& gait) {
@@ -42,6 +44,7 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
       std::optional<Move::Mark> mark;
       if (retractable) mark = move.mark();
       const Gait before = gait;
+      const Whereabouts was = move;
       if (!stride(move, gait, velocity, seconds)) return Ending::embedded;
       if (retractable && !gait.grounded()) {
         move.undo(*mark);
@@ -50,6 +53,8 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
         continue;
       }
       careful -= seconds;
+      // What stops it here would stop it again.
+      if (move.report.blocked && gait.grounded() && at_same_place(move, was)) break;
     } else if (!fly_on(move, gait, velocity, seconds)) {
       return Ending::embedded;
     }
