@@ -150,6 +150,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
 
 void Route::start_window() {
   window_best_ = next_ < waypoints_.size() ? glm::length(way_to(waypoints_[next_], *walker_)) : 0.0;
+  window_from_ = walker_->position();
   window_time_ = 0.0;
   window_steps_ = 0;
 }
@@ -217,8 +218,7 @@ void Route::judge(const StepReport& report, double distance_before) {
   window_time_ += report.elapsed;
   ++window_steps_;
   if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
-  const double now = glm::length(way_to(waypoints_[next_], *walker_));
-  if (window_best_ - now < progress_part * options_.speed * window_time_) {
+  if (!gets_on()) {
     const Vec3 way = way_to(waypoints_[next_], *walker_);
     const Contact* c = most_against(way, report);
     const bool unknown = c != nullptr && c->unknown;
@@ -227,6 +227,16 @@ void Route::judge(const StepReport& report, double distance_before) {
   } else {
     start_window();
   }
+}
+
+/// Whether the body came nearer in the window, or slides to where it will.
+bool Route::gets_on() const {
+  const double least = progress_part * options_.speed * window_time_;
+  const double nearer = window_best_ - glm::length(way_to(waypoints_[next_], *walker_));
+  Vec3 moved = walker_->position() - window_from_;
+  if (walker_->mode() == Mode::walk) moved.z = 0.0;
+  // A way that leads aside by so much of free motion comes nearer by the square of that.
+  return nearer >= least || (glm::length(moved) >= least && nearer >= progress_part * least);
 }
 
 void Route::describe_blockage(const StepReport& report) {
