@@ -49,7 +49,7 @@ class Walker {
 
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. The report that it returns
   /// is the walker's own, report(): the next call of any kind overwrites it. Throws roam::Error for
-  /// input that is not finite.
+  /// a velocity or time that is not finite, and for a limit of acceleration that is not more than 0.
   ///
   /// Cost on free flat ground: one look for the nearest triangle, over the way, and one sweep down to the ground.
   /// Flying: the one look; none at all while the body is still well inside what an earlier one has found free.
@@ -115,6 +115,10 @@ class Walker {
   /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put.
   /// What LiveSpace::update wants to know.
   [[nodiscard]] Vec3 velocity() const;
+  /// Metres per second, at the end of the last step, horizontal in walk mode: where the next wish goes on from that has
+  /// limits of acceleration. What the last wish had become by then, along what the body slid, and 0 where it was
+  /// stopped, held or put.
+  [[nodiscard]] const Vec3& pace() const;
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const;
 

@@ -7,6 +7,7 @@
 
 #include "math/floating_point.h"
 #include "motion/opening.h"
+#include "motion/pace.h"
 #include "roam/error.h"
 #include "text/number.h"
 
@@ -23,6 +24,9 @@ constexpr double at_waypoint = 1e-8;
 /// Metres above the feet: a waypoint that a tall person's path has so high is one of a low body too, where it is in
 /// sight.
 constexpr double tall_person = 2.0;
+
+/// Cosine of the turn, less than half a degree, that a limited body does not slow down for.
+constexpr double straight_on = 0.99997;
 
 /// A contact is what the opening is measured from when it is within this many skins.
 constexpr double opening_skins = 4.0;
@@ -100,6 +104,10 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
     throw Error("the route's time step is shorter than a microsecond; it would take for ever");
   }
   positive("patience", options.patience, "s");
+  if (!(options.acceleration > 0.0 && options.braking > 0.0)) {
+    throw Error("the route accelerates by at most " + number_text(options.acceleration) +
+                " m/s^2 and brakes by at most " + number_text(options.braking) + " m/s^2; both must be more than 0");
+  }
   if (!(options.wait >= 0.0) || !std::isfinite(options.wait)) {
     throw Error("the route's longest wait is " + number_text(options.wait) + " s; it must be at least 0");
   }
@@ -151,7 +159,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
 void Route::start_window() {
   window_best_ = next_ < waypoints_.size() ? glm::length(way_to(waypoints_[next_], *walker_)) : 0.0;
   window_from_ = walker_->position();
-  window_time_ = 0.0;
+  window_time_ = window_free_ = 0.0;
   window_steps_ = 0;
 }
 
@@ -168,17 +176,46 @@ void Route::turn_to_next(bool hindered) {
   finish(Outcome::reached);
 }
 
+bool Route::limited() const { return std::isfinite(options_.acceleration) || std::isfinite(options_.braking); }
+
+/// Metres to where the body is to be at rest, the next waypoint being `way` off: farther than it takes to brake counts
+/// as that far.
+double Route::until_rest(const Vec3& way) const {
+  const double enough = options_.speed * options_.dt + 0.5 * options_.speed * options_.speed / options_.braking;
+  double sum = glm::length(way);
+  Vec3 before = way / sum;
+  for (std::size_t i = next_; i + 1 < waypoints_.size() && sum <= enough; ++i) {
+    Vec3 leg = waypoints_[i + 1] - waypoints_[i];
+    if (walker_->mode() == Mode::walk) leg.z = 0.0;
+    const double length = glm::length(leg);
+    if (!(length > 0.0)) continue;
+    if (glm::dot(leg, before) < straight_on * length) break;
+    before = leg / length;
+    sum += length;
+  }
+  return sum;
+}
+
 const StepReport& Route::advance() {
   const DefaultFloatingPoint guard;
   if (done_)
     throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
-  double dt = options_.dt;
-  WalkerInput input;
+  double dt = options_.dt, planned = 0.0;
+  WalkerInput input{.acceleration = options_.acceleration, .braking = options_.braking};
   if (distance > at_waypoint && !coming_down_) {
-    dt = std::min(dt, distance / options_.speed);
-    input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
+    if (limited()) {
+      const Vec3 ahead = way / distance;
+      const double speed = std::max(0.0, glm::dot(walker_->pace(), ahead));
+      const auto step = walking::approach(speed, options_.speed, distance, until_rest(way), dt, input);
+      dt = std::max(step.seconds, shortest_step);
+      input.velocity = ahead * step.speed;
+      planned = step.way;
+    } else {
+      dt = std::min(dt, distance / options_.speed);
+      input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
+    }
   }
   const StepReport& report = walker_->step(input, dt);
   ++result_.steps;
@@ -192,11 +229,11 @@ const StepReport& Route::advance() {
   take_clearance(result_, report);
   result_.end = walker_->position();
   note_events(report);
-  judge(report, distance);
+  judge(report, distance, limited() ? planned : options_.speed * report.elapsed);
   return report;
 }
 
-void Route::judge(const StepReport& report, double distance_before) {
+void Route::judge(const StepReport& report, double distance_before, double free_way) {
   const Box scene = walker_->space().bounds();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
@@ -212,10 +249,11 @@ void Route::judge(const StepReport& report, double distance_before) {
     return;
   }
   const double distance = glm::length(way_to(waypoints_[next_], *walker_));
-  const bool nearer = distance_before - distance > progress_part * options_.speed * report.elapsed;
+  const bool nearer = distance_before - distance > progress_part * free_way;
   turn_to_next(!report.contacts.empty() || !nearer);
   if (done_) return;
   window_time_ += report.elapsed;
+  window_free_ += free_way;
   ++window_steps_;
   if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
   if (!gets_on()) {
@@ -231,7 +269,7 @@ void Route::judge(const StepReport& report, double distance_before) {
 
 /// Whether the body came nearer in the window, or slides to where it will.
 bool Route::gets_on() const {
-  const double least = progress_part * options_.speed * window_time_;
+  const double least = progress_part * window_free_;
   const double nearer = window_best_ - glm::length(way_to(waypoints_[next_], *walker_));
   Vec3 moved = walker_->position() - window_from_;
   if (walker_->mode() == Mode::walk) moved.z = 0.0;

@@ -8,6 +8,7 @@
 
 #include "motion/crouch.h"
 #include "motion/ground.h"
+#include "motion/pace.h"
 #include "motion/recovery.h"
 #include "motion/slide.h"
 #include "roam/error.h"
@@ -44,6 +45,15 @@ Walker::State::State(const Space& space, const WalkerSettings& settings, Mode mo
 Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.height); }
 
 Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
+
+Vec3 Walker::State::velocity() const {
+  Vec3 way(0.0), at = report_.from;
+  for (const Corner& c : report_.corners) {
+    if (!c.teleport) way += c.position - at;
+    at = c.position;
+  }
+  return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
+}
 
 /// The wish, no faster than the space can follow.
 WalkerInput Walker::State::slowed(const WalkerInput& input) {
@@ -204,11 +214,19 @@ void Walker::State::settle() {
   if (gait_.grounded() || !(safe_.height > 0.0)) remember_safe();
 }
 
-const StepReport& Walker::State::step(const WalkerInput& input, double dt) {
-  if (!finite(input.velocity)) throw Error("the wished velocity is not a finite vector");
+const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
+  if (!finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
     throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
   }
+  if (!(wish.acceleration > 0.0 && wish.braking > 0.0)) {
+    throw Error("the wish accelerates by at most " + number_text(wish.acceleration) + " m/s^2 and brakes by at most " +
+                number_text(wish.braking) + " m/s^2; both must be more than 0");
+  }
+  WalkerInput input = wish;
+  if (mode_ == Mode::walk) input.velocity.z = 0.0;
+  const walking::Pace pace = walking::pace(pace_, input);
+  input.velocity = pace.seconds > 0.0 && dt > 0.0 ? pace.mean(dt) : wish.velocity;
   begin();
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
@@ -222,8 +240,8 @@ const StepReport& Walker::State::step(const WalkerInput& input, double dt) {
   } else {
     const bool changed = space_->revision() != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
-    const Vec3 wish(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
-    if (!held() && changed && wish * dt != Vec3(0.0)) {
+    const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
+    if (!held() && changed && way * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
       looked_at_ = space_->revision();
       resized_ = false;
@@ -238,8 +256,24 @@ const StepReport& Walker::State::step(const WalkerInput& input, double dt) {
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   was_blocked_ = report_.blocked;
+  take_pace(input.velocity, pace.velocity(report_.elapsed));
   finish();
   return report_;
+}
+
+/// What is left of the velocity at the end of a step in which the body was `wished` to go at that on average.
+void Walker::State::take_pace(const Vec3& wished, const Vec3& in_the_end) {
+  pace_ = held() || report_.put_back ? Vec3(0.0) : in_the_end;
+  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return;
+  Vec3 moved = velocity();
+  if (mode_ == Mode::walk) moved.z = 0.0;
+  const double speed = glm::length(moved), most = glm::length(wished);
+  if (speed > 0.0 && most > 0.0) {
+    const Vec3 along = moved / speed;
+    pace_ = along * std::clamp(glm::dot(pace_, along), 0.0, glm::length(pace_) * (speed / most));
+  } else {
+    pace_ = Vec3(0.0);
+  }
 }
 
 void Walker::State::move(const WalkerInput& input, double dt) {
@@ -346,6 +380,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;
+  pace_ = Vec3(0.0);
   release();
   safe_.height = ground_.height = 0.0;
   looked_at_ = space_->revision();

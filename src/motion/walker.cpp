@@ -70,6 +70,7 @@ bool Walker::grounded() const { return state_->gait_.grounded(); }
 const Stance& Walker::stance() const { return state_->gait_; }
 bool Walker::held() const { return state_->held(); }
 double Walker::rise_speed() const { return state_->gait_.rise_speed; }
+const Vec3& Walker::pace() const { return state_->pace_; }
 const StepReport& Walker::report() const { return state_->report_; }
 double Walker::skin() const { return state_->skin_; }
 double Walker::fall_limit() const { return state_->settings_.radius + state_->settings_.step; }
@@ -92,13 +93,7 @@ Vec3 Walker::eye() const {
 
 Vec3 Walker::velocity() const {
   const DefaultFloatingPoint guard;
-  const StepReport& report = state_->report_;
-  Vec3 way(0.0), at = report.from;
-  for (const Corner& c : report.corners) {
-    if (!c.teleport) way += c.position - at;
-    at = c.position;
-  }
-  return report.elapsed > 0.0 ? way / report.elapsed : Vec3(0.0);
+  return state_->velocity();
 }
 
 }  // namespace roam
