@@ -103,11 +103,10 @@ struct WalkerInput {
   Vec3 velocity{0.0};
   bool jump = false;  ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.
-  /// Metres per second squared, > 0, of the change from the body's velocity (Walker::pace()) to this one. Infinite: it
-  /// has the velocity at once. `braking` holds for a wish that is slower than the body, `acceleration` for any other,
-  /// also for one that only turns. In a step the velocity changes evenly, and the body goes as far as that brings it,
-  /// whatever the time step: from a speed v it stops after v^2 / (2 braking) metres. What the body meets, and a space
-  /// that makes it wait, stop it at once all the same.
+  /// Metres per second squared, > 0: how fast the body's velocity, Walker::pace(), becomes the one wished for; infinite:
+  /// at once. `braking` holds while the body becomes slower, `acceleration` while it becomes faster. The body goes as far
+  /// as that brings it, whatever the time step: from a speed v it stops after v^2 / (2 braking) metres. What it meets,
+  /// and a space that makes it wait, stop it at once all the same.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
 };

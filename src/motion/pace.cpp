@@ -35,16 +35,27 @@ double seconds_until(double way, double from, double to, double change) {
 
 }  // namespace
 
-Vec3 Pace::velocity(double after) const { return after < seconds ? from + (to - from) * (after / seconds) : to; }
+Vec3 Pace::velocity(double after) const {
+  if (after < braking) return from + (slowest - from) * (after / braking);
+  after -= braking;
+  return after < gaining ? slowest + (to - slowest) * (after / gaining) : to;
+}
 
 Vec3 Pace::mean(double over) const {
-  const double changing = std::min(seconds, over);
-  return (0.5 * changing / over) * (from + velocity(changing)) + (1.0 - changing / over) * to;
+  const double slower = std::min(braking, over), faster = std::min(gaining, over - slower);
+  const Vec3 between = velocity(slower);
+  return ((0.5 * slower) * (from + between) + (0.5 * faster) * (between + velocity(slower + faster)) +
+          (over - slower - faster) * to) /
+         over;
 }
 
 Pace pace(const Vec3& from, const WalkerInput& wish) {
-  const double limit = rate(glm::length(from), glm::length(wish.velocity), wish);
-  return {from, wish.velocity, glm::length(wish.velocity - from) / limit};
+  const Vec3 change = wish.velocity - from;
+  const double whole = glm::length(change);
+  if (!(whole > 0.0)) return {from, from, from};
+  const double slower = std::clamp(-glm::dot(from, change) / (whole * whole), 0.0, 1.0);
+  return {from, from + change * slower, wish.velocity, slower * whole / wish.braking,
+          (1.0 - slower) * whole / wish.acceleration};
 }
 
 Approach approach(double speed, double most, double goal, double until_rest, double seconds,

@@ -6,10 +6,13 @@
 
 namespace roam::walking {
 
-/// A velocity that becomes another one evenly and then stays.
+/// A velocity that becomes another one on the straight way between them, and then stays: first slower, and then faster.
 struct Pace {
-  Vec3 from{0.0}, to{0.0};  ///< m/s
-  double seconds = 0.0;     ///< that the change takes
+  Vec3 from{0.0}, slowest{0.0}, to{0.0};  ///< m/s
+  double braking = 0.0;                   ///< seconds from `from` to `slowest`
+  double gaining = 0.0;                   ///< seconds from there to `to`
+
+  [[nodiscard]] bool changes() const { return braking + gaining > 0.0; }
 
   [[nodiscard]] Vec3 velocity(double after) const;  ///< m/s, `after` so many seconds
   [[nodiscard]] Vec3 mean(double over) const;       ///< m/s, on average over so many seconds, > 0

@@ -226,7 +226,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   WalkerInput input = wish;
   if (mode_ == Mode::walk) input.velocity.z = 0.0;
   const walking::Pace pace = walking::pace(pace_, input);
-  input.velocity = pace.seconds > 0.0 && dt > 0.0 ? pace.mean(dt) : wish.velocity;
+  input.velocity = pace.changes() && dt > 0.0 ? pace.mean(dt) : wish.velocity;
   begin();
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;

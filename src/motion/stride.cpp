@@ -68,9 +68,11 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
     }
     in_vain = looks && move.place == before ? motion : Vec3(0.0);
     const Vec3& normal = a.contact.normal;
-    const bool underfoot = normal.z > 0.0 && glm::dot(Vec3(normal.x, normal.y, 0.0), v) >= 0.0;
+    const double apart = normal.x * v.x + normal.y * v.y;
+    // What leads along a slope leads into it where the ground goes down: there it goes on level.
+    const bool underfoot = normal.z > 0.0 && apart >= -parallel_tolerance * wish;
     if (underfoot || footing(move, gait, a.contact)) {
-      grounds.add(normal);
+      grounds.add(underfoot && apart < 0.0 ? normal - v * (apart / glm::dot(v, v)) : normal);
       continue;
     }
     const Vec3 rest = v * left;
