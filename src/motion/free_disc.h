@@ -40,9 +40,17 @@ enum class DiscRoom : std::uint8_t {
   free,
 };
 
+/// Where a disc was found: the next one asked for is likely to be there too.
+struct DiscFound {
+  bool found = false;
+  double x = 0.0, y = 0.0;  ///< of its centre, metres
+};
+
 /// Whether a disc of the foot's radius, seen from above, holds `axis` and is free of floor within the band about the
 /// plane; its centre must be in sight from the axis at the height of the knee. Where it is not settled, because a disc
-/// fits to within a millimetre or after more work than is sensible, the answer is that it is free.
-[[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis);
+/// fits to within a millimetre or after more work than is sensible, the answer is that it is free. `last` is where one
+/// was found before, if anywhere, and becomes where one is now: a body that hardly moves is answered by two questions.
+[[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const Foot& foot, const Vec3& axis,
+                                 DiscFound* last = nullptr);
 
 }  // namespace roam::walking

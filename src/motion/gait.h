@@ -47,6 +47,7 @@ struct Gait : Stance {
   FloorPlane floor;
   bool floor_seen = false;
   FootAnswer foot;  ///< where it was asked last
+  DiscFound disc;   ///< where the foot last found room to fall
 
   /// Nothing carries it from now on.
   void leave_ground() {

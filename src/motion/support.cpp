@@ -65,7 +65,7 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
   const Size size{m.settings.radius, m.settings.support_radius};
   FootAnswer asked{place, m.height, size, plane, m.space.revision()};
   if (!gait.foot.lasts || !gait.foot.same_question(asked)) {
-    asked.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place);
+    asked.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place, &gait.disc);
     asked.lasts = m.space.tells_changes();
     gait.foot = asked;
   }
@@ -84,10 +84,10 @@ void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) 
 }  // namespace
 
 Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
-                  const FloorPlane& plane, const Vec3& place) {
+                  const FloorPlane& plane, const Vec3& place, DiscFound* last) {
   const Foot foot = foot_of(settings, skin, height);
   if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
-  switch (free_disc(space, plane, foot, place)) {
+  switch (free_disc(space, plane, foot, place, last)) {
     case DiscRoom::none:
       return Carrying::yes;
     case DiscRoom::unknown:

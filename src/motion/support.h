@@ -11,9 +11,9 @@ namespace roam::walking {
 
 /// Whether a body with these settings, and so high now, is carried by its foot over the plane: there is no floor under
 /// its axis at `place`, and no room for a disc as large as the foot. The walker goes by this, and who asks what another
-/// foot would do.
+/// foot would do. `last`: see free_disc().
 [[nodiscard]] Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
-                                const FloorPlane& plane, const Vec3& place);
+                                const FloorPlane& plane, const Vec3& place, DiscFound* last = nullptr);
 
 /// Whether the body has a foot of its own.
 [[nodiscard]] bool has_foot(const Move& move);
