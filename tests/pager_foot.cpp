@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "motion/state.h"
 #include "motion/support.h"
 #include "pager_made.h"
 #include "store/opened.h"
@@ -79,7 +80,7 @@ TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
           ++told;
           continue;
         }
-        const roam::walking::FloorPlane plane{w.stance().floor_point, w.stance().floor_normal};
+        const roam::walking::FloorPlane& plane = w.state().floor();
         EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), plane, w.position()),
                   Carrying::yes)
             << "seed " << seed << " at " << w.position().x << " " << w.position().y;

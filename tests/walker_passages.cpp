@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "walker_judged.h"
@@ -31,6 +32,35 @@ TEST(Passages, PassesADoorwayOf688MillimetresWithABodyOf640) {
       }
       EXPECT_GE(w.walker.position().x, 2.0) << y;
     }
+  }
+}
+
+TEST(Passages, DoesNotCrouchWhereNothingIsLow) {
+  const Mesh m = doorway(0.688);
+  for (const double speed : {0.1, 0.5, 1.4, 3.0, 7.0}) {
+    for (const double y : {-0.3, -0.285, -0.15, -0.0239, 0.02, 0.1, 0.27}) {
+      for (const bool straight : {false, true}) {
+        SCOPED_TRACE(testing::Message() << speed << " m/s from " << y << (straight ? " straight on" : ""));
+        Walk w(m, {.radius = 0.32, .height = 1.8}, Mode::walk, {0.3, y, 0.95});
+        for (int i = 0; i < 1200 && w.walker.position().x < 2.0; ++i) {
+          Vec3 way = straight ? Vec3(1.0, 0.0, 0.0) : Vec3(3.0, 0.0, 0.0) - w.walker.position();
+          way.z = 0.0;
+          w.step(way * (speed / std::sqrt(way.x * way.x + way.y * way.y)));
+          ASSERT_FALSE(w.walker.crouched()) << w.walker.position().x;
+        }
+        EXPECT_EQ(w.count(EventKind::crouched), 0);
+        EXPECT_GE(w.walker.position().x, speed < 0.2 ? 1.2 : 2.0);
+      }
+    }
+  }
+}
+
+TEST(Passages, CrouchesUnderALowCeilingHoweverSlow) {
+  const Mesh m = low_passage(1.2);
+  for (const double speed : {0.03, 0.3, 5.0}) {
+    Walk w(m, {}, Mode::walk, {0.69, 0.0, 0.95});
+    w.go({speed, 0.0, 0.0}, std::min(1.0, 1.5 / speed));
+    EXPECT_TRUE(w.walker.crouched()) << speed;
   }
 }
 

@@ -93,6 +93,33 @@ TEST(Route, SlidesAlongAWallToAWaypointThatIsNotHeadOn) {
   EXPECT_TRUE(has(r, EventKind::slid));
 }
 
+TEST(Route, FollowsAWallToTheCornerWhereItEnds) {
+  Mesh m;
+  scenes::add_floor(m, -40.0, -40.0, 40.0, 40.0, 0.0);
+  scenes::add_wall(m, -30.0, 0.0, 0.0, 0.0, 0.0, 3.0);
+  scenes::add_wall(m, 0.0, 0.0, 0.0, 0.4, 0.0, 3.0);
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    for (const double beyond : {1.0, 4.0, 8.0}) {
+      for (const double aside : {0.5, 1.0, 3.0, 8.0}) {
+        const RouteResult r = follow(m, {}, mode, {{-aside, -1.0, 0.95}, {0.6, beyond, 0.95}});
+        EXPECT_EQ(r.outcome, Outcome::reached) << beyond << " m beyond the wall, from " << aside << " m aside";
+      }
+    }
+  }
+}
+
+TEST(Route, EndsWhereAWallLeadsNoNearer) {
+  Mesh m = floor_mesh();
+  scenes::add_wall(m, -20.0, 0.0, 20.0, 0.0, 0.0, 3.0);
+  for (const double aside : {0.0, 1.0, 15.0}) {
+    const RouteResult r = follow(m, {}, Mode::walk, {{-aside, -1.0, 0.95}, {0.0, 8.0, 0.95}});
+    EXPECT_EQ(r.outcome, Outcome::blocked);
+    ASSERT_TRUE(r.blocked_at);
+    EXPECT_NEAR(r.end.x, 0.0, 0.8);  // a twentieth of free motion, seen from 8.3 m
+    EXPECT_LT(r.simulated, 60.0);
+  }
+}
+
 Mesh doorway(double width, double lintel) {
   Mesh m = floor_mesh();
   const double half = 0.5 * width;

@@ -35,7 +35,7 @@ TEST(PlaceToStand, IsOnTheNearestFloorWithRoomAndCanBeWalkedFrom) {
     EXPECT_NEAR(place->z, z, near_ground);
     EXPECT_NEAR(place->x, 5.0, 1e-6);
     Walker w(world, {}, Mode::walk, *place);
-    EXPECT_TRUE(w.grounded() && w.stance().firm);
+    EXPECT_TRUE(w.grounded() && w.stance().firm());
     EXPECT_NEAR(w.position().z, place->z, 1e-3);
     EXPECT_FALSE(w.report().has(roam::EventKind::freed));
     EXPECT_TRUE(world.fits(w.body(), *place));

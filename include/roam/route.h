@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,9 +31,13 @@ struct RouteOptions {
   double speed = 1.4;  ///< metres per second, > 0
   double dt =
       1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier.
-  /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it came nearer to its waypoint by less
-  /// than a twentieth of what free motion at `speed` would have brought: sliding at less than that, 3 degrees off
-  /// head-on, is not getting on.
+  /// Metres per second squared, > 0: see WalkerInput. With a limit to either the body comes to rest at the last
+  /// waypoint and at each where the way turns.
+  double acceleration = std::numeric_limits<double>::infinity();
+  double braking = std::numeric_limits<double>::infinity();
+  /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it neither came nearer to its waypoint
+  /// by a twentieth of what free motion at `speed` would have brought, nor slid so far aside and a little nearer: a
+  /// wall that is met 3 degrees off head-on, or more, leads on.
   double patience = 1.0;
   /// Seconds of real time, >= 0. Of follow() with a LiveSpace alone: how long it waits for what is not known yet, after
   /// the space has changed last.
@@ -111,9 +116,12 @@ class Route {
   friend RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,
                             const RouteOptions& options);
 
+  [[nodiscard]] bool limited() const;
+  [[nodiscard]] double until_rest(const Vec3& way) const;
   void start_window();
   void turn_to_next(bool hindered);
-  void judge(const StepReport& report, double distance_before);
+  void judge(const StepReport& report, double distance_before, double free_way);
+  [[nodiscard]] bool gets_on() const;
   void describe_blockage(const StepReport& report);
   void finish(Outcome outcome);
 
@@ -125,7 +133,9 @@ class Route {
   bool inside_ = false;       ///< has been in the box of all triangles
   std::size_t next_ = 1;
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
+  Vec3 window_from_{0.0};     ///< where the body was then
   double window_time_ = 0.0;  ///< seconds since
+  double window_free_ = 0.0;  ///< metres that free motion would have brought since
   std::uint64_t window_steps_ = 0;
   EventFilter filter_;
   bool done_ = false;

@@ -34,6 +34,8 @@ struct FloorPlane {
   [[nodiscard]] double level(const Vec3& place) const {
     return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
   }
+
+  friend bool operator==(const FloorPlane&, const FloorPlane&) = default;
 };
 
 /// The level disc that a foot is.

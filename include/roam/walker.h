@@ -7,10 +7,9 @@
 ///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
-///   - the body only moves along straight pieces that the space has certified free, by Space::sweep_in or gap_in,
-///     asked of the piece or, in a space that tells its changes, before of what lies around it; so that at every
-///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report,
-///     each with its own certified bound;
+///   - the body only moves along straight pieces that the space has certified free: in this step or, in a space that
+///     tells its changes, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
+///     triangle. The report has the corners between the pieces, each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
 ///     was put and not moved are marked as teleports;
@@ -20,12 +19,12 @@
 /// between surfaces is clearance - radius. Positions are those of the body's centre. Up is +z.
 ///
 /// A Walker is one body: use it from one thread at a time. A copy is a second body in the same space, as the first one
-/// is at that moment: a snapshot to come back to. Any number of them may share a Space. Moving allocates
-/// nothing. docs/walking.md explains the rules and their limits.
+/// is at that moment: a snapshot to come back to. Any number of them may share a Space. A step allocates nothing. One
+/// that was moved from may be assigned to or destroyed, and nothing else. docs/walking.md explains the rules and their
+/// limits.
 
-#include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "roam/math.h"
 #include "roam/size_region.h"
@@ -36,22 +35,21 @@
 
 namespace roam {
 
-namespace walking {
-class Move;
-struct Sizes;
-enum class Ending : std::uint8_t;
-}  // namespace walking
-
 class Walker {
  public:
   /// Puts a body into `space`, which must outlive it and stay where it is, at `start` (of its centre), as place() does.
   /// Throws roam::Error for bad settings and for a start that is not finite.
   Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start);
   Walker(Space&& space, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
+  ~Walker();
+  Walker(const Walker& other);
+  Walker(Walker&& other) noexcept;
+  Walker& operator=(const Walker& other);
+  Walker& operator=(Walker&& other) noexcept;
 
   /// Moves for `dt` seconds (>= 0, finite). See the head of this file for what is promised. The report that it returns
   /// is the walker's own, report(): the next call of any kind overwrites it. Throws roam::Error for
-  /// input that is not finite.
+  /// a velocity or time that is not finite, and for a limit of acceleration that is not more than 0.
   ///
   /// Cost on free flat ground: one look for the nearest triangle, over the way, and one sweep down to the ground.
   /// Flying: the one look; none at all while the body is still well inside what an earlier one has found free.
@@ -90,7 +88,7 @@ class Walker {
   ///
   /// Takes effect with the next call. Throws roam::Error for what check() refuses; then all is as before.
   void set_regions(std::span<const SizeRegion> regions);
-  [[nodiscard]] std::span<const SizeRegion> regions() const { return regions_; }
+  [[nodiscard]] std::span<const SizeRegion> regions() const;
 
   /// From now on this is the size outside all regions, metres: for those who learn on the way which size serves. A
   /// smaller body is had at once, a larger one as soon as it fits, in this call or a later one; as in regions. Returns
@@ -98,98 +96,48 @@ class Walker {
   /// size that settings may not have; then all is as before.
   bool resize(double radius, double support_radius);
 
-  [[nodiscard]] const Space& space() const { return *space_; }
+  [[nodiscard]] const Space& space() const;
   /// As they hold now: radius and support_radius, and of a sphere height, eye and step, are those of the present size.
-  [[nodiscard]] const WalkerSettings& settings() const { return settings_; }
-  [[nodiscard]] Mode mode() const { return mode_; }
-  [[nodiscard]] const Vec3& position() const { return position_; }  ///< of the centre, metres
-  [[nodiscard]] Vec3 feet() const;                                  ///< the lowest point, metres
-  [[nodiscard]] Vec3 eye() const;                                   ///< the camera, metres
-  [[nodiscard]] Body body() const;                                  ///< as it is now: in size, standing or crouched
-  [[nodiscard]] bool crouched() const { return height_ < settings_.height; }
-  [[nodiscard]] bool grounded() const { return stance_.grounded; }
+  [[nodiscard]] const WalkerSettings& settings() const;
+  [[nodiscard]] Mode mode() const;
+  [[nodiscard]] const Vec3& position() const;  ///< of the centre, metres
+  [[nodiscard]] Vec3 feet() const;             ///< the lowest point, metres
+  [[nodiscard]] Vec3 eye() const;              ///< the camera, metres
+  [[nodiscard]] Body body() const;             ///< as it is now: in size, standing or crouched
+  [[nodiscard]] bool crouched() const;
+  [[nodiscard]] bool grounded() const;  ///< as stance().grounded()
+  [[nodiscard]] const Stance& stance() const;
   /// Cannot move: does not fit where it is and can not be freed, see place(). Or, in walk mode, would fall out of the
   /// scene again, see EventKind::put_back: until there is something below, or in another mode.
-  [[nodiscard]] bool held() const { return held_; }
-  [[nodiscard]] const Stance& stance() const { return stance_; }
+  [[nodiscard]] bool held() const;
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
-  [[nodiscard]] double rise_speed() const { return stance_.rise_speed; }
+  [[nodiscard]] double rise_speed() const;
   /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put.
   /// What LiveSpace::update wants to know.
   [[nodiscard]] Vec3 velocity() const;
+  /// Metres per second, at the end of the last step, horizontal in walk mode: where the next wish goes on from that has
+  /// limits of acceleration. What the last wish had become by then, along what the body slid, and 0 where it was
+  /// stopped, held or put.
+  [[nodiscard]] const Vec3& pace() const;
   /// What the last call did.
-  [[nodiscard]] const StepReport& report() const { return report_; }
+  [[nodiscard]] const StepReport& report() const;
 
   /// The gap, metres, that the body keeps from what it slides along. Twice the space's largest error, the height of the
   /// bumps that storing a flat wall may make in it, plus 0.1 mm. A soft target: passages that leave less than this on
   /// either side are passed all the same, so that the skin never counts twice.
-  [[nodiscard]] double skin() const { return skin_; }
+  [[nodiscard]] double skin() const;
 
   /// A drop of the lowest point by more than this, metres, below the ground last stood on is a fall: radius + step.
   /// A round body that is carried by the rims of a crack sinks by less than its radius, and ground a step lower still
   /// counts as walked on; what lies deeper can not be climbed out of on foot.
-  [[nodiscard]] double fall_limit() const { return settings_.radius + settings_.step; }
+  [[nodiscard]] double fall_limit() const;
+
+  class State;
+  /// For the rooms of this library alone.
+  [[nodiscard]] const State& state() const { return *state_; }
 
  private:
-  /// A place to put the body back to, and its size there.
-  struct Refuge {
-    Vec3 place{0.0};
-    double height = 0.0;  ///< metres; 0: there is none yet
-    walking::Size size;
-  };
-
-  [[nodiscard]] walking::Move under_way();
-  [[nodiscard]] walking::Sizes sizes();
-  void take_size_here();
-  walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
-  [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
-  void begin();
-  void move(const WalkerInput& input, double dt);
-  walking::Ending move_for(const WalkerInput& input, double dt);
-  void settle();
-  void fit_in();
-  void free_body();
-  void come_back();
-  void put(const Vec3& place, double time);
-  void hold();
-  void release();
-  bool come_back_to(const Refuge& refuge, bool over_ground);
-  void put_back();
-  const StepReport& placed(const Vec3& at, double lift);
-  [[nodiscard]] bool over_ground(const Refuge& refuge) const;
-  [[nodiscard]] bool embedded() const;
-  [[nodiscard]] bool in_unknown() const;
-  void come_to(const walking::Move& move);
-  void look_again();
-  [[nodiscard]] Refuge here() const;
-  void remember_safe();
-  void finish();
-
-  const Space* space_;
-  WalkerSettings given_;     ///< when it was made
-  WalkerSettings settings_;  ///< of its present size
-  std::vector<SizeRegion> regions_;
-  std::vector<char> inside_;  ///< of each region: whether the body counts as in it
-  walking::Size outside_;     ///< outside all regions
-  StepReport report_;
-  Stance stance_;
-  Vec3 position_{0.0};
-  Refuge safe_;     ///< last place where the body stood or, where it has not stood yet, fitted
-  Refuge footing_;  ///< last place with something below: of the ghost, and of walking before another mode
-  double height_ = 0.0;
-  walking::Known known_;  ///< at position_
-  Vicinity vicinity_;
-  double skin_ = 0.0;
-  double slope_cosine_ = 0.0;
-  Mode mode_ = Mode::fly;
-  bool held_ = false;
-  bool waits_ = false;           ///< held by what is not known yet
-  bool footless_ = false;        ///< held because it would fall out of the scene
-  bool over_nothing_ = false;    ///< footless, and nothing is below
-  bool was_put_back_ = false;    ///< and has not been put elsewhere since
-  bool resized_ = false;         ///< another size may be wanted than when the body was held
-  std::uint64_t known_at_ = 0;   ///< the revision of the space of which known_ is
-  std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
+  std::unique_ptr<State> state_;  ///< null when it was moved from
 };
 
 }  // namespace roam

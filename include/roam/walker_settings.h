@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "roam/error.h"
@@ -102,6 +103,12 @@ struct WalkerInput {
   Vec3 velocity{0.0};
   bool jump = false;  ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.
+  /// Metres per second squared, > 0: how fast the body's velocity, Walker::pace(), becomes the one wished for; infinite:
+  /// at once. `braking` holds while the body becomes slower, `acceleration` while it becomes faster. The body goes as far
+  /// as that brings it, whatever the time step: from a speed v it stops after v^2 / (2 braking) metres. What it meets,
+  /// and a space that makes it wait, stop it at once all the same.
+  double acceleration = std::numeric_limits<double>::infinity();
+  double braking = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace roam

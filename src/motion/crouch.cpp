@@ -26,6 +26,10 @@ bool crouch_under(Move& move, const Impact& contact, const Vec3& motion) {
   trial.place.z -= 0.5 * (move.height - low);
   const Advance under = trial.probe(motion);
   if (under.embedded || !(under.fraction * glm::length(motion) > move.skin)) return false;
+  // What is low is not there for the low body. A post or a wall is, and how far it lets either body graze along is
+  // noise.
+  const Vec3 against(-contact.normal.x, -contact.normal.y, std::max(-contact.normal.z, 0.0));
+  if (trial.probe(against * (move.skin + hit_tolerance)).touched) return false;
   crouch(move);
   return true;
 }

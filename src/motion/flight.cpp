@@ -37,32 +37,32 @@ void note_landing(Move& move, double speed) {
   move.note(EventKind::landed);
 }
 
-void land(Move& move, Stance& stance, const Footing& ground, double speed) {
-  stand_on(move, stance, ground);
+void land(Move& move, Gait& gait, const Ground& ground, double speed) {
+  stand_on(move, gait, ground);
   note_landing(move, speed);
-  if (has_foot(move)) forget_other_storeys(move, stance);
+  if (has_foot(move)) forget_other_storeys(move, gait);
 }
 
 }  // namespace
 
-double flight_seconds(const Move& move, const Stance& stance, const Vec3& velocity) {
+double flight_seconds(const Move& move, const Gait& gait, const Vec3& velocity) {
   double seconds = chord_seconds;
-  if (stance.rise_speed > 0.0 && move.settings.gravity > 0.0) {
-    seconds = std::min(seconds, stance.rise_speed / move.settings.gravity);
+  if (gait.rise_speed > 0.0 && move.settings.gravity > 0.0) {
+    seconds = std::min(seconds, gait.rise_speed / move.settings.gravity);
   }
   const double speed = glm::length(velocity);
   return speed * seconds > longest_way ? longest_way / speed : seconds;
 }
 
-bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
+bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, gravity = move.settings.gravity;
   // What came off a rim at more than that keeps its speed.
-  const double fastest = std::max(terminal_speed, -stance.rise_speed);
-  const double fall = std::max(stance.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
-  double rise_speed = std::max(stance.rise_speed - gravity * seconds, -fastest);
+  const double fastest = std::max(terminal_speed, -gait.rise_speed);
+  const double fall = std::max(gait.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
+  double rise_speed = std::max(gait.rise_speed - gravity * seconds, -fastest);
   // The top of a jump is met exactly, or it would be divided for ever.
-  if (stance.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
-  const auto falling = [&] { return std::min(gravity * (move.time - start) - stance.rise_speed, fastest); };
+  if (gait.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
+  const auto falling = [&] { return std::min(gravity * (move.time - start) - gait.rise_speed, fastest); };
   Vec3 whole(velocity.x * seconds, velocity.y * seconds, fall);
   Vec3 motion = whole;
   const double begin_z = move.place.z;
@@ -72,13 +72,13 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     const Vec3 before = move.place;
     double share = left;
     const std::optional<double> until_foot =
-        has_foot(move) && whole.z <= 0.0 ? carried_after(move, stance, motion * left) : std::nullopt;
+        has_foot(move) && whole.z <= 0.0 ? carried_after(move, gait, motion * left) : std::nullopt;
     if (until_foot) share *= *until_foot;
     const Advance a = move.advance(motion * share, seconds * share);
     left -= a.fraction * share;
     if (until_foot && !a.touched) {
       const double speed = falling();
-      land_on_foot(move, stance);
+      land_on_foot(move, gait);
       note_landing(move, speed);
       return true;
     }
@@ -89,10 +89,10 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
     if (glm::length(move.place - before) > move.skin) planes.clear();
     planes.add(a.contact.normal);
     if (whole.z <= 0.0) {
-      std::optional<Footing> ground = footing(move, stance, a.contact);
-      if (!ground && planes.size() > 1) ground = footing_here(move, stance);
+      std::optional<Ground> ground = footing(move, gait, a.contact);
+      if (!ground && planes.size() > 1) ground = footing_here(move, gait);
       if (ground) {
-        land(move, stance, *ground, falling());
+        land(move, gait, *ground, falling());
         return true;
       }
     } else if (a.contact.normal.z < 0.0) {
@@ -105,9 +105,10 @@ bool fly_on(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
   // On a slope of angle a gravity acts by sin(a)^2, and so does the speed kept here: it is that of a free fall. Where
   // the way down is closed the fall begins anew.
   if (fall < 0.0 && begin_z - move.place.z < hindered_part * -fall) rise_speed = 0.0;
-  stance.rise_speed = rise_speed;
-  if (stance.stood && !stance.fallen && move.feet() < stance.level - (move.settings.radius + move.settings.step)) {
-    stance.fallen = true;
+  gait.rise_speed = rise_speed;
+  const bool falls = gait.footing == Footing::air && gait.level.has_value();
+  if (falls && move.feet() < *gait.level - (move.settings.radius + move.settings.step)) {
+    gait.footing = Footing::falling;
     move.note(EventKind::fell);
   }
   return true;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "math/floating_point.h"
-#include "roam/support.h"
+#include "motion/free_disc.h"
 
 namespace roam {
 namespace {
@@ -57,7 +57,7 @@ class Search {
 
   /// `free`: there is a disc, or it is not settled. With `past_walls` walls are not looked for before a disc is found;
   /// `hidden`: where one would be, a wall may stand before its centre, and it was not looked for another.
-  Answer run(bool past_walls) {
+  Answer run(bool past_walls, walking::DiscFound& disc) {
     std::array<Square, stack_size> stack;
     std::size_t depth = 0;
     stack[depth++] = {0.0, 0.0, foot_.radius};
@@ -68,7 +68,10 @@ class Search {
       if (ask(square.x, square.y)) {
         if (settled(square)) continue;
       } else if (std::hypot(square.x, square.y) <= foot_.radius) {
-        if (in_sight(square.x, square.y)) return Answer::free;
+        if (in_sight(square.x, square.y)) {
+          disc = {true, axis_.x + square.x, axis_.y + square.y};
+          return Answer::free;
+        }
         if (past_walls) return Answer::hidden;
       }
       if (!past_walls && square.half <= hidden_part * foot_.radius && hidden(square)) continue;
@@ -80,6 +83,13 @@ class Search {
       }
     }
     return Answer::none;
+  }
+
+  /// Whether there is a disc about a centre that was found for another axis.
+  bool is_free(const walking::DiscFound& disc) {
+    if (!disc.found) return false;
+    const double x = disc.x - axis_.x, y = disc.y - axis_.y;
+    return std::hypot(x, y) <= foot_.radius && !ask(x, y) && in_sight(x, y);
   }
 
   /// Whether anything that was met is not known yet.
@@ -149,14 +159,22 @@ class Search {
 
 }  // namespace
 
-DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& foot, const Vec3& axis) {
-  const DefaultFloatingPoint guard;
-  Search search(space, plane, foot, axis);
-  Search::Answer answer = search.run(true);
+DiscRoom walking::find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
+                            DiscFound& last) {
+  Search search(space, plane, disc, axis);
+  if (search.is_free(last)) return DiscRoom::free;
+  last = {};
+  Search::Answer answer = search.run(true, last);
   // Walls only make fewer discs count: they are looked for only where there is one.
-  if (answer == Search::Answer::hidden) answer = search.run(false);
+  if (answer == Search::Answer::hidden) answer = search.run(false, last);
   if (answer != Search::Answer::none) return DiscRoom::free;
   return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;
+}
+
+DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis) {
+  const DefaultFloatingPoint guard;
+  walking::DiscFound none;
+  return walking::find_disc(space, plane, disc, axis, none);
 }
 
 }  // namespace roam

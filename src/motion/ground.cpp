@@ -41,18 +41,18 @@ bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
 }
 
-std::optional<Footing> footing_on(const Move& m, const Stance& stance, const Proximity& contact, bool unknown) {
+std::optional<Ground> footing_on(const Move& m, const Gait& gait, const Proximity& contact, bool unknown) {
   const double up = contact.normal.z;
   if (up < rim_cosine) return std::nullopt;
   const bool gentle = up >= m.slope_cosine - cosine_rounding;
   if (contact.feature == Feature::face) {
-    return gentle ? std::optional<Footing>({contact.normal, contact.point.z, true, false, unknown}) : std::nullopt;
+    return gentle ? std::optional<Ground>({contact.normal, contact.point.z, true, false, unknown}) : std::nullopt;
   }
-  if (stance.stood && stance.grounded && contact.point.z > stance.level + m.settings.step + 2.0 * m.skin) {
+  if (gait.grounded() && contact.point.z > *gait.level + m.settings.step + 2.0 * m.skin) {
     return std::nullopt;
   }
   if (!gentle && !floor_behind(m, contact.point, contact.normal)) return std::nullopt;
-  return Footing{contact.normal, contact.point.z, gentle, true, unknown};
+  return Ground{contact.normal, contact.point.z, gentle, true, unknown};
 }
 
 Proximity as_proximity(const Impact& s) { return {s.point, s.normal, s.feature, s.distance}; }
@@ -86,51 +86,47 @@ Below look_below(const Move& m, double horizontal, double reach) {
 
 }  // namespace
 
-std::optional<Footing> footing(const Move& move, const Stance& stance, const Impact& contact) {
-  return footing_on(move, stance, as_proximity(contact), contact.unknown);
+std::optional<Ground> footing(const Move& move, const Gait& gait, const Impact& contact) {
+  return footing_on(move, gait, as_proximity(contact), contact.unknown);
 }
 
-std::optional<Footing> footing_here(const Move& move, const Stance& stance) {
+std::optional<Ground> footing_here(const Move& move, const Gait& gait) {
   std::array<Contact, contacts_looked_at> contacts;
   const std::size_t found =
       move.space.contacts(move.body(), move.place, Vec3(0.0), (1.0 + 2.0 * rest_part) * move.skin, contacts);
   PlaneSet planes;
-  std::optional<Footing> best;
+  std::optional<Ground> best;
   double highest = move.feet();
   bool unknown = false;
   for (std::size_t i = 0; i < std::min(found, contacts.size()); ++i) {
     const Contact& c = contacts[i];
     if (!(c.normal.z > 0.0)) continue;
-    const std::optional<Footing> f = footing_on(move, stance, c, c.unknown);
+    const std::optional<Ground> f = footing_on(move, gait, c, c.unknown);
     if (f && (!best || f->normal.z > best->normal.z)) best = f;
     planes.add(c.normal);
     unknown |= c.unknown;
     highest = std::max(highest, c.point.z);
   }
   if (best) return best;
-  if (planes.size() > 1 && carried_by(move, planes))
-    return Footing{Vec3(0.0, 0.0, 1.0), highest, false, false, unknown};
+  if (planes.size() > 1 && carried_by(move, planes)) return Ground{Vec3(0.0, 0.0, 1.0), highest, false, false, unknown};
   return std::nullopt;
 }
 
-void stand_on(Move& move, Stance& stance, const Footing& ground) {
-  if (stance.stood && !stance.fallen && ground.level < stance.level - (move.settings.radius + move.settings.step)) {
-    move.note(EventKind::fell);
-  }
-  stance.ground = ground.normal;
-  stance.level = ground.level;
-  stance.rise_speed = 0.0;
-  stance.grounded = stance.stood = true;
-  stance.firm = ground.firm;
-  stance.unknown = ground.unknown;
-  stance.fallen = stance.carried = false;
+void stand_on(Move& move, Gait& gait, const Ground& ground) {
+  const bool told = gait.footing == Footing::falling || !gait.level;
+  if (!told && ground.level < *gait.level - (move.settings.radius + move.settings.step)) move.note(EventKind::fell);
+  gait.ground = ground.normal;
+  gait.level = ground.level;
+  gait.rise_speed = 0.0;
+  gait.footing = ground.firm ? Footing::ground : Footing::rim;
+  gait.unknown = ground.unknown;
 }
 
 namespace {
 
 /// Off a rim that has become too steep to stand on, onto ground at most a step below it: outward until the body is
 /// clear of the rim, and down.
-bool step_off(Move& move, Stance& stance, const Impact& rim) {
+bool step_off(Move& move, Gait& gait, const Impact& rim) {
   const Vec3 flat(rim.normal.x, rim.normal.y, 0.0);
   const double radius = move.settings.radius, lateral = glm::length(flat);
   if (rim.feature == Feature::face || !(lateral > 0.0)) return false;
@@ -139,45 +135,45 @@ bool step_off(Move& move, Stance& stance, const Impact& rim) {
   const Advance off = trial.probe(outward);
   if (off.embedded) return false;
   trial.place += outward * off.fraction;
-  const double reach = move.feet() - (stance.level - move.settings.step) + 3.0 * move.skin;
+  const double reach = move.feet() - (*gait.level - move.settings.step) + 3.0 * move.skin;
   if (!(reach > 0.0)) return false;
   const Impact landing = trial.sweep(Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return false;
-  const std::optional<Footing> ground = footing(trial, stance, landing);
+  const std::optional<Ground> ground = footing(trial, gait, landing);
   if (!ground) return false;
   move.go(outward * off.fraction);
   move.go(Vec3(0.0, 0.0, -std::max(0.0, landing.time * reach - move.skin / landing.normal.z)));
   move.note(EventKind::stepped_down);
-  stand_on(move, stance, *ground);
+  stand_on(move, gait, *ground);
   return true;
 }
 
 }  // namespace
 
-void keep_ground(Move& move, Stance& stance, double horizontal) {
+void keep_ground(Move& move, Gait& gait, double horizontal) {
   const double slope_drop = horizontal * slope_tangent(move);
   // On a rim the body has sunk below the level that it stands on.
-  const double sunk = stance.grounded && !stance.firm ? std::max(0.0, stance.level - move.feet()) : 0.0;
+  const double sunk = gait.footing == Footing::rim ? std::max(0.0, *gait.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
-  const bool look_for_foot = has_foot(move) && !see_floor(move, stance, reach, horizontal);
+  const bool look_for_foot = has_foot(move) && !see_floor(move, gait, reach, horizontal);
   const Vec3 down(0.0, 0.0, -1.0);
   const auto [s, to_ground] = look_below(move, horizontal, reach);
-  std::optional<Footing> ground;
-  if (s.hit) ground = footing(move, stance, s);
+  std::optional<Ground> ground;
+  if (s.hit) ground = footing(move, gait, s);
   if (s.hit && !ground) {
     // What is met first is too steep, but what carries may be a hair behind it.
     Move lowered = move;
     lowered.place.z -= std::max(0.0, to_skin(move, s, to_ground));
-    ground = footing_here(lowered, stance);
+    ground = footing_here(lowered, gait);
   }
   if (look_for_foot) {
     const double drop = ground ? to_skin(move, s, to_ground) : std::numeric_limits<double>::infinity();
-    if (carry(move, stance, drop, reach)) return;
+    if (carry(move, gait, drop, reach)) return;
   }
   if (!ground) {
-    if (stance.grounded && s.hit && step_off(move, stance, s)) return;
-    if (stance.grounded) move.note(EventKind::airborne);
-    stance.grounded = stance.firm = stance.carried = false;
+    if (gait.grounded() && s.hit && step_off(move, gait, s)) return;
+    if (gait.grounded()) move.note(EventKind::airborne);
+    gait.leave_ground();
     return;
   }
   move.known.nearest = to_ground + hit_tolerance;
@@ -192,14 +188,14 @@ void keep_ground(Move& move, Stance& stance, double horizontal) {
     }
   }
   const double usual = slope_drop + 3.0 * move.skin;
-  if (stance.grounded && ground->edge && ground->level > stance.level + usual) move.note(EventKind::stepped_up);
-  if (stance.grounded && drop > usual) move.note(EventKind::stepped_down);
-  stand_on(move, stance, *ground);
+  if (gait.grounded() && ground->edge && ground->level > *gait.level + usual) move.note(EventKind::stepped_up);
+  if (gait.grounded() && drop > usual) move.note(EventKind::stepped_down);
+  stand_on(move, gait, *ground);
 }
 
-std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, double seconds) {
+std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double seconds) {
   const double length = glm::length(motion), step = move.settings.step, skin = move.skin;
-  if (!stance.firm || !(step > 0.0) || !(length > 0.0)) return std::nullopt;
+  if (!gait.firm() || !(step > 0.0) || !(length > 0.0)) return std::nullopt;
   // From a skin above the old ground to a skin clear of the edge of a kerb of full height.
   const Vec3 up(0.0, 0.0, step + 3.0 * skin);
   Move trial = move;
@@ -217,10 +213,10 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   const double reach = rise.z + step;
   const Impact landing = trial.sweep(Vec3(0.0, 0.0, -reach));
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
-  const std::optional<Footing> ground = footing(trial, stance, landing);
-  if (!ground || ground->level > stance.level + step + 2.0 * skin) return std::nullopt;
+  const std::optional<Ground> ground = footing(trial, gait, landing);
+  if (!ground || ground->level > *gait.level + step + 2.0 * skin) return std::nullopt;
   // Neither over the obstacle nor higher than before: it was no step, and to creep on like this is none.
-  if (forward.touched && !(ground->level > stance.level + 2.0 * skin)) return std::nullopt;
+  if (forward.touched && !(ground->level > *gait.level + 2.0 * skin)) return std::nullopt;
   const double drop = std::max(0.0, landing.time * reach - skin / landing.normal.z);
 
   move.time += seconds * std::min(1.0, glm::length(onward) / length);
@@ -228,7 +224,7 @@ std::optional<double> step_up(Move& move, Stance& stance, const Vec3& motion, do
   move.go(onward);
   move.go(Vec3(0.0, 0.0, -drop));
   move.note(EventKind::stepped_up);
-  stand_on(move, stance, *ground);
+  stand_on(move, gait, *ground);
   return glm::length(onward) / length;
 }
 

@@ -37,8 +37,38 @@ constexpr int merge_limit = 64;
 /// Corners that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
 constexpr std::size_t corners_at_once = 24;
 
-/// Slides and steps that are noted in one step; the rest of the list is kept for a fall and for what ends a step.
+/// Frequent events that are noted in one step; the rest of the list is kept for a fall and for what ends a step.
 constexpr std::size_t events_of_motion = 16;
+
+/// Whether an event may happen many times in one long step.
+bool is_frequent(EventKind kind) {
+  switch (kind) {
+    case EventKind::slid:
+    case EventKind::blocked:
+    case EventKind::stepped_up:
+    case EventKind::stepped_down:
+    case EventKind::jumped:
+    case EventKind::airborne:
+    case EventKind::landed:
+    case EventKind::crouched:
+    case EventKind::stood:
+    case EventKind::carried:
+      return true;
+    case EventKind::fell:
+    case EventKind::placed:
+    case EventKind::freed:
+    case EventKind::held:
+    case EventKind::put_back:
+    case EventKind::returned:
+    case EventKind::throttled:
+    case EventKind::met_unknown:
+    case EventKind::slowed:
+    case EventKind::narrowed:
+    case EventKind::widened:
+      return false;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -75,20 +105,20 @@ Advance Move::advance(const Vec3& motion, double seconds) {
     time += seconds;
     return {};
   }
-  if (!known.touching || known.unproven) {
+  if (!known.touching || known.fit == Fit::unproven) {
     const double gap = look_along(motion * (1.0 + look_ahead * skin / length));
     if (gap > free_gap) {
-      known.unproven = false;
+      known.fit = Fit::known;
       time += seconds;
       go(motion, settings.radius + std::min(gap, settings.clearance_reach));
       return {};
     }
   }
   known.touching = false;
-  if (known.unproven) {
-    known.unproven = false;
-    known.came_upon = space.clearance(body(), place, 0.0).distance < -world_tolerance;
-    if (known.came_upon) {
+  if (known.fit == Fit::unproven) {
+    known.fit = Fit::known;
+    if (space.clearance(body(), place, 0.0).distance < -world_tolerance) {
+      known.fit = Fit::came_upon;
       known.ball = {};
       return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
     }
@@ -137,8 +167,7 @@ double Move::measured(const Vec3& motion) {
 
 void Move::measure() {
   known.clearance = measured(Vec3(0.0));
-  known.fresh = true;
-  known.over_way = false;
+  known.measured = Measured::place;
 }
 
 void Move::go(const Vec3& motion) {
@@ -148,7 +177,7 @@ void Move::go(const Vec3& motion) {
 void Move::go(const Vec3& motion, double certified) {
   const double length = glm::length(motion);
   known.clearance = certified;
-  known.fresh = known.over_way = true;
+  known.measured = Measured::way;
   place += motion;
   known.nearest += length;
   const Vec3 direction = motion / length;
@@ -173,7 +202,7 @@ void Move::ease_off(const Advance& touch) {
 
 void Move::resize(double new_height, const Vec3& new_place) {
   double certified = known.clearance;
-  const bool was_known = known.fresh;
+  const bool was_known = known.measured != Measured::nothing;
   known.forget_place();
   height = new_height;
   if (!was_known) certified = measured(new_place - place);
@@ -210,32 +239,25 @@ void Move::touch(const Impact& contact, double gap) {
   last_direction_ = Vec3(0.0);
 }
 
+void Move::block(const Vec3& point) {
+  if (!report.blocked && !was_blocked) note(EventKind::blocked, point);
+  report.blocked = true;
+}
+
 void Move::note(EventKind kind, const Vec3& point) {
-  const bool seldom = kind == EventKind::fell || (kind > EventKind::stood && kind != EventKind::carried);
-  if (seldom || report.events.size() < events_of_motion) report.events.push({kind, point});
+  if (!is_frequent(kind) || report.events.size() < events_of_motion) report.events.push({kind, point});
 }
 
 Move::Mark Move::mark() const {
   const Corner last = report.corners.empty() ? Corner{} : report.corners.back();
-  return {place,
-          height,
-          time,
-          known,
-          last_direction_,
-          merged_,
-          last,
-          report.corners.size(),
-          report.events.size(),
-          report.contacts,
-          report.blocked,
-          report.met_unknown};
+  return {
+      *this,           time,           last_direction_,   merged_, last, report.corners.size(), report.events.size(),
+      report.contacts, report.blocked, report.met_unknown};
 }
 
 void Move::undo(const Mark& m) {
-  place = m.place;
-  height = m.height;
+  static_cast<Whereabouts&>(*this) = m.at;
   time = m.time;
-  known = m.known;
   last_direction_ = m.direction;
   merged_ = m.merged;
   report.corners.shorten(m.corners);

@@ -2,7 +2,11 @@
 /// \file
 /// A step under way: where the body is, how it advances, and the report that is written as it goes.
 
-#include "roam/walker.h"
+#include "motion/known.h"
+#include "roam/space.h"
+#include "roam/step_report.h"
+#include "roam/vicinity.h"
+#include "roam/walker_settings.h"
 
 namespace roam::walking {
 
@@ -43,13 +47,24 @@ struct Advance {
   double gap = 0.0;       ///< metres from its surface to the plane of the contact, at the end of the advance
 };
 
-class Move {
+/// What moves, and what it is moved in.
+struct Mover {
+  const Space& space;
+  Vicinity& vicinity;  ///< of the body
+  const WalkerSettings& settings;
+  StepReport& report;
+  double skin;  ///< metres
+  double slope_cosine;
+  bool was_blocked;  ///< at the end of the step before
+};
+
+/// From the first advance on, `known.fit` is not `unproven`.
+class Move : public Mover, public Whereabouts {
  public:
   /// A place on the way that undo() returns to.
   struct Mark {
-    Vec3 place;
-    double height, time;
-    Known known;
+    Whereabouts at;
+    double time;
     Vec3 direction;
     int merged;
     Corner corner;
@@ -58,28 +73,9 @@ class Move {
     bool blocked, met_unknown;
   };
 
-  const Space& space;
-  Vicinity& vicinity;  ///< of the body
-  const WalkerSettings& settings;
-  StepReport& report;
-  const double skin;
-  const double slope_cosine;
-  Vec3 place;
-  double height;
-  double time = 0.0;  ///< seconds since the step began
-  Known known;        ///< `unproven` is false from the first advance on
+  double time;  ///< seconds since the step began
 
-  Move(const Space& in, Vicinity& keeping, const WalkerSettings& of, StepReport& into, double skin_width, double cosine,
-       const Vec3& from, double whole_height, const Known& what_is_known)
-      : space(in),
-        vicinity(keeping),
-        settings(of),
-        report(into),
-        skin(skin_width),
-        slope_cosine(cosine),
-        place(from),
-        height(whole_height),
-        known(what_is_known) {}
+  Move(const Mover& mover, const Whereabouts& from) : Mover(mover), Whereabouts(from), time(mover.report.elapsed) {}
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
@@ -112,6 +108,8 @@ class Move {
   void resize(double new_height, const Vec3& new_place);
 
   void touch(const Impact& contact, double gap);
+  /// The body can not go on, because of what it touches at `point`.
+  void block(const Vec3& point);
   void note(EventKind kind, const Vec3& point);
   void note(EventKind kind) { note(kind, place); }
   [[nodiscard]] Mark mark() const;

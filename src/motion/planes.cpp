@@ -5,10 +5,6 @@
 namespace roam::walking {
 namespace {
 
-/// Part of a wish's length by which it may lead into a plane and still count as along it. Far above rounding (1e-16)
-/// and so small that the skin, at least 0.1 mm, outlasts 100 m of such motion.
-constexpr double parallel_tolerance = 1e-6;
-
 /// Two planes whose normals differ by less than this (sine of the angle) have no line in common worth the name.
 constexpr double same_plane_sine = 1e-6;
 

@@ -9,6 +9,10 @@
 
 namespace roam::walking {
 
+/// Part of a wish's length by which it may lead into a plane and still count as along it. Far above rounding (1e-16)
+/// and so small that the skin, at least 0.1 mm, outlasts 100 m of such motion.
+constexpr double parallel_tolerance = 1e-6;
+
 /// The planes that a body touches at one place, as unit normals that point to the body.
 class PlaneSet {
  public:

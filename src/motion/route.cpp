@@ -6,6 +6,7 @@
 #include <string>
 
 #include "math/floating_point.h"
+#include "motion/pace.h"
 #include "roam/error.h"
 #include "roam/opening.h"
 #include "text/number.h"
@@ -23,6 +24,9 @@ constexpr double at_waypoint = 1e-8;
 /// Metres above the feet: a waypoint that a tall person's path has so high is one of a low body too, where it is in
 /// sight.
 constexpr double tall_person = 2.0;
+
+/// Cosine of the turn, less than half a degree, that a limited body does not slow down for.
+constexpr double straight_on = 0.99997;
 
 bool within_limit(const Vec3& v) {  // false for what is not a number
   return std::abs(v.x) <= Space::coordinate_limit && std::abs(v.y) <= Space::coordinate_limit &&
@@ -80,6 +84,10 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
     throw Error("the route's time step is shorter than a microsecond; it would take for ever");
   }
   positive("patience", options.patience, "s");
+  if (!(options.acceleration > 0.0 && options.braking > 0.0)) {
+    throw Error("the route accelerates by at most " + number_text(options.acceleration) +
+                " m/s^2 and brakes by at most " + number_text(options.braking) + " m/s^2; both must be more than 0");
+  }
   if (!(options.wait >= 0.0) || !std::isfinite(options.wait)) {
     throw Error("the route's longest wait is " + number_text(options.wait) + " s; it must be at least 0");
   }
@@ -119,7 +127,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   inside_ = inside(result_.end, walker.space().bounds(), walker.body());
   filter_.append(result_.events, 0, start);
   start_window();
-  coming_down_ = walker.mode() == Mode::walk && !walker.stance().stood && walker.settings().gravity > 0.0;
+  coming_down_ = walker.mode() == Mode::walk && !walker.stance().level && walker.settings().gravity > 0.0;
   if (walker.held()) {
     finish(Outcome::held);
   } else if (next_ == waypoints_.size()) {
@@ -129,7 +137,8 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
 
 void Route::start_window() {
   window_best_ = next_ < waypoints_.size() ? glm::length(way_to(waypoints_[next_], *walker_)) : 0.0;
-  window_time_ = 0.0;
+  window_from_ = walker_->position();
+  window_time_ = window_free_ = 0.0;
   window_steps_ = 0;
 }
 
@@ -146,50 +155,79 @@ void Route::turn_to_next(bool hindered) {
   finish(Outcome::reached);
 }
 
+bool Route::limited() const { return std::isfinite(options_.acceleration) || std::isfinite(options_.braking); }
+
+/// Metres to where the body is to be at rest, the next waypoint being `way` off: farther than it takes to brake counts
+/// as that far.
+double Route::until_rest(const Vec3& way) const {
+  const double enough = options_.speed * options_.dt + 0.5 * options_.speed * options_.speed / options_.braking;
+  double sum = glm::length(way);
+  Vec3 before = way / sum;
+  for (std::size_t i = next_; i + 1 < waypoints_.size() && sum <= enough; ++i) {
+    Vec3 leg = waypoints_[i + 1] - waypoints_[i];
+    if (walker_->mode() == Mode::walk) leg.z = 0.0;
+    const double length = glm::length(leg);
+    if (!(length > 0.0)) continue;
+    if (glm::dot(leg, before) < straight_on * length) break;
+    before = leg / length;
+    sum += length;
+  }
+  return sum;
+}
+
 const StepReport& Route::advance() {
   const DefaultFloatingPoint guard;
   if (done_)
     throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
-  double dt = options_.dt;
-  WalkerInput input;
+  double dt = options_.dt, planned = 0.0;
+  WalkerInput input{.acceleration = options_.acceleration, .braking = options_.braking};
   if (distance > at_waypoint && !coming_down_) {
-    dt = std::min(dt, distance / options_.speed);
-    input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
+    if (limited()) {
+      const Vec3 ahead = way / distance;
+      const double speed = std::max(0.0, glm::dot(walker_->pace(), ahead));
+      const auto step = walking::approach(speed, options_.speed, distance, until_rest(way), dt, input);
+      dt = std::max(step.seconds, shortest_step);
+      input.velocity = ahead * step.speed;
+      planned = step.way;
+    } else {
+      dt = std::min(dt, distance / options_.speed);
+      input.velocity = way * (std::min(options_.speed, distance / dt) / distance);
+    }
   }
   const StepReport& report = walker_->step(input, dt);
   result_.add_step(report);
   result_.end = walker_->position();
   filter_.append(result_.events, result_.steps, report);
-  judge(report, distance);
+  judge(report, distance, limited() ? planned : options_.speed * report.elapsed);
   return report;
 }
 
-void Route::judge(const StepReport& report, double distance_before) {
+void Route::judge(const StepReport& report, double distance_before, double free_way) {
   const Box scene = walker_->space().bounds();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(Outcome::held);
-  if (report.put_back) return finish(walker_->stance().stood ? Outcome::fell : Outcome::held);
+  if (report.put_back) return finish(walker_->stance().level ? Outcome::fell : Outcome::held);
   const bool inside_now = inside(report.to, scene, walker_->body());
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;
   if (coming_down_) {
     // Without ground it may also be caught between slopes, and then goes on from there.
-    coming_down_ = !walker_->stance().stood && walker_->rise_speed() < 0.0;
+    coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
     start_window();
     return;
   }
   const double distance = glm::length(way_to(waypoints_[next_], *walker_));
-  const bool nearer = distance_before - distance > progress_part * options_.speed * report.elapsed;
+  const bool nearer = distance_before - distance > progress_part * free_way;
   turn_to_next(!report.contacts.empty() || !nearer);
   if (done_) return;
   window_time_ += report.elapsed;
+  window_free_ += free_way;
   ++window_steps_;
   if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
-  const double now = glm::length(way_to(waypoints_[next_], *walker_));
-  if (window_best_ - now < progress_part * options_.speed * window_time_) {
+  if (!gets_on()) {
     const Vec3 way = way_to(waypoints_[next_], *walker_);
     const Contact* c = most_against(report, way);
     const bool unknown = c != nullptr && c->unknown;
@@ -198,6 +236,16 @@ void Route::judge(const StepReport& report, double distance_before) {
   } else {
     start_window();
   }
+}
+
+/// Whether the body came nearer in the window, or slides to where it will.
+bool Route::gets_on() const {
+  const double least = progress_part * window_free_;
+  const double nearer = window_best_ - glm::length(way_to(waypoints_[next_], *walker_));
+  Vec3 moved = walker_->position() - window_from_;
+  if (walker_->mode() == Mode::walk) moved.z = 0.0;
+  // A way that leads aside by so much of free motion comes nearer by the square of that.
+  return nearer >= least || (glm::length(moved) >= least && nearer >= progress_part * least);
 }
 
 void Route::describe_blockage(const StepReport& report) {

@@ -21,7 +21,7 @@ void narrow(Move& m, const Sizes& sizes, double radius) {
 
 /// Becomes larger when the larger body, with the same lowest point, is certified free; else with one that is higher by
 /// what a round body gains on the slope it stands on.
-void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
+void widen(Move& m, const Gait& gait, const Sizes& sizes, double radius) {
   const WalkerSettings larger = sized(sizes.given, {radius, m.settings.support_radius});
   const double height = m.height < m.settings.height ? m.height : larger.height;
   if (2.0 * radius > height) return;  // crouched: not before it stands
@@ -29,8 +29,8 @@ void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
   const Vec3 raised(0.0, 0.0, 0.5 * (height - m.height));
   Vec3 lift(0.0);
   if (!m.space.fits(body, m.place + raised)) {
-    if (!stance.grounded) return;
-    const double steepness = 1.0 / std::max(stance.ground.z, m.slope_cosine) - 1.0;
+    if (!gait.grounded()) return;
+    const double steepness = 1.0 / std::max(gait.ground.z, m.slope_cosine) - 1.0;
     lift.z = m.skin + (radius - m.settings.radius) * steepness;
     if (m.probe(lift).touched || !m.space.fits(body, m.place + lift + raised)) return;
   }
@@ -39,7 +39,7 @@ void widen(Move& m, const Stance& stance, const Sizes& sizes, double radius) {
   const double gap = m.space.clearance(body, m.place, m.settings.clearance_reach).distance;
   sizes.present = larger;
   m.known.clearance = radius + std::max(gap, -world_tolerance);
-  m.known.fresh = true;
+  m.known.measured = Measured::place;
   m.resize(height, m.place);
   m.note(EventKind::widened);
 }
@@ -72,16 +72,16 @@ Size wanted(const Sizes& sizes, const Vec3& centre, const Vec3& feet) {
   return size;
 }
 
-void adapt(Move& m, const Stance& stance, const Sizes& sizes) {
+void adapt(Move& m, const Gait& gait, const Sizes& sizes) {
   if (sizes.settled()) return;
   const Size want = wanted(sizes, m.place, m.place - Vec3(0.0, 0.0, 0.5 * m.height));
   // The foot touches nothing; but over a crack it stays as large as it is.
   const double foot = m.settings.support_radius;
-  if (want.support_radius > foot || (want.support_radius < foot && !stance.carried)) {
+  if (want.support_radius > foot || (want.support_radius < foot && gait.footing != Footing::foot)) {
     sizes.present.support_radius = want.support_radius;
   }
   if (want.radius < m.settings.radius) narrow(m, sizes, want.radius);
-  if (want.radius > m.settings.radius) widen(m, stance, sizes, want.radius);
+  if (want.radius > m.settings.radius) widen(m, gait, sizes, want.radius);
 }
 
 bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion) {

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "motion/gait.h"
 #include "motion/move.h"
 #include "roam/size_region.h"
 
@@ -31,7 +32,7 @@ struct Sizes {
 
 /// Gives the body the size that is wanted where it is: smaller at once, larger when it fits. Its lowest point stays,
 /// but on a slope it may rise as far as the larger body needs.
-void adapt(Move& move, const Stance& stance, const Sizes& sizes);
+void adapt(Move& move, const Gait& gait, const Sizes& sizes);
 
 /// Whether a motion comes so near to a region that the body may become another size on it.
 [[nodiscard]] bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion);

@@ -25,8 +25,7 @@ Ending slide(Move& move, const Vec3& velocity, double dt) {
     planes.add(a.contact.normal);
     v = along_planes(velocity, planes);
     if (glm::length(v) <= standstill_part * wish) {
-      move.report.blocked = true;
-      move.note(EventKind::blocked, a.contact.point);
+      move.block(a.contact.point);
       break;
     }
     if (!move.report.has(EventKind::slid)) move.note(EventKind::slid, a.contact.point);

@@ -25,7 +25,7 @@ constexpr double below_floor = 1e-3;
 std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings, const Vec3& floor) {
   Walker walker(space, settings, Mode::fly, floor + Vec3(0.0, 0.0, 0.5 * settings.height));
   if (walker.held() || walker.set_mode(Mode::walk).met_unknown) return std::nullopt;
-  if (!walker.stance().firm || walker.crouched()) return std::nullopt;
+  if (!walker.stance().firm() || walker.crouched()) return std::nullopt;
   return walker.position();
 }
 

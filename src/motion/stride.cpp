@@ -39,17 +39,23 @@ double stride_seconds(const Move& move, const Vec3& velocity) {
 
 double fine_stride_seconds(const Move& move, const Vec3& velocity) { return stride_seconds(move, velocity) / 6.0; }
 
-bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
+bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, wish = glm::length(velocity);
   const Vec3 origin = move.place;
-  const bool was_carried = stance.carried;
+  const bool was_carried = gait.footing == Footing::foot;
   PlaneSet walls, grounds;
-  grounds.add(stance.ground);
+  grounds.add(gait.ground);
   Vec3 v = velocity;
   double left = seconds;
+  Vec3 in_vain(0.0);  // the motion that led nowhere from where the body is
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
     const Vec3 before = move.place;
     const Vec3 motion = over_grounds(v, grounds) * left;
+    if (motion == in_vain) {
+      if (move.place == origin) move.block(move.report.contacts.back().point);
+      break;
+    }
+    const bool looks = !move.known.touching;  // else a second try may find free what the first did not
     const Advance a = move.advance(motion, left);
     left -= a.fraction * left;
     if (!a.touched) break;
@@ -60,39 +66,41 @@ bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds) {
       walls.clear();
       grounds.clear();
     }
+    in_vain = looks && move.place == before ? motion : Vec3(0.0);
     const Vec3& normal = a.contact.normal;
-    const bool underfoot = normal.z > 0.0 && glm::dot(Vec3(normal.x, normal.y, 0.0), v) >= 0.0;
-    if (underfoot || footing(move, stance, a.contact)) {
-      grounds.add(normal);
+    const double apart = normal.x * v.x + normal.y * v.y;
+    // What leads along a slope leads into it where the ground goes down: there it goes on level.
+    const bool underfoot = normal.z > 0.0 && apart >= -parallel_tolerance * wish;
+    if (underfoot || footing(move, gait, a.contact)) {
+      grounds.add(underfoot && apart < 0.0 ? normal - v * (apart / glm::dot(v, v)) : normal);
       continue;
     }
     const Vec3 rest = v * left;
     if (crouch_under(move, a.contact, over_grounds(rest, grounds))) continue;
-    if (const std::optional<double> made = step_up(move, stance, rest, left)) {
+    if (const std::optional<double> made = step_up(move, gait, rest, left)) {
       left = std::max(0.0, left - *made * left);
       walls.clear();
       grounds.clear();
-      grounds.add(stance.ground);
+      grounds.add(gait.ground);
       v = velocity;
       continue;
     }
     walls.add(as_wall(normal, v));
     v = along_planes(velocity, walls);
     if (glm::length(v) <= standstill_part * wish) {
-      move.report.blocked = true;
-      move.note(EventKind::blocked, a.contact.point);
+      move.block(a.contact.point);
       break;
     }
     if (!move.report.has(EventKind::slid)) move.note(EventKind::slid, a.contact.point);
   }
   const Vec3 gone = move.place - origin;
-  keep_ground(move, stance, glm::length(Vec3(gone.x, gone.y, 0.0)));
+  keep_ground(move, gait, glm::length(Vec3(gone.x, gone.y, 0.0)));
   // What rolls off a rim goes on down as it came, at most as steeply as a rim carries: thrown off level it would cross
   // cracks that it does not bridge. What its foot carries no more has no rim below it that could show it the way.
-  if (!stance.grounded && seconds > 0.0) {
+  if (!gait.grounded() && seconds > 0.0) {
     const double steepest = -wish * rim_tangent;
     const double down = was_carried ? steepest : std::max((move.place.z - origin.z) / seconds, steepest);
-    stance.rise_speed = std::min(0.0, down);
+    gait.rise_speed = std::min(0.0, down);
   }
   move.time = start + seconds;
   return true;

@@ -2,6 +2,7 @@
 /// \file
 /// One stride over the ground.
 
+#include "motion/gait.h"
 #include "motion/move.h"
 
 namespace roam::walking {
@@ -15,6 +16,6 @@ namespace roam::walking {
 
 /// Goes at the horizontal `velocity` for `seconds`: along the ground, up steps, under what is low, along walls; then
 /// keeps to the ground below. The speed is that seen from above. False when the body is embedded.
-bool stride(Move& move, Stance& stance, const Vec3& velocity, double seconds);
+bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds);
 
 }  // namespace roam::walking

@@ -6,6 +6,7 @@
 
 #include "math/floating_point.h"
 #include "motion/ground.h"
+#include "motion/state.h"
 #include "roam/walker.h"
 
 namespace roam::walking {
@@ -17,8 +18,6 @@ constexpr double cosine_rounding = 1e-9;
 /// Metres. Floor that is this near to the axis, seen from above, is under it: a ray can slip through where triangles
 /// meet without sharing an edge, and storing moves both by up to half a millimetre.
 constexpr double under_axis = 2e-3;
-
-FloorPlane plane_of(const Stance& stance) { return {stance.floor_point, stance.floor_normal}; }
 
 /// A foot that is smaller than the body is as large as the body, or a crack could be too narrow for the one to fall in
 /// and too wide for the other to be carried by its rims.
@@ -64,36 +63,34 @@ bool has_floor(const Space& space, double slope_degrees, double band, const Floo
   return space.floor_clearance({0.0, band}, middle, under_axis, floor).found;
 }
 
-/// The same as carrying(), which is asked where it was not asked just now. The answer stays in the stance.
-bool carries(const Move& m, Stance& stance, const FloorPlane& plane, const Vec3& place) {
+/// The same as carrying(), which is asked where it was not asked just now. The answer stays in the gait.
+bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& place) {
   const Size size{m.settings.radius, m.settings.support_radius};
-  FootAnswer asked{place, m.height, size, plane.point, plane.normal, m.space.revision()};
-  if (stance.foot.known && stance.foot.same_question(asked)) return stance.foot.carries;
-  const Carrying answer = carrying(m.space, m.settings, m.skin, m.height, plane, place);
-  asked.known = m.space.tells_changes();
-  asked.carries = answer != Carrying::no;
-  asked.unknown = answer == Carrying::unknown;
-  stance.foot = asked;
-  return asked.carries;
+  FootAnswer asked{place, m.height, size, plane, m.space.revision()};
+  if (!gait.foot.lasts || !gait.foot.same_question(asked)) {
+    asked.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place, gait.disc);
+    asked.lasts = m.space.tells_changes();
+    gait.foot = asked;
+  }
+  return gait.foot.carrying != Carrying::no;
 }
 
 /// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
-void stand_on_foot(Move& m, Stance& stance, const FloorPlane& plane, bool is_floor) {
-  if (!stance.carried) m.note(EventKind::carried);
-  stand_on(m, stance, {plane.normal, plane.level(m.place), true, false, stance.foot.unknown});
-  stance.carried = true;
-  stance.floor_seen = is_floor;
-  stance.floor_point = plane.point;
-  stance.floor_normal = plane.normal;
+void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
+  if (gait.footing != Footing::foot) m.note(EventKind::carried);
+  stand_on(m, gait, {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown});
+  gait.footing = Footing::foot;
+  gait.floor_seen = is_floor;
+  gait.floor = plane;
 }
 
 }  // namespace
 
 Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
-                  const FloorPlane& plane, const Vec3& place) {
+                  const FloorPlane& plane, const Vec3& place, DiscFound& last) {
   const SupportDisc foot = foot_of(settings, skin, height);
   if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
-  switch (free_disc(space, plane, foot, place)) {
+  switch (find_disc(space, plane, foot, place, last)) {
     case DiscRoom::none:
       return Carrying::yes;
     case DiscRoom::unknown:
@@ -106,32 +103,32 @@ Carrying carrying(const Space& space, const WalkerSettings& settings, double ski
 
 bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }
 
-bool see_floor(const Move& m, Stance& stance, double reach, double horizontal) {
+bool see_floor(const Move& m, Gait& gait, double reach, double horizontal) {
   const double r = m.settings.radius;
   // A round body on a slope is that much higher over the axis than where it touches.
-  const double lifted = (r + m.skin) * (1.0 / std::max(stance.ground.z, m.slope_cosine) - 1.0);
+  const double lifted = (r + m.skin) * (1.0 / std::max(gait.ground.z, m.slope_cosine) - 1.0);
   const Vec3 from(m.place.x, m.place.y, m.feet() + r);
   const Impact s = m.space.ray(from, Vec3(0.0, 0.0, -(r + reach + lifted)));
   if (!s.hit || s.normal.z < m.slope_cosine - cosine_rounding) return false;
   if (s.unknown) {
     // It carries as floor does, but what it hides need not be at its height.
-    forget_other_storeys(m, stance);
+    forget_other_storeys(m, gait);
     return true;
   }
-  stance.floor_point = s.point;
-  if (s.feature == Feature::face || !stance.floor_seen) {
+  gait.floor.point = s.point;
+  if (s.feature == Feature::face || !gait.floor_seen) {
     // What is seen at once has the roughness of the floor in it: it counts the more the longer it lasts.
-    const double part = stance.floor_seen ? horizontal / (horizontal + r) : 1.0;
-    stance.floor_normal = glm::normalize(stance.floor_normal + part * (s.normal - stance.floor_normal));
+    const double part = gait.floor_seen ? horizontal / (horizontal + r) : 1.0;
+    gait.floor.normal = glm::normalize(gait.floor.normal + part * (s.normal - gait.floor.normal));
   }
-  stance.floor_seen = true;
+  gait.floor_seen = true;
   return true;
 }
 
-bool carry(Move& m, Stance& stance, double drop, double reach) {
-  FloorPlane plane = plane_of(stance);
+bool carry(Move& m, Gait& gait, double drop, double reach) {
+  FloorPlane plane = gait.floor;
   bool is_floor = true;
-  if (!stance.floor_seen) {
+  if (!gait.floor_seen) {
     const Beside beside = plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band);
     if (!beside.found) return false;
     plane = beside.plane;
@@ -145,13 +142,13 @@ bool carry(Move& m, Stance& stance, double drop, double reach) {
   const double lift = centre_over(m, plane, m.place) - m.place.z, rest = rest_part * 2.0 * m.skin;
   // What it stands on is no lower; or the plane is of another storey.
   if (-drop >= lift - rest || lift < -reach || lift > m.settings.step + m.settings.radius) return false;
-  if (!carries(m, stance, plane, m.place)) return false;
+  if (!carries(m, gait, plane, m.place)) return false;
   if (std::abs(lift) > rest) m.advance(Vec3(0.0, 0.0, lift), 0.0);
-  stand_on_foot(m, stance, plane, is_floor);
+  stand_on_foot(m, gait, plane, is_floor);
   return true;
 }
 
-std::optional<double> carried_after(const Move& m, Stance& stance, const Vec3& motion) {
+std::optional<double> carried_after(const Move& m, Gait& gait, const Vec3& motion) {
   if (!(motion.z < 0.0)) return std::nullopt;
   const auto crossing = [&](const FloorPlane& plane) -> std::optional<double> {
     const double rest = rest_part * 2.0 * m.skin;
@@ -160,26 +157,25 @@ std::optional<double> carried_after(const Move& m, Stance& stance, const Vec3& m
     if (!(before > 0.0) || after > 0.0) return std::nullopt;
     return before / (before - after);
   };
-  if (stance.floor_seen) {
-    const FloorPlane plane = plane_of(stance);
+  if (gait.floor_seen) {
+    const FloorPlane plane = gait.floor;
     if (const std::optional<double> part = crossing(plane)) {
-      return carries(m, stance, plane, m.place + motion * *part) ? part : std::nullopt;
+      return carries(m, gait, plane, m.place + motion * *part) ? part : std::nullopt;
     }
   }
   const Beside beside = plane_beside(m, m.place + motion, m.feet() + motion.z - 2.0 * m.skin, m.feet());
   if (!beside.found || beside.unknown) return std::nullopt;
   const std::optional<double> part = crossing(beside.plane);
-  if (!part || !carries(m, stance, beside.plane, m.place + motion * *part)) return std::nullopt;
-  stance.floor_point = beside.plane.point;
-  stance.floor_normal = beside.plane.normal;
-  stance.floor_seen = true;
+  if (!part || !carries(m, gait, beside.plane, m.place + motion * *part)) return std::nullopt;
+  gait.floor = beside.plane;
+  gait.floor_seen = true;
   return part;
 }
 
-void land_on_foot(Move& m, Stance& stance) { stand_on_foot(m, stance, plane_of(stance), true); }
+void land_on_foot(Move& m, Gait& gait) { stand_on_foot(m, gait, gait.floor, true); }
 
-void forget_other_storeys(const Move& m, Stance& stance) {
-  if (std::abs(stance.level - plane_of(stance).level(m.place)) > carrying_band) stance.floor_seen = false;
+void forget_other_storeys(const Move& m, Gait& gait) {
+  if (!gait.level || std::abs(*gait.level - gait.floor.level(m.place)) > carrying_band) gait.floor_seen = false;
 }
 
 }  // namespace roam::walking
@@ -190,8 +186,9 @@ Carrying carrying(const Walker& walker, double support_radius) {
   const DefaultFloatingPoint guard;
   WalkerSettings settings = walker.settings();
   settings.support_radius = support_radius;
-  const FloorPlane plane{walker.stance().floor_point, walker.stance().floor_normal};
-  return walking::carrying(walker.space(), settings, walker.skin(), walker.body().height(), plane, walker.position());
+  walking::DiscFound none;
+  return walking::carrying(walker.space(), settings, walker.skin(), walker.body().height(), walker.state().floor(),
+                           walker.position(), none);
 }
 
 }  // namespace roam

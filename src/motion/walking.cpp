@@ -15,50 +15,53 @@ constexpr int stride_limit = 4096;
 
 bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.space.bounds().lower.z; }
 
+bool at_same_place(const Whereabouts& a, const Whereabouts& b) { return a.place == b.place && a.height == b.height; }
+
 }  // namespace
 
-void jump(Move& move, Stance& stance) {
+void jump(Move& move, Gait& gait) {
   const double lift = move.settings.gravity * move.settings.jump_height;
-  if (!stance.grounded || !(lift > 0.0)) return;
-  stance.rise_speed = std::sqrt(2.0 * lift);
-  stance.grounded = stance.firm = stance.carried = false;
+  if (!gait.grounded() || !(lift > 0.0)) return;
+  gait.rise_speed = std::sqrt(2.0 * lift);
+  gait.leave_ground();
   move.note(EventKind::jumped);
 }
 
-Ending walk(Move& move, Stance& stance, const Vec3& velocity, double dt, const LastStand& last, const Sizes& sizes) {
+Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& last, const Sizes& sizes) {
   const double end = move.time + dt;
   double left = dt, careful = 0.0;  // seconds, the second: for which strides are fine
   for (int count = 0; left > 0.0; ++count) {
     if (count >= stride_limit || !move.has_room()) return Ending::throttled;
-    adapt(move, stance, sizes);
+    adapt(move, gait, sizes);
     const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
-    const bool striding = stance.grounded;
-    const double most = !striding ? flight_seconds(move, stance, velocity) : (careful > 0.0 ? finest : longest);
+    const bool striding = gait.grounded();
+    const double most = !striding ? flight_seconds(move, gait, velocity) : (careful > 0.0 ? finest : longest);
     const double seconds = std::min(left, most);
     const bool whole = seconds == left;
     if (striding) {
       const bool retractable = seconds > finest;
       std::optional<Move::Mark> mark;
       if (retractable) mark = move.mark();
-      const Stance before = stance;
-      if (!stride(move, stance, velocity, seconds)) return Ending::embedded;
-      if (retractable && !stance.grounded) {
+      const Gait before = gait;
+      const Whereabouts was = move;
+      if (!stride(move, gait, velocity, seconds)) return Ending::embedded;
+      if (retractable && !gait.grounded()) {
         move.undo(*mark);
-        stance = before;
+        gait = before;
         careful = seconds;
         continue;
       }
       careful -= seconds;
-    } else if (!fly_on(move, stance, velocity, seconds)) {
+      // What stops it here would stop it again.
+      if (move.report.blocked && gait.grounded() && at_same_place(move, was)) break;
+    } else if (!fly_on(move, gait, velocity, seconds)) {
       return Ending::embedded;
     }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
-    if (stance.firm && !stance.carried) {
-      last.place = move.place;
-      last.height = move.height;
-      last.size = {move.settings.radius, move.settings.support_radius};
-    } else if (!stance.grounded && below_everything(move)) {
+    if (gait.footing == Footing::ground) {
+      last = {move.place, move.height, {move.settings.radius, move.settings.support_radius}};
+    } else if (!gait.grounded() && below_everything(move)) {
       return Ending::bottomless;
     }
   }

@@ -96,7 +96,7 @@ std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& 
   }
   const Vec3& end = trial.position();
   const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
-  if (!there || !trial.stance().carried || trial.stance().unknown) return std::nullopt;
+  if (!there || trial.stance().footing != Footing::foot || trial.stance().unknown) return std::nullopt;
   return trial;
 }
 
@@ -130,7 +130,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
     pushed_ = 0.0;
     return std::nullopt;
   }
-  if (on_foot && stance.firm && !stance.carried) {
+  if (on_foot && stance.footing == Footing::ground) {
     lost_ = false;
     const bool moved = !firm_ || glm::length(walker.position() - firm_at_) > moved_part * walker.body().radius;
     if (moved && !report.blocked && floor_below(walker)) {
@@ -139,7 +139,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
       firm_feet_ = walker.feet().z;
     }
   }
-  if (on_foot && firm_ && !stance.firm && !lost_ && !report.held && !report.put_back) {
+  if (on_foot && firm_ && !stance.firm() && !lost_ && !report.held && !report.put_back) {
     lost_ = true;
     lost_at_ = walker.position();
   }
@@ -152,7 +152,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
   }
   if (offered_) return std::nullopt;
   offered_ = true;
-  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm;
+  const bool has_sunk = on_foot && firm_ && walker.feet().z < firm_feet_ - sunk && !stance.firm();
   if (fell || has_sunk) {
     if (std::optional<Lesson> lesson = support(walker)) return lesson;
   }

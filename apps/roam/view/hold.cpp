@@ -40,7 +40,7 @@ void Hold::take(const Walker& walker, const Vec3& wish, double seconds, bool fai
   note_unknown(walker, failing);
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
-  if (report.grounded) level_ = walker.stance().level;
+  level_ = walker.stance().level.value_or(level_);
 }
 
 void Hold::note_unknown(const Walker& walker, bool failing) {

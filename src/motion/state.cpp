@@ -1,0 +1,397 @@
+#include "motion/state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+#include "motion/crouch.h"
+#include "motion/ground.h"
+#include "motion/pace.h"
+#include "motion/recovery.h"
+#include "motion/slide.h"
+#include "roam/error.h"
+#include "text/number.h"
+
+namespace roam {
+namespace {
+
+/// The skin of a lossless world, metres: a thousand times what rounding moves a body at 6.4e6 m, and less than anybody
+/// sees.
+constexpr double least_skin = 1e-4;
+
+/// Pieces of one flight among regions: each half a radius.
+constexpr int flight_limit = 4096;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Where a body that does not fit at `place` is freed to.
+std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& place, double skin) {
+  return walking::nearest_free(space, body, place, body.height(), skin, walking::Way::checked);
+}
+
+}  // namespace
+
+Walker::State::State(const Space& space, const WalkerSettings& settings, Mode mode)
+    : space_(&space),
+      given_(settings),
+      settings_(settings),
+      outside_{settings.radius, settings.support_radius},
+      skin_(least_skin + 2.0 * space.largest_error()),
+      slope_cosine_(std::cos(settings.slope_degrees * (std::numbers::pi / 180.0))),
+      mode_(mode) {}
+
+Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.height); }
+
+Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
+
+Vec3 Walker::State::velocity() const {
+  Vec3 way(0.0), at = report_.from;
+  for (const Corner& c : report_.corners) {
+    if (!c.teleport) way += c.position - at;
+    at = c.position;
+  }
+  return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
+}
+
+/// The wish, no faster than the space can follow.
+WalkerInput Walker::State::slowed(const WalkerInput& input) {
+  const double limit = space_->speed_limit(), speed = glm::length(input.velocity);
+  WalkerInput out = input;
+  if (speed > limit) {
+    out.velocity *= limit / speed;
+    report_.events.push({EventKind::slowed, at_.place});
+  }
+  return out;
+}
+
+walking::Move Walker::State::under_way() {
+  return {{*space_, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
+}
+
+void Walker::State::begin() {
+  if (!space_->tells_changes() || space_->revision() != known_at_) at_.known.forget();
+  at_.known.touching = !report_.contacts.empty();
+  at_.known.fit = walking::Fit::known;
+  known_at_ = space_->revision();
+  report_.corners.clear();
+  report_.contacts.clear();
+  report_.events.clear();
+  report_.from = at_.place;
+  report_.elapsed = 0.0;
+  report_.landing_speed = 0.0;
+  report_.blocked = report_.held = report_.put_back = report_.met_unknown = false;
+}
+
+void Walker::State::finish() {
+  report_.to = at_.place;
+  report_.held = held();
+  report_.height = at_.height;
+  report_.radius = settings_.radius;
+  report_.grounded = gait_.grounded();
+  report_.carried = gait_.footing == Footing::foot;
+  if (mode_ == Mode::ghost) {
+    at_.known.forget_place();
+  } else if (at_.known.measured == walking::Measured::nothing ||
+             (at_.known.measured == walking::Measured::way && at_.place == report_.from)) {
+    // Who rests is told the clearance of the place once, and no more that of the way there. Who is held has one, too,
+    // where it fits: over nothing to stand on.
+    walking::Move m = under_way();
+    m.measure();
+    at_ = m;
+  }
+  report_.clearance = report_.least_clearance = at_.known.clearance;
+  report_.least_gap = at_.known.clearance - settings_.radius;
+  report_.met_unknown |= hold_ == walking::Hold::waits || gait_.unknown;
+  if (report_.met_unknown) report_.events.push({EventKind::met_unknown, at_.place});
+  for (const Corner& c : report_.corners) {
+    if (c.teleport) continue;
+    report_.least_clearance = std::min(report_.least_clearance, c.clearance);
+    report_.least_gap = std::min(report_.least_gap, c.clearance - c.radius);
+  }
+}
+
+walking::Refuge Walker::State::here() const {
+  return {at_.place, at_.height, {settings_.radius, settings_.support_radius}};
+}
+
+void Walker::State::remember_safe() { safe_ = here(); }
+
+void Walker::State::put(const Vec3& place, double time) {
+  at_.place = place;
+  at_.known.forget();
+  const Corner corner{at_.place, at_.height, settings_.radius, time, 0.0, true};
+  // Where it was put before, and did not fit, it was not.
+  if (!report_.corners.empty() && report_.corners.back().teleport) {
+    report_.corners.back() = corner;
+  } else {
+    report_.corners.push(corner);
+  }
+}
+
+void Walker::State::hold(walking::Hold why) {
+  using walking::Hold;
+  const bool falls = why == Hold::no_ground || why == Hold::over_nothing;
+  hold_ = falls ? why : in_unknown() ? Hold::waits : Hold::embedded;
+  report_.held = true;
+  gait_ = {};
+  report_.events.push({EventKind::held, at_.place});
+}
+
+void Walker::State::release() {
+  hold_ = walking::Hold::none;
+  was_put_back_ = false;
+}
+
+bool Walker::State::embedded() const {
+  return space_->clearance(body(), at_.place, 0.0).distance < -walking::world_tolerance;
+}
+
+bool Walker::State::in_unknown() const { return space_->clearance(body(), at_.place, 0.0).unknown; }
+
+void Walker::State::look_again() {
+  const std::uint64_t now = space_->revision();
+  const bool changed = now != looked_at_ || resized_;
+  looked_at_ = now;
+  resized_ = false;
+  bool stays = !changed;
+  switch (hold_) {
+    case walking::Hold::none:
+      // Something may have come where it is.
+      if (embedded()) fit_in();
+      return;
+    case walking::Hold::waits:
+      stays = stays && in_unknown();
+      break;
+    case walking::Hold::over_nothing:
+      stays = !walking::above_ground(*space_, body(), at_.place);
+      break;
+    case walking::Hold::embedded:
+    case walking::Hold::no_ground:
+      break;
+  }
+  if (stays) return hold(hold_);
+  release();
+  take_size_here();
+  fit_in();
+  if (!held()) remember_safe();
+}
+
+void Walker::State::fit_in() {
+  if (space_->fits(body(), at_.place)) return;
+  const double low = walking::crouched_height(settings_);
+  const Vec3 lowered = at_.place - Vec3(0.0, 0.0, 0.5 * (at_.height - low));
+  const auto fits_low = [&](const Vec3& place) {
+    return mode_ == Mode::walk && low < at_.height && space_->fits(Body::capsule(settings_.radius, low), place);
+  };
+  const auto crouch_at = [&](const Vec3& place) {
+    at_.height = low;
+    put(place, report_.elapsed);
+    report_.events.push({EventKind::crouched, at_.place});
+  };
+  if (fits_low(lowered)) return crouch_at(lowered);
+  // The centre may be that of a body that crouched.
+  if (fits_low(at_.place) && !way_out(*space_, body(), at_.place, skin_)) return crouch_at(at_.place);
+  free_body();
+}
+
+void Walker::State::free_body() {
+  at_.known.forget();
+  const std::optional<Vec3> free = way_out(*space_, body(), at_.place, skin_);
+  if (!free) return hold(walking::Hold::embedded);
+  // Put exactly in touch, a body is a hair too near: that is set right without a word.
+  const bool worth_saying = glm::length(*free - at_.place) > 2.0 * skin_ + walking::hit_tolerance;
+  put(*free, report_.elapsed);
+  if (worth_saying) report_.events.push({EventKind::freed, at_.place});
+}
+
+void Walker::State::settle() {
+  if (mode_ != Mode::walk || held()) return;
+  walking::Move m = under_way();
+  walking::keep_ground(m, gait_, 0.0);
+  at_ = m;
+  if (gait_.grounded() || !(safe_.height > 0.0)) remember_safe();
+}
+
+const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
+  if (!finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
+  if (!(dt >= 0.0) || !std::isfinite(dt)) {
+    throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
+  }
+  if (!(wish.acceleration > 0.0 && wish.braking > 0.0)) {
+    throw Error("the wish accelerates by at most " + number_text(wish.acceleration) + " m/s^2 and brakes by at most " +
+                number_text(wish.braking) + " m/s^2; both must be more than 0");
+  }
+  WalkerInput input = wish;
+  if (mode_ == Mode::walk) input.velocity.z = 0.0;
+  const walking::Pace pace = walking::pace(pace_, input);
+  input.velocity = pace.changes() && dt > 0.0 ? pace.mean(dt) : wish.velocity;
+  begin();
+  if (mode_ == Mode::ghost) {
+    const Vec3 motion = input.velocity * dt;
+    at_.place += motion;
+    at_.known.forget();
+    if (motion != Vec3(0.0)) report_.corners.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
+    if (space_->fits(body(), at_.place)) {
+      remember_safe();
+      if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
+    }
+  } else {
+    const bool changed = space_->revision() != looked_at_;
+    // A way that is found free, from where the body is, proves that nothing has come there.
+    const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
+    if (!held() && changed && way * dt != Vec3(0.0)) {
+      at_.known.fit = walking::Fit::unproven;
+      looked_at_ = space_->revision();
+      resized_ = false;
+    } else if (held() || changed) {
+      look_again();
+    }
+    if (!held()) move(slowed(input), dt);
+    if (at_.known.fit == walking::Fit::unproven) {
+      if (embedded()) fit_in();
+      at_.known.fit = walking::Fit::known;
+    }
+  }
+  if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
+  was_blocked_ = report_.blocked;
+  take_pace(input.velocity, pace.velocity(report_.elapsed));
+  finish();
+  return report_;
+}
+
+/// What is left of the velocity at the end of a step in which the body was `wished` to go at that on average.
+void Walker::State::take_pace(const Vec3& wished, const Vec3& in_the_end) {
+  pace_ = held() || report_.put_back ? Vec3(0.0) : in_the_end;
+  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return;
+  Vec3 moved = velocity();
+  if (mode_ == Mode::walk) moved.z = 0.0;
+  const double speed = glm::length(moved), most = glm::length(wished);
+  if (speed > 0.0 && most > 0.0) {
+    const Vec3 along = moved / speed;
+    pace_ = along * std::clamp(glm::dot(pace_, along), 0.0, glm::length(pace_) * (speed / most));
+  } else {
+    pace_ = Vec3(0.0);
+  }
+}
+
+void Walker::State::move(const WalkerInput& input, double dt) {
+  walking::Ending end = move_for(input, dt);
+  if (end == walking::Ending::embedded) {
+    if (at_.known.fit == walking::Fit::came_upon) {
+      fit_in();
+    } else {
+      free_body();
+    }
+    if (!held()) end = move_for(input, dt - report_.elapsed);
+  }
+  if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, at_.place});
+  if (end == walking::Ending::bottomless) put_back();
+  if (mode_ == Mode::fly && !held()) remember_safe();
+}
+
+walking::Ending Walker::State::move_for(const WalkerInput& input, double dt) {
+  walking::Move m = under_way();
+  const bool walking = mode_ == Mode::walk;
+  if (walking && input.crouch) {
+    walking::crouch(m);
+  } else {
+    walking::stand_up(m);
+  }
+  walking::Ending end = walking::Ending::done;
+  if (walking) {
+    if (input.jump) walking::jump(m, gait_);
+    const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
+    end = walking::walk(m, gait_, horizontal, dt, safe_, sizes());
+  } else {
+    end = fly(m, input.velocity, dt);
+  }
+  at_ = m;
+  report_.elapsed = m.time;
+  return end;
+}
+
+walking::Sizes Walker::State::sizes() { return {given_, outside_, regions_, inside_, settings_}; }
+
+/// The size that is wanted where the body is, as if it had been put there.
+void Walker::State::take_size_here() {
+  at_.known.forget_place();
+  std::fill(inside_.begin(), inside_.end(), char{0});
+  settings_ = walking::sized(given_, outside_);
+  const Vec3 lowest = at_.place - Vec3(0.0, 0.0, 0.5 * settings_.height);
+  settings_ = walking::sized(given_, walking::wanted(sizes(), at_.place, lowest));
+  at_.height = settings_.height;
+}
+
+walking::Ending Walker::State::fly(walking::Move& m, const Vec3& velocity, double dt) {
+  const walking::Sizes sizes = this->sizes();
+  if (!walking::near_region(sizes, m, velocity * dt)) return walking::slide(m, velocity, dt);
+  const double end = m.time + dt, speed = glm::length(velocity);
+  for (int count = 0; count < flight_limit && m.has_room(); ++count) {
+    walking::adapt(m, gait_, sizes);
+    const double left = end - m.time, most = 0.5 * settings_.radius / speed;
+    const bool last = !(most < left);
+    const walking::Ending ending = walking::slide(m, velocity, last ? left : most);
+    if (ending != walking::Ending::done) return ending;
+    if (last || report_.blocked) {
+      m.time = end;
+      return ending;
+    }
+  }
+  return walking::Ending::throttled;
+}
+
+void Walker::State::set_regions(std::span<const SizeRegion> regions) {
+  check(regions, given_);
+  std::vector<SizeRegion> copies(regions.begin(), regions.end());
+  std::vector<char> inside(regions.size(), char{0});
+  regions_.swap(copies);
+  inside_.swap(inside);
+  resized_ = true;
+}
+
+bool Walker::State::resize(double radius, double support_radius) {
+  check(walking::sized(given_, {radius, support_radius}));
+  begin();
+  outside_ = {radius, support_radius};
+  resized_ = true;
+  const walking::Sizes sizes = this->sizes();
+  if (mode_ != Mode::ghost && !held()) {
+    walking::Move m = under_way();
+    walking::adapt(m, gait_, sizes);
+    at_ = m;
+    // The new body may fit where something came upon the old one.
+    if (space_->revision() != looked_at_) look_again();
+    resized_ = true;
+  }
+  finish();
+  return walking::wanted(sizes, at_.place, feet()) == walking::Size{settings_.radius, settings_.support_radius};
+}
+
+/// `lift`: how far the centre lies above `at`, part of the height.
+const StepReport& Walker::State::place(const Vec3& at, double lift) {
+  if (!finite(at)) throw Error("the place to put the walker to is not a finite point");
+  begin();
+  const double height = walking::sized(given_, outside_).height;
+  at_.place = at + Vec3(0.0, 0.0, lift * height);
+  take_size_here();
+  gait_ = {};
+  at_.known = {};
+  vicinity_.forget();
+  was_blocked_ = false;
+  pace_ = Vec3(0.0);
+  release();
+  safe_.height = ground_.height = 0.0;
+  looked_at_ = space_->revision();
+  put(at + Vec3(0.0, 0.0, lift * at_.height), 0.0);
+  report_.events.push({EventKind::placed, at_.place});
+  if (mode_ != Mode::ghost) fit_in();
+  if (!held() && space_->fits(body(), at_.place)) remember_safe();
+  settle();
+  at_.known.forget_place();  // what is told is the clearance there, wherever the body came from
+  finish();
+  return report_;
+}
+
+}  // namespace roam

@@ -1,0 +1,103 @@
+#pragma once
+/// \file
+/// What a Walker is made of.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "motion/gait.h"
+#include "motion/known.h"
+#include "motion/move.h"
+#include "motion/sizes.h"
+#include "motion/walking.h"
+#include "roam/walker.h"
+
+namespace roam {
+
+namespace walking {
+
+/// Why a body cannot move.
+enum class Hold : std::uint8_t {
+  none,          ///< it can
+  embedded,      ///< it does not fit, and no checked way leads out
+  waits,         ///< the same, and what it is in is not known yet
+  no_ground,     ///< it would fall out of the scene, from where it fell before
+  over_nothing,  ///< it would fall out of the scene: nothing is below
+};
+
+}  // namespace walking
+
+class Walker::State {
+ public:
+  /// A body that has not been placed yet.
+  State(const Space& space, const WalkerSettings& settings, Mode mode);
+
+  [[nodiscard]] Body body() const;
+  [[nodiscard]] Vec3 feet() const;
+  [[nodiscard]] Vec3 velocity() const;
+  [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
+  /// The plane that a body goes by which is carried by its foot.
+  [[nodiscard]] const walking::FloorPlane& floor() const { return gait_.floor; }
+
+ private:
+  friend class Walker;
+
+  const StepReport& step(const WalkerInput& input, double dt);
+  /// `lift`: how far the centre lies above `at`, part of the height.
+  const StepReport& place(const Vec3& at, double lift);
+  const StepReport& set_mode(Mode mode);
+  void set_regions(std::span<const SizeRegion> regions);
+  bool resize(double radius, double support_radius);
+
+  [[nodiscard]] walking::Move under_way();
+  [[nodiscard]] walking::Sizes sizes();
+  void take_size_here();
+  walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
+  [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
+  void begin();
+  void move(const WalkerInput& input, double dt);
+  void take_pace(const Vec3& wished, const Vec3& in_the_end);
+  walking::Ending move_for(const WalkerInput& input, double dt);
+  void settle();
+  void fit_in();
+  void free_body();
+  void come_back();
+  void put(const Vec3& place, double time);
+  void hold(walking::Hold why);
+  void release();
+  bool come_back_to(const walking::Refuge& refuge, bool over_ground);
+  void put_back();
+  [[nodiscard]] bool over_ground(const walking::Refuge& refuge) const;
+  [[nodiscard]] bool embedded() const;
+  [[nodiscard]] bool in_unknown() const;
+  void look_again();
+  [[nodiscard]] walking::Refuge here() const;
+  void remember_safe();
+  void finish();
+
+  const Space* space_;
+  WalkerSettings given_;     ///< when it was made
+  WalkerSettings settings_;  ///< of its present size
+  std::vector<SizeRegion> regions_;
+  std::vector<char> inside_;  ///< of each region: whether the body counts as in it
+  walking::Size outside_;     ///< outside all regions
+  double skin_ = 0.0;
+  double slope_cosine_ = 0.0;
+  Mode mode_ = Mode::fly;
+  StepReport report_;
+  walking::Gait gait_;
+  walking::Whereabouts at_;
+  Vec3 pace_{0.0};  ///< see Walker::pace()
+  Vicinity vicinity_;
+  walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
+  walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode
+  walking::Hold hold_ = walking::Hold::none;
+  bool was_blocked_ = false;     ///< at the end of the last step, and has not been put elsewhere since
+  bool was_put_back_ = false;    ///< and has not been put elsewhere since
+  bool resized_ = false;         ///< another size may be wanted than when the body was held
+  std::uint64_t known_at_ = 0;   ///< the revision of the space of which at_.known is
+  std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
+};
+
+}  // namespace roam
