@@ -7,8 +7,8 @@
 ///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
-///   - the body only moves along straight pieces that the space has certified free, by Space::sweep_in or gap_in,
-///     asked of the piece or, in a space that tells its changes, before of what lies around it; so that at every
+///   - the body only moves along straight pieces that the space has certified free, by a sweep or a gap of the
+///     piece or, in a space that has a revision, by an earlier gap of what lies around it; so that at every
 ///     instant its axis is at least radius - 1e-6 m from every triangle. The corners of the pieces are in the report,
 ///     each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
@@ -27,6 +27,7 @@
 #include <span>
 #include <vector>
 
+#include "roam/detail/vicinity.h"
 #include "roam/math.h"
 #include "roam/size_region.h"
 #include "roam/space.h"
@@ -62,9 +63,9 @@ class Walker {
   /// height away, along a straight way on which a sphere about its centre, as large as the start allows, is certified
   /// to meet nothing: so its centre is never moved to the far side of a wall. Where there is none, in walk mode, it
   /// crouches with its centre there. Else it is held: it stays, every step reports `held`, and only place() and ghost
-  /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
-  /// body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as it
-  /// is known there the next step goes on likewise, in spaces without revisions too.
+  /// mode get it away, or a change of the space: when its revision (SpaceFacts) is another, the next step goes on as if
+  /// the body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as
+  /// it is known there the next step goes on likewise, in spaces without revisions too.
   ///
   /// `centre` is half the height above the feet: a centre on the floor is a body that stands to the waist in it, held
   /// or freed sideways. See place_feet().

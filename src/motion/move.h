@@ -3,6 +3,7 @@
 /// A step under way: where the body is, how it advances, and the report that is written as it goes.
 
 #include "roam/walker.h"
+#include "world/nearby.h"
 
 namespace roam::walking {
 
@@ -84,7 +85,9 @@ class Move {
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
   /// The first impact of the body on its way along `motion`.
-  [[nodiscard]] Impact sweep(const Vec3& motion) const { return space.sweep_in(vicinity, body(), place, motion); }
+  [[nodiscard]] Impact sweep(const Vec3& motion) const {
+    return Nearby::sweep(space, vicinity, {body(), place, motion});
+  }
   /// How far the body gets along `motion`. It stops where the gap to the plane of the contact is `skin`: the skin is
   /// measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near. A body
   /// that is nearer than the skin already does not advance towards that plane; along it and away it does.

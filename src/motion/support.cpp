@@ -65,10 +65,11 @@ bool has_floor(const Space& space, double slope_degrees, double band, const Floo
 /// The same as carrying(), which is asked where it was not asked just now. The answer stays in the stance.
 bool carries(const Move& m, Stance& stance, const FloorPlane& plane, const Vec3& place) {
   const Size size{m.settings.radius, m.settings.support_radius};
-  FootAnswer asked{place, m.height, size, plane.point, plane.normal, m.space.revision()};
+  const std::optional<std::uint64_t> revision = m.space.facts().revision;
+  FootAnswer asked{place, m.height, size, plane.point, plane.normal, revision.value_or(0)};
   if (stance.foot.known && stance.foot.same_question(asked)) return stance.foot.carries;
   const Carrying answer = carrying(m.space, m.settings, m.skin, m.height, plane, place);
-  asked.known = m.space.tells_changes();
+  asked.known = revision.has_value();
   asked.carries = answer != Carrying::no;
   asked.unknown = answer == Carrying::unknown;
   stance.foot = asked;

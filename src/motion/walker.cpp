@@ -75,7 +75,7 @@ Vec3 Walker::velocity() const {
 
 /// The wish, no faster than the space can follow.
 WalkerInput Walker::slowed(const WalkerInput& input) {
-  const double limit = space_->speed_limit(), speed = glm::length(input.velocity);
+  const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
   WalkerInput out = input;
   if (speed > limit) {
     out.velocity *= limit / speed;
@@ -97,10 +97,11 @@ void Walker::come_to(const walking::Move& m) {
 }
 
 void Walker::begin() {
-  if (!space_->tells_changes() || space_->revision() != known_at_) known_.forget();
+  const std::optional<std::uint64_t> revision = space_->facts().revision;
+  if (!revision || *revision != known_at_) known_.forget();
   known_.touching = !report_.contacts.empty();
   known_.unproven = known_.came_upon = false;
-  known_at_ = space_->revision();
+  known_at_ = revision.value_or(0);
   report_.corners.clear();
   report_.contacts.clear();
   report_.events.clear();
@@ -167,7 +168,7 @@ bool Walker::embedded() const { return space_->clearance(body(), position_, 0.0)
 bool Walker::in_unknown() const { return space_->clearance(body(), position_, 0.0).unknown; }
 
 void Walker::look_again() {
-  const std::uint64_t now = space_->revision();
+  const std::uint64_t now = space_->facts().revision.value_or(0);
   const bool changed = now != looked_at_ || resized_;
   looked_at_ = now;
   resized_ = false;
@@ -238,12 +239,12 @@ const StepReport& Walker::step(const WalkerInput& input, double dt) {
       if (walking::above_ground(*space_, body(), position_)) footing_ = safe_;
     }
   } else {
-    const bool changed = space_->revision() != looked_at_;
+    const bool changed = space_->facts().revision.value_or(0) != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
     const Vec3 wish(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
     known_.unproven = !held_ && changed && wish * dt != Vec3(0.0);
     if (known_.unproven) {
-      looked_at_ = space_->revision();
+      looked_at_ = space_->facts().revision.value_or(0);
       resized_ = false;
     } else if (held_ || changed) {
       look_again();
@@ -345,7 +346,7 @@ bool Walker::resize(double radius, double support_radius) {
     walking::adapt(m, stance_, sizes);
     come_to(m);
     // The new body may fit where something came upon the old one.
-    if (space_->revision() != looked_at_) look_again();
+    if (space_->facts().revision.value_or(0) != looked_at_) look_again();
     resized_ = true;
   }
   finish();
@@ -369,7 +370,7 @@ const StepReport& Walker::placed(const Vec3& at, double lift) {
   vicinity_.forget();
   release();
   safe_.height = footing_.height = 0.0;
-  looked_at_ = space_->revision();
+  looked_at_ = space_->facts().revision.value_or(0);
   put(at + Vec3(0.0, 0.0, lift * height_), 0.0);
   report_.events.push({EventKind::placed, position_});
   if (mode_ != Mode::ghost) fit_in();

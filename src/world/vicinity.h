@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "index/roots.h"
+#include "roam/detail/vicinity.h"
 #include "roam/space.h"
 
 namespace roam {
