@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "roam/space.h"
+#include "roam/collector.h"
 
 namespace roam::bench {
 
@@ -24,55 +24,47 @@ class CountedSpace final : public Space {
   explicit CountedSpace(const Space& space) : space_(space) {}
 
   [[nodiscard]] const std::array<Tally, kinds>& tallies() const { return tallies_; }
-
- private:
-  template <class Ask>
-  auto counted(Kind kind, const Ask& ask) const {
-    const auto begin = std::chrono::steady_clock::now();
-    const auto answer = ask();
-    const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - begin;
-    tallies_[kind].nanoseconds += passed.count();
-    ++tallies_[kind].asked;
-    return answer;
-  }
-
- public:
-  [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override {
-    return counted(sweeps, [&] { return space_.sweep(body, from, motion); });
-  }
-  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override {
-    return counted(contact_lists, [&] { return space_.contacts(body, from, motion, reach, contacts); });
-  }
-  using Space::clearance;
-  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const override {
-    return counted(clearances, [&] { return space_.clearance(body, from, motion, reach); });
-  }
-  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
-    return counted(gaps, [&] { return space_.gap(body, from, motion, reach); });
-  }
-  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
-                                const Vec3& motion) const override {
-    return counted(sweeps, [&] { return space_.sweep_in(vicinity, body, from, motion); });
-  }
-  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                              double reach) const override {
-    return counted(gaps, [&] { return space_.gap_in(vicinity, body, from, motion, reach); });
-  }
-  using Space::floor_clearance;
-  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
-                                          const Floor& floor) const override {
-    return counted(floors, [&] { return space_.floor_clearance(body, place, reach, floor); });
-  }
-  [[nodiscard]] Box bounds() const override { return space_.bounds(); }
-  [[nodiscard]] double largest_error() const override { return space_.largest_error(); }
+  [[nodiscard]] SpaceFacts facts() const override { return space_.facts(); }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override { return space_.object_name(triangle); }
-  [[nodiscard]] std::uint64_t revision() const override { return space_.revision(); }
-  [[nodiscard]] bool tells_changes() const override { return space_.tells_changes(); }
-  [[nodiscard]] double speed_limit() const override { return space_.speed_limit(); }
+
+ protected:
+  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override {
+    const Timed timed{tallies_[sweeps]};
+    ++tallies_[sweeps].asked;
+    return Space::ask_first_of(space_, query, vicinity);
+  }
+  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override {
+    // The contact of a sweep is part of that.
+    const bool completes = collector.kind() == Collector::Kind::one_contact;
+    const Kind kind = completes ? sweeps : kind_of(collector);
+    const Timed timed{tallies_[kind]};
+    tallies_[kind].asked += completes ? 0 : 1;
+    Space::ask_near_of(space_, query, collector, vicinity);
+  }
 
  private:
+  struct Timed {
+    Tally& tally;
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    ~Timed() {
+      const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - begin;
+      tally.nanoseconds += passed.count();
+    }
+  };
+
+  static Kind kind_of(const Collector& collector) {
+    switch (collector.kind()) {
+      case Collector::Kind::gap:
+        return gaps;
+      case Collector::Kind::clearance:
+        return clearances;
+      case Collector::Kind::floor_clearance:
+        return floors;
+      default:
+        return contact_lists;
+    }
+  }
+
   const Space& space_;
   mutable std::array<Tally, kinds> tallies_;
 };

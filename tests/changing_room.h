@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "roam/collector.h"
 #include "walker_judged.h"
 
 namespace scenes {
@@ -25,49 +26,35 @@ class ChangingRoom final : public roam::Space {
   [[nodiscard]] Judge judge() const { return Judge(*mesh_); }
   [[nodiscard]] int asked() const { return asked_; }
 
-  [[nodiscard]] roam::Impact sweep(const roam::Body& body, const Vec3& from, const Vec3& motion) const override {
-    ++asked_;
-    roam::Impact s = world_->sweep(body, from, motion);
-    if (clings && motion.x == 0.0 && motion.y == 0.0 && motion.z < 0.0) {
-      s.hit = true;
-      s.time = s.distance = 0.0;
-      s.feature = roam::Feature::face;
-      s.point = from + Vec3(body.radius, 0.0, 0.0);
-      s.normal = *clings;
-    }
-    return s;
+  [[nodiscard]] roam::SpaceFacts facts() const override {
+    roam::SpaceFacts facts = world_->facts();
+    facts.revision = tells_ ? std::optional(revision_) : std::nullopt;
+    facts.speed_limit = limit;
+    return facts;
   }
-  std::size_t contacts(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<roam::Contact> contacts) const override {
-    ++asked_;
-    return world_->contacts(body, from, motion, reach, contacts);
-  }
-  using Space::clearance;
-  [[nodiscard]] roam::Clearance clearance(const roam::Body& body, const Vec3& from, const Vec3& motion,
-                                          double reach) const override {
-    ++asked_;
-    return world_->clearance(body, from, motion, reach);
-  }
-  [[nodiscard]] double gap(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
-    ++asked_;
-    return world_->gap(body, from, motion, reach);
-  }
-  using Space::floor_clearance;
-  [[nodiscard]] roam::Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
-                                                const roam::Floor& floor) const override {
-    ++asked_;
-    return world_->floor_clearance(body, place, reach, floor);
-  }
-  [[nodiscard]] roam::Box bounds() const override { return world_->bounds(); }
-  [[nodiscard]] double largest_error() const override { return world_->largest_error(); }
   [[nodiscard]] std::string object_name(std::uint64_t triangle) const override { return world_->object_name(triangle); }
-  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
-  [[nodiscard]] bool tells_changes() const override { return tells_; }
-  [[nodiscard]] double speed_limit() const override { return limit; }
 
   double limit = std::numeric_limits<double>::infinity();  ///< m/s
   /// Where set, a way down meets a plane with this normal at once, as that of a body in touch with a wall may.
   std::optional<Vec3> clings;
+
+ protected:
+  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
+    ++asked_;
+    const Vec3& motion = query.motion;
+    roam::FirstImpact first = Space::ask_first_of(*world_, query, nullptr);
+    if (clings && motion.x == 0.0 && motion.y == 0.0 && motion.z < 0.0) {
+      first.hit = true;
+      first.time = 0.0;
+      first.contact = roam::Contact{{query.from + Vec3(query.body.radius, 0.0, 0.0), *clings, roam::Feature::face, 0.0},
+                                    first.triangle};
+    }
+    return first;
+  }
+  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+    asked_ += collector.kind() == roam::Collector::Kind::one_contact ? 0 : 1;
+    Space::ask_near_of(*world_, query, collector, nullptr);
+  }
 
  private:
   std::unique_ptr<Mesh> mesh_;

@@ -65,7 +65,7 @@ void ask(const roam::Space& space, const std::vector<Query>& queries, double rea
     for (std::size_t i = 0; i < count; ++i) bits(contacts[i]);
     bits(space.clearance(q.body, q.from, q.motion, reach));
     bits(space.clearance(q.body, q.from, reach));
-    bits(space.floor_clearance(q.body, q.from, reach, 40.0));
+    bits(space.floor_clearance(q.body, q.from, reach, {.slope_degrees = 40.0}));
     bits(space.gap(q.body, q.from, q.motion, reach));
     bits(space.sweep_in(vicinity, q.body, q.from, q.motion));
     bits(space.gap_in(vicinity, q.body, q.from, q.motion, reach));

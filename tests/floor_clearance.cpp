@@ -54,7 +54,7 @@ TEST(FloorClearance, SeesWhatIsUnknownAndSaysSo) {
   roam::Patchwork space;
   (void)space.expect({Vec3(1.0, -1.0, -1.0), Vec3(2.0, 1.0, 1.0)});
   space.update();
-  const auto c = space.floor_clearance({0.0, 0.25}, Vec3(0.0), 5.0, 45.0);
+  const auto c = space.floor_clearance({0.0, 0.25}, Vec3(0.0), 5.0, {.slope_degrees = 45.0});
   ASSERT_TRUE(c.found);
   EXPECT_TRUE(c.unknown);
   EXPECT_NEAR(c.distance, 1.0, 2e-3);
@@ -88,8 +88,8 @@ TEST(FloorClearance, PassesOverWallsThatAreNearer) {
   scenes::add_floor(m, 0.5, -1.0, 3.0, 1.0, 0.0);
   const roam::World world = scenes::build(m);
   EXPECT_NEAR(world.clearance({0.0, 0.25}, Vec3(0.0), 2.0).distance, 0.1, 2e-3);
-  EXPECT_NEAR(world.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, 45.0).distance, 0.5, 2e-3);
-  const auto none = world.floor_clearance({0.0, 0.25}, Vec3(-2.0, 0.0, 0.0), 2.0, 45.0);
+  EXPECT_NEAR(world.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, {.slope_degrees = 45.0}).distance, 0.5, 2e-3);
+  const auto none = world.floor_clearance({0.0, 0.25}, Vec3(-2.0, 0.0, 0.0), 2.0, {.slope_degrees = 45.0});
   EXPECT_FALSE(none.found);
   EXPECT_EQ(none.distance, 2.0);
 }
@@ -101,7 +101,7 @@ TEST(FloorClearance, OfABandPassesOverTheBottomOfAPit) {
   const roam::World world = scenes::build(m);
   Floor floor;
   floor.band = 0.25;
-  EXPECT_NEAR(world.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, 45.0).distance, 0.15, 2e-3);
+  EXPECT_NEAR(world.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, {.slope_degrees = 45.0}).distance, 0.15, 2e-3);
   EXPECT_NEAR(world.floor_clearance({0.0, 0.25}, Vec3(0.0), 2.0, floor).distance, 1.0, 2e-3);
 }
 
@@ -127,8 +127,8 @@ TEST(FloorClearance, RefusesAFloorOutOfRange) {
   refuses({.band = 1.0, .point = Vec3(nan)});
   for (const Vec3& normal : {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -1.0), Vec3(nan)})
     refuses({.band = 1.0, .normal = normal});
-  EXPECT_THROW((void)world.floor_clearance({-0.1}, Vec3(0.0), 1.0, 45.0), roam::Error);
-  EXPECT_THROW((void)world.floor_clearance({0.1}, Vec3(nan), 1.0, 45.0), roam::Error);
+  EXPECT_THROW((void)world.floor_clearance({-0.1}, Vec3(0.0), 1.0, {.slope_degrees = 45.0}), roam::Error);
+  EXPECT_THROW((void)world.floor_clearance({0.1}, Vec3(nan), 1.0, {.slope_degrees = 45.0}), roam::Error);
 }
 
 TEST(FloorClearance, DoesNotAllocate) {

@@ -86,7 +86,7 @@ TEST(Locale, Refusals) {
     std::string told;
     told += refusal([&] { static_cast<void>(world.sweep({-1.5}, Vec3(0.0), Vec3(1.0))); });
     told += refusal([&] { static_cast<void>(world.sweep({12345.5}, Vec3(0.0), Vec3(1.0))); });
-    told += refusal([&] { static_cast<void>(world.floor_clearance({0.3}, Vec3(0.0), 1.0, 91.5)); });
+    told += refusal([&] { static_cast<void>(world.floor_clearance({0.3}, Vec3(0.0), 1.0, {.slope_degrees = 91.5})); });
     told += refusal([&] { static_cast<void>(sweep({-0.5}, Vec3(0.0), Vec3(1.0), triangle)); });
     told += refusal([&] { static_cast<void>(sweep({0.5, -0.25}, Vec3(0.0), Vec3(1.0), triangle)); });
     told += refusal([&] { check(WalkerSettings{.radius = 12345.5}); });

@@ -1,4 +1,4 @@
-// A scene graph as a space, in every floating-point environment of a host.
+// Bodies moved through a scene graph, in every floating-point environment of a host.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "clutter.h"
-#include "osgRoam/SceneSpace.h"
-#include "osgRoam/Triangles.h"
+#include "osgRoam/BoxIntersector.h"
 #include "same_bits.h"
 
 namespace {
@@ -16,7 +15,7 @@ namespace {
 using same_bits::Bits;
 using same_bits::expect_same;
 
-TEST(FloatingPoint, QueriesOfASceneGraph) {
+TEST(FloatingPoint, IntersectionsWithASceneGraph) {
   clutter::Random random(3);
   const roam::Mesh mesh = clutter::make(random, {.count = 300});
   osg::ref_ptr<osg::Vec3dArray> corners = new osg::Vec3dArray;
@@ -37,17 +36,19 @@ TEST(FloatingPoint, QueriesOfASceneGraph) {
   for (int i = 0; i < 60; ++i) {
     queries.push_back({{random.between(0.0, 0.5), random.between(0.0, 0.5)}, random.in_box(5.0), random.in_box(3.0)});
   }
-  osgRoam::SceneSpace space(turned);
-  roam::Contact contacts[16];
+  const double margin = osgRoam::boundsMargin(*turned);
   expect_same([&](Bits& bits) {
     for (const Query& q : queries) {
-      bits(space.sweep(q.body, q.from, q.motion));
-      bits(space.clearance(q.body, q.from, q.motion, 1.0));
-      bits(space.floor_clearance(q.body, q.from, 1.0, 40.0));
-      for (std::size_t i = space.contacts(q.body, q.from, q.motion, 1.0, contacts); i-- > 0;) bits(contacts[i]);
+      const roam::Vec3 to = q.from + q.motion;
+      osg::ref_ptr<osgRoam::BoxIntersector> box =
+          new osgRoam::BoxIntersector(q.body, {q.from.x, q.from.y, q.from.z}, {to.x, to.y, to.z});
+      box->setBoundsMargin(margin);
+      osgUtil::IntersectionVisitor visitor(box);
+      turned->accept(visitor);
+      const auto first = box->getFirstIntersection();
+      bits(first.time);
+      bits(first.distance);
     }
-    bits(space.bounds().lower);
-    bits(space.bounds().upper);
   });
 }
 

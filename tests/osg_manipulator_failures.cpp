@@ -10,26 +10,15 @@ using rig::Rig;
 
 TEST(ManipulatorFailures, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
   struct Failing final : roam::Space {
-    roam::Impact sweep(const roam::Body&, const Vec3&, const Vec3&) const override {
+    roam::SpaceFacts facts() const override { return {.bounds = {Vec3(-1.0), Vec3(1.0)}}; }
+    std::string object_name(roam::TriangleId) const override { return {}; }
+    roam::FirstImpact ask_first(const roam::Query&, roam::Vicinity*) const override {
       if (broken) throw roam::Error("the disk is gone");
       return {};
     }
-    std::size_t contacts(const roam::Body&, const Vec3&, const Vec3&, double, std::span<roam::Contact>) const override {
-      return 0;
-    }
-    roam::Clearance clearance(const roam::Body&, const Vec3&, const Vec3&, double reach) const override {
+    void ask_near(const roam::Query&, roam::Collector&, roam::Vicinity*) const override {
       if (broken) throw roam::Error("the disk is gone");
-      roam::Clearance c;
-      c.distance = reach;
-      return c;
     }
-    roam::Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
-                                    const roam::Floor&) const override {
-      return clearance(body, place, Vec3(0.0), reach);
-    }
-    roam::Box bounds() const override { return {Vec3(-1.0), Vec3(1.0)}; }
-    double largest_error() const override { return 0.0; }
-    std::string object_name(roam::TriangleId) const override { return {}; }
     bool broken = false;
   };
   const auto space = std::make_shared<Failing>();

@@ -114,7 +114,7 @@ void compare(const char* name, const std::vector<Mesh>& meshes, const made::Stor
   const World world = World::build(meshes, build);
   Pager pager(store, {.memory = 64 << 20, .loaders = 2});
   ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
-  EXPECT_EQ(pager.speed_limit(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(pager.facts().speed_limit, std::numeric_limits<double>::infinity());
   EXPECT_EQ(pager.stats().triangles, world.stats().triangles);
   compare(pager, world, meshes, queries, 1);
 }

@@ -98,7 +98,7 @@ TEST(PagerFailures, WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits) {
     w.step({.velocity = {1.4, 0.0, 0.0}}, frame);
     ASSERT_EQ(w.position(), middle);
   }
-  EXPECT_LT(pager->speed_limit(), 1.0);
+  EXPECT_LT(pager->facts().speed_limit, 1.0);
   EXPECT_EQ(pager->stats().tiles, 0u);
   // Ending it waits for the read that is under way, and for no more.
   std::future<void> ended = std::async(std::launch::async, [&] { pager.reset(); });

@@ -24,7 +24,7 @@ TEST(PagerFloor, IsUnknownBeforeItIsLoaded) {
   const roam::Mesh mesh = floor_oracle::scene(random, Vec3(0.0), 100);
   const made::Folder folder("pager_floor_unknown");
   roam::Pager pager(made::store(folder.path(), {&mesh, 1}, {}), {.memory = 64 << 20});
-  const auto c = pager.floor_clearance({0.0, 0.25}, Vec3(0.0), 10.0, 45.0);
+  const auto c = pager.floor_clearance({0.0, 0.25}, Vec3(0.0), 10.0, {.slope_degrees = 45.0});
   ASSERT_TRUE(c.found);
   EXPECT_TRUE(c.unknown);
 }

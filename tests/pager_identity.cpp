@@ -34,7 +34,7 @@ namespace query = roam::query;
 
 /// What World::build holds, but for the tiles, which come from a store: so its triangles are the store's own, in the
 /// store's order.
-class StoredWorld {
+class StoredWorld final : public roam::Space {
  public:
   explicit StoredWorld(const roam::Store& store) {
     read(store);
@@ -60,32 +60,23 @@ class StoredWorld {
       block += r.blocks;
       fine += r.tile.fine.size();
     }
+    data_.index = data_.view();
   }
 
-  [[nodiscard]] Impact sweep(const roam::Body& body, const Vec3& from, const Vec3& motion) const {
-    Impact impact = query::first_impact(data_, {body, from, motion});
-    if (impact.hit) impact.triangle = number(impact.triangle);
-    return impact;
+  [[nodiscard]] roam::SpaceFacts facts() const override { return {}; }
+  [[nodiscard]] std::string object_name(TriangleId) const override { return {}; }
+
+ protected:
+  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
+    roam::FirstImpact first = query::first_impact(data_, query);
+    if (first.hit) first.triangle = number(first.triangle);
+    return first;
   }
-  std::size_t contacts(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> out) const {
-    const std::size_t n = query::contacts_of(body, from, motion, reach, out, [&](const Vec3& way, auto& collector) {
-      query::collect(data_, {body, from, way}, 0, collector);
-    });
-    for (Contact& c : out.first(n)) c.triangle = number(c.triangle);
-    return n;
-  }
-  [[nodiscard]] Clearance clearance(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-    return numbered(query::clearance_of(body, from, motion, reach, query::clearance_tolerance_of(data_.lossless),
-                                        [&](const Vec3& way, auto& collector) {
-                                          query::collect(data_, {body, from, way}, 0, collector);
-                                        }));
-  }
-  [[nodiscard]] Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
-                                          const roam::Floor& floor) const {
-    return numbered(query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, auto& collector) {
-      query::collect(data_, {body, place, way}, 0, collector);
-    }));
+  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+    if (collector.only() != nullptr) return query::collect_one(data_.index, query, collector);
+    if (data_.lossless) collector.demand(query::lossless_tolerance);
+    query::collect(data_, query, {}, 0, collector);
+    for (Contact& c : collector.kept()) c.triangle = number(c.triangle);
   }
 
  private:
@@ -128,10 +119,6 @@ class StoredWorld {
   [[nodiscard]] TriangleId number(TriangleId own) const {
     constexpr TriangleId in_tile = (TriangleId{1} << roam::store::triangle_bits) - 1;
     return number_[own >> roam::store::triangle_bits] | (own & in_tile);
-  }
-  [[nodiscard]] Clearance numbered(Clearance c) const {
-    if (c.found) c.triangle = number(c.triangle);
-    return c;
   }
 
   WorldData data_;
@@ -201,7 +188,8 @@ void compare(const Pager& pager, const StoredWorld& world, std::span<const Mesh>
       const Clearance a = pager.clearance(body, from, way, reach), b = world.clearance(body, from, way, reach);
       ++tally.clearances;
       tally.other_clearance += same(a.distance, b.distance) ? 0 : 1;
-      ASSERT_NEAR(a.distance, b.distance, query::clearance_tolerance_of(pager.store().info().lossless));
+      ASSERT_NEAR(a.distance, b.distance,
+                  pager.store().info().lossless ? query::lossless_tolerance : query::clearance_tolerance);
     }
     roam::Floor floor;
     if (i % 8 == 0) floor = {30.0, 0.4, from, Vec3(0.0, 0.0, 1.0)};

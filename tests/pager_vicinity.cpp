@@ -15,8 +15,10 @@ namespace {
 
 using clutter::Random;
 using course::Course;
+using course::gap_in;
 using course::Judged;
 using course::same;
+using course::sweep_in;
 using roam::Body;
 using roam::Impact;
 using roam::Mesh;
@@ -100,8 +102,8 @@ struct Answer {
   [[nodiscard]] bool is(const Answer& other) const { return same(impact, other.impact) && same(gap, other.gap); }
 };
 Answer ask_in(const Pager& pager, Vicinity& vicinity, const Question& q) {
-  if (q.sweep) return {pager.sweep_in(vicinity, q.body, q.from, q.motion)};
-  return {{}, pager.gap_in(vicinity, q.body, q.from, q.motion, q.reach)};
+  if (q.sweep) return {sweep_in(pager, vicinity, q.body, q.from, q.motion)};
+  return {{}, gap_in(pager, vicinity, q.body, q.from, q.motion, q.reach)};
 }
 Answer ask(const Pager& pager, const Question& q) {
   if (q.sweep) return {pager.sweep(q.body, q.from, q.motion)};
@@ -278,10 +280,10 @@ TEST(PagerVicinity, NeverAnswersFromAnotherStore) {
   Pager one(low.store, {.memory = 64 << 20}), other(high.store, {.memory = 64 << 20});
   // What it is known by that a store is another one, or has changed.
   const auto revisions = [](Pager& pager) {
-    std::set<std::uint64_t> all{pager.revision()};
+    std::set<std::uint64_t> all{pager.facts().revision.value()};
     const auto tiles = pager.store().info().tiles;
     EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, Vec3(0.0), [&] {
-      all.insert(pager.revision());
+      all.insert(pager.facts().revision.value());
       return pager.stats().tiles == tiles;
     }));
     return all;

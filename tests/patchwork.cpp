@@ -69,9 +69,9 @@ TEST(Patchwork, WhatIsDeliveredTakesThePlaceOfTheUnknownAtTheNextUpdate) {
   const auto before = space.sweep(ball, {0.5, 0.5, 3.0}, {0.0, 0.0, -4.0}).triangle;
   space.deliver(patch, board(0.25));
   EXPECT_NEAR(stopped_at(space, 0.5), 1.0, stored);
-  const auto revision = space.revision();
+  const auto revision = space.facts().revision;
   EXPECT_TRUE(space.update(ball, {0.5, 0.5, 5.0}));
-  EXPECT_GT(space.revision(), revision);
+  EXPECT_GT(space.facts().revision, revision);
   std::string by;
   EXPECT_NEAR(stopped_at(space, 0.5, &by), 0.25, stored);
   EXPECT_EQ(by, "board");

@@ -1,8 +1,6 @@
 // Bodies that keep what lies around them from one question to the next are answered as well as those that do not:
 // judged by brute force, and by what two of them are answered who should not differ.
 
-#include "roam/vicinity.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,8 +14,10 @@ namespace {
 
 using clutter::Random;
 using course::Course;
+using course::gap_in;
 using course::Judged;
 using course::same;
+using course::sweep_in;
 using course::Tally;
 using roam::Body;
 using roam::Impact;
@@ -145,12 +145,13 @@ TEST(Vicinity, AnswersAsWithoutWhereNothingIsKept) {
     const Body body = course::some_body(random, 0.3);
     const Vec3 at = course::beside(random, mesh, body), way = random.direction();
     // Something is kept from here.
-    judged::judge_sweep(world.sweep_in(vicinity, body, at, 0.05 * way), body, at, 0.05 * way, judged::kFarthest, judge);
+    judged::judge_sweep(sweep_in(world, vicinity, body, at, 0.05 * way), body, at, 0.05 * way, judged::kFarthest,
+                        judge);
     const auto as_without = [&](const Body& b, const Vec3& from, const Vec3& motion, double reach) {
-      const Impact s = world.sweep_in(vicinity, b, from, motion);
+      const Impact s = sweep_in(world, vicinity, b, from, motion);
       ASSERT_TRUE(same(s, world.sweep(b, from, motion)));
       hits += s.hit ? 1 : 0;
-      ASSERT_TRUE(same(world.gap_in(vicinity, b, from, motion, reach), world.gap(b, from, motion, reach)));
+      ASSERT_TRUE(same(gap_in(world, vicinity, b, from, motion, reach), world.gap(b, from, motion, reach)));
     };
     ASSERT_NO_FATAL_FAILURE(as_without(body, at, random.between(5.0, 300.0) * way, 0.1));
     for (const Body& thin : {Body{0.0, 0.0}, Body{1e-6, 0.0}}) {
@@ -162,12 +163,13 @@ TEST(Vicinity, AnswersAsWithoutWhereNothingIsKept) {
     }
     // Farther than it keeps: as certified.
     const double reach = i % 5 == 0 ? random.between(20.0, 1000.0) : random.between(0.25, 3.0);
-    judged::judge_gap(world.gap_in(vicinity, body, at, Vec3(0.0), reach), body, at, Vec3(0.0), reach, judge);
+    judged::judge_gap(gap_in(world, vicinity, body, at, Vec3(0.0), reach), body, at, Vec3(0.0), reach, judge);
     const Vec3 motion = random.between(0.2, 4.0) * random.direction();
-    judged::judge_sweep(world.sweep_in(vicinity, body, at, motion), body, at, motion, judged::kFarthest, judge);
-    judged::judge_gap(world.gap_in(vicinity, body, at, motion, 0.2), body, at, motion, 0.2, judge);
+    judged::judge_sweep(sweep_in(world, vicinity, body, at, motion), body, at, motion, judged::kFarthest, judge);
+    judged::judge_gap(gap_in(world, vicinity, body, at, motion, 0.2), body, at, motion, 0.2, judge);
     const Body large{random.between(1.0, 1000.0), 0.0};
-    judged::judge_sweep(world.sweep_in(vicinity, large, at, 0.1 * way), large, at, 0.1 * way, judged::kFarthest, judge);
+    judged::judge_sweep(sweep_in(world, vicinity, large, at, 0.1 * way), large, at, 0.1 * way, judged::kFarthest,
+                        judge);
     ASSERT_FALSE(HasFatalFailure());
   }
   EXPECT_GT(hits, 1000);
@@ -178,8 +180,8 @@ TEST(Vicinity, OfAnEmptyWorld) {
   for (const World& world : {World(), World::build({}), build(mesh)}) {
     Vicinity vicinity;
     for (const Vec3& at : {Vec3(0.0), Vec3(1e7)}) {
-      EXPECT_FALSE(world.sweep_in(vicinity, {0.3, 0.5}, at, {0.1, 0.0, 0.0}).hit);
-      EXPECT_EQ(world.gap_in(vicinity, {0.3, 0.5}, at, {0.1, 0.0, 0.0}, 0.2), 0.2);
+      EXPECT_FALSE(sweep_in(world, vicinity, {0.3, 0.5}, at, {0.1, 0.0, 0.0}).hit);
+      EXPECT_EQ(gap_in(world, vicinity, {0.3, 0.5}, at, {0.1, 0.0, 0.0}, 0.2), 0.2);
     }
   }
 }
@@ -193,8 +195,8 @@ World floor_at(double height) {
 
 /// How far a ball of 0.1 m comes to be above the floor, asked for in both ways.
 double floor_below(const Space& space, Vicinity& vicinity, const Vec3& at) {
-  const Impact s = space.sweep_in(vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2});
-  const double gap = space.gap_in(vicinity, {0.1, 0.0}, at, Vec3(0.0), 0.25);
+  const Impact s = sweep_in(space, vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2});
+  const double gap = gap_in(space, vicinity, {0.1, 0.0}, at, Vec3(0.0), 0.25);
   EXPECT_TRUE(s.hit);
   EXPECT_NEAR(gap, 0.2 * s.time, 0.03);
   return at.z - 0.1 - 0.2 * s.time;
@@ -222,14 +224,14 @@ TEST(Vicinity, FollowsAWorldThatAnotherIsAssignedTo) {
     EXPECT_NEAR(floor_below(world, vicinity, at), height, 3e-3);
   }
   world = World();
-  EXPECT_FALSE(world.sweep_in(vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2}).hit);
+  EXPECT_FALSE(sweep_in(world, vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2}).hit);
   // A world that moves is the same one.
   world = floor_at(0.0);
   (void)floor_below(world, vicinity, at);
   Vicinity other = vicinity;
-  const Impact before = world.sweep_in(vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2});
+  const Impact before = sweep_in(world, vicinity, {0.1, 0.0}, at, {0.0, 0.0, -0.2});
   const World moved = std::move(world);
-  EXPECT_TRUE(same(moved.sweep_in(other, {0.1, 0.0}, at, {0.0, 0.0, -0.2}), before));
+  EXPECT_TRUE(same(sweep_in(moved, other, {0.1, 0.0}, at, {0.0, 0.0, -0.2}), before));
 }
 
 /// Asks two at once, and wants the same bits.
@@ -239,13 +241,14 @@ struct Twins {
   long hits = 0;
 
   Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) {
-    const Impact a = world.sweep_in(*one, body, from, motion), b = world.sweep_in(*other, body, from, motion);
+    const Impact a = sweep_in(world, *one, body, from, motion), b = sweep_in(world, *other, body, from, motion);
     [&] { ASSERT_TRUE(same(a, b)); }();
     hits += a.hit ? 1 : 0;
     return a;
   }
   double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
-    const double a = world.gap_in(*one, body, from, motion, reach), b = world.gap_in(*other, body, from, motion, reach);
+    const double a = gap_in(world, *one, body, from, motion, reach),
+                 b = gap_in(world, *other, body, from, motion, reach);
     [&] { ASSERT_TRUE(same(a, b)); }();
     return a;
   }
@@ -257,10 +260,10 @@ struct Alone {
   Vicinity& vicinity;
 
   Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) {
-    return world.sweep_in(vicinity, body, from, motion);
+    return sweep_in(world, vicinity, body, from, motion);
   }
   double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
-    return world.gap_in(vicinity, body, from, motion, reach);
+    return gap_in(world, vicinity, body, from, motion, reach);
   }
 };
 
@@ -316,13 +319,13 @@ TEST(Vicinity, ThatWasMovedFromIsAsGoodAsNone) {
     const Vec3 at = course::beside(random, mesh, body), way = 0.1 * random.direction();
     Vicinity none = copy_of_none;
     for (Vicinity* v : {&left, &none}) {
-      ASSERT_TRUE(same(world.sweep_in(*v, body, at, way), world.sweep(body, at, way)));
-      ASSERT_TRUE(same(world.gap_in(*v, body, at, way, 0.1), world.gap(body, at, way, 0.1)));
+      ASSERT_TRUE(same(sweep_in(world, *v, body, at, way), world.sweep(body, at, way)));
+      ASSERT_TRUE(same(gap_in(world, *v, body, at, way, 0.1), world.gap(body, at, way, 0.1)));
     }
   }
-  EXPECT_THROW((void)world.sweep_in(left, {-1.0, 0.0}, Vec3(0.0), Vec3(0.0)), roam::Error);
+  EXPECT_THROW((void)sweep_in(world, left, {-1.0, 0.0}, Vec3(0.0), Vec3(0.0)), roam::Error);
   left = right;
-  (void)world.sweep_in(left, {0.1, 0.0}, Vec3(0.0), {0.1, 0.0, 0.0});
+  (void)sweep_in(world, left, {0.1, 0.0}, Vec3(0.0), {0.1, 0.0, 0.0});
   ASSERT_NE(left.state(), nullptr);
   EXPECT_TRUE(left.state()->complete);
 }
@@ -352,10 +355,10 @@ TEST(Vicinity, DoesNotAllocate) {
   const long before = allocations;
   long hits = 0, near = 0;
   for (const Question& q : questions) {
-    hits += world.sweep_in(vicinity, q.body, q.from, q.motion).hit ? 1 : 0;
-    near += world.gap_in(vicinity, q.body, q.from, q.motion, 0.25) < 0.25 ? 1 : 0;
-    near += world.gap_in(vicinity, q.body, q.from, 10.0 * q.motion, 1.0) < 1.0 ? 1 : 0;
-    hits += other.sweep_in(vicinity, q.body, q.from, q.motion).hit ? 1 : 0;
+    hits += sweep_in(world, vicinity, q.body, q.from, q.motion).hit ? 1 : 0;
+    near += gap_in(world, vicinity, q.body, q.from, q.motion, 0.25) < 0.25 ? 1 : 0;
+    near += gap_in(world, vicinity, q.body, q.from, 10.0 * q.motion, 1.0) < 1.0 ? 1 : 0;
+    hits += sweep_in(other, vicinity, q.body, q.from, q.motion).hit ? 1 : 0;
   }
   EXPECT_EQ(allocations, before);
   EXPECT_GT(hits, 500);
@@ -369,13 +372,13 @@ TEST(Vicinity, IsRefusedWhatSpacesRefuse) {
   EXPECT_NEAR(floor_below(world, vicinity, at), 0.0, 3e-3);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const auto refuses = [&](const Body& body, const Vec3& from, const Vec3& motion) {
-    EXPECT_THROW((void)world.sweep_in(vicinity, body, from, motion), roam::Error);
-    EXPECT_THROW((void)world.gap_in(vicinity, body, from, motion, 0.1), roam::Error);
+    EXPECT_THROW((void)sweep_in(world, vicinity, body, from, motion), roam::Error);
+    EXPECT_THROW((void)gap_in(world, vicinity, body, from, motion, 0.1), roam::Error);
   };
   for (const double bad : {nan, infinity, -1.0, 1001.0}) {
     refuses({bad, 0.0}, at, way);
     refuses({0.1, bad}, at, way);
-    EXPECT_THROW((void)world.gap_in(vicinity, {0.1, 0.0}, at, way, bad), roam::Error);
+    EXPECT_THROW((void)gap_in(world, vicinity, {0.1, 0.0}, at, way, bad), roam::Error);
   }
   for (const double bad : {nan, infinity, -infinity}) {
     refuses({0.1, 0.0}, {0.0, bad, 0.0}, way);

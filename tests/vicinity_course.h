@@ -9,6 +9,7 @@
 #include "clutter.h"
 #include "judged_queries.h"
 #include "roam/space.h"
+#include "world/nearby.h"
 #include "world/vicinity.h"
 
 namespace course {
@@ -19,6 +20,14 @@ using roam::Mesh;
 using roam::Space;
 using roam::Vec3;
 using roam::Vicinity;
+
+inline Impact sweep_in(const Space& space, Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) {
+  return roam::Nearby::sweep(space, vicinity, {body, from, motion});
+}
+inline double gap_in(const Space& space, Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
+                     double reach) {
+  return roam::Nearby::gap(space, vicinity, {body, from, motion}, reach);
+}
 
 /// Bits, not values: -0 is not 0.
 inline bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -114,7 +123,7 @@ class Judged {
   void turn_to(const Space& space) { space_ = &space; }
 
   Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) {
-    const Impact s = space_->sweep_in(vicinity, body, from, motion);
+    const Impact s = sweep_in(*space_, vicinity, body, from, motion);
     SCOPED_TRACE(testing::Message() << "sweep " << tally.sweeps << " after " << tally.gaps << " gaps");
     judged::judge_sweep(s, body, from, motion, farthest_, judge_);
     const Impact without = space_->sweep(body, from, motion);
@@ -126,7 +135,7 @@ class Judged {
     return s;
   }
   double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
-    const double bound = space_->gap_in(vicinity, body, from, motion, reach);
+    const double bound = gap_in(*space_, vicinity, body, from, motion, reach);
     SCOPED_TRACE(testing::Message() << "gap " << tally.gaps << " after " << tally.sweeps << " sweeps");
     judged::judge_gap(bound, body, from, motion, reach, judge_);
     ++tally.gaps;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "roam/collector.h"
 #include "roam/patchwork.h"
 #include "support_scenes.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 using namespace scenes;
 using roam::Box;
-using roam::Contact;
 using roam::PatchId;
 using roam::Patchwork;
 
@@ -170,38 +170,32 @@ TEST(FootUnknown, WhoFallsIsNotHeldByWhatIsBesideTheWay) {
   EXPECT_NEAR(w.feet().z, 0.0, near_ground) << "it came down where the floor is";
 }
 
-/// A world that counts what it is asked, and may not say when it changes.
+/// A world that counts looks for floor, and may not say when it changes.
 class Counting final : public roam::Space {
  public:
   explicit Counting(const Mesh& mesh) : world(build(mesh)) {}
-  [[nodiscard]] roam::Impact sweep(const roam::Body& body, const Vec3& from, const Vec3& motion) const override {
-    return world.sweep(body, from, motion);
+  [[nodiscard]] roam::SpaceFacts facts() const override {
+    roam::SpaceFacts facts = world.facts();
+    facts.revision = tells ? std::optional(changes) : std::nullopt;
+    return facts;
   }
-  std::size_t contacts(const roam::Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override {
-    return world.contacts(body, from, motion, reach, contacts);
-  }
-  [[nodiscard]] roam::Clearance clearance(const roam::Body& body, const Vec3& from, const Vec3& motion,
-                                          double reach) const override {
-    return world.clearance(body, from, motion, reach);
-  }
-  [[nodiscard]] roam::Clearance floor_clearance(const roam::Body& body, const Vec3& place, double reach,
-                                                const roam::Floor& floor) const override {
-    ++asked;
-    return world.floor_clearance(body, place, reach, floor);
-  }
-  [[nodiscard]] Box bounds() const override { return world.bounds(); }
-  [[nodiscard]] double largest_error() const override { return world.largest_error(); }
   [[nodiscard]] std::string object_name(roam::TriangleId triangle) const override {
     return world.object_name(triangle);
   }
-  [[nodiscard]] std::uint64_t revision() const override { return changes; }
-  [[nodiscard]] bool tells_changes() const override { return tells; }
 
   roam::World world;
   std::uint64_t changes = 0;
   bool tells = true;
   mutable int asked = 0;
+
+ protected:
+  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
+    return Space::ask_first_of(world, query, nullptr);
+  }
+  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+    asked += collector.kind() == roam::Collector::Kind::floor_clearance ? 1 : 0;
+    Space::ask_near_of(world, query, collector, nullptr);
+  }
 };
 
 /// Over the middle of a split of 1.25 m, at rest.

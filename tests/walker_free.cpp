@@ -145,12 +145,12 @@ TEST(WalkerFree, AWorldThatIsAssignedIsAnotherWorld) {
     SCOPED_TRACE(testing::Message() << speed << " m/s");
     Mesh mesh = hall();
     World w = build(mesh);
-    const std::uint64_t before = w.revision();
+    const auto before = w.facts().revision;
     Walker walker(w, ball(0.3), Mode::fly, {-2.0, 0.0, 0.0});
     for (int i = 0; i < 5; ++i) walker.step({{0.3, 0.0, 0.0}}, frame);
     mesh = walled_hall(walker.position().x + 0.302);
     w = build(mesh);
-    EXPECT_NE(w.revision(), before);
+    EXPECT_NE(w.facts().revision, before);
     const Judge judge(mesh);
     for (int i = 0; i < 30; ++i) ASSERT_GE(margin(judge, walker.step({{speed, 0.0, 0.0}}, frame), 0.3), 0.0) << i;
   }

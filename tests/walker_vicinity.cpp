@@ -7,22 +7,19 @@
 #include <numbers>
 #include <vector>
 
+#include "roam/collector.h"
 #include "walker_judged.h"
 
 namespace {
 
 using namespace scenes;
-using roam::Body;
-using roam::Box;
-using roam::Clearance;
-using roam::Contact;
-using roam::Impact;
+using roam::Collector;
 using roam::Space;
 using roam::TriangleId;
 using roam::Vicinity;
 using roam::WalkerInput;
 
-/// Passes every question on to a world, with or without what the body keeps, and counts them.
+/// Passes every query on to a world, with or without what the body keeps, and counts them.
 class Counting final : public Space {
  public:
   mutable bool forgets = false;
@@ -30,43 +27,18 @@ class Counting final : public Space {
 
   explicit Counting(const World& world) : world_(world) {}
 
-  [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override {
-    ++sweeps;
-    return world_.sweep(body, from, motion);
-  }
-  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override {
-    return world_.contacts(body, from, motion, reach, contacts);
-  }
-  using Space::clearance;
-  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const override {
-    return world_.clearance(body, from, motion, reach);
-  }
-  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override {
-    ++gaps;
-    return world_.gap(body, from, motion, reach);
-  }
-  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
-                                const Vec3& motion) const override {
-    ++sweeps_in;
-    return forgets ? world_.sweep(body, from, motion) : world_.sweep_in(vicinity, body, from, motion);
-  }
-  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                              double reach) const override {
-    ++gaps_in;
-    return forgets ? world_.gap(body, from, motion, reach) : world_.gap_in(vicinity, body, from, motion, reach);
-  }
-  using Space::floor_clearance;
-  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
-                                          const roam::Floor& floor) const override {
-    return world_.floor_clearance(body, place, reach, floor);
-  }
-  [[nodiscard]] Box bounds() const override { return world_.bounds(); }
-  [[nodiscard]] double largest_error() const override { return world_.largest_error(); }
+  [[nodiscard]] roam::SpaceFacts facts() const override { return world_.facts(); }
   [[nodiscard]] std::string object_name(TriangleId triangle) const override { return world_.object_name(triangle); }
-  [[nodiscard]] std::uint64_t revision() const override { return world_.revision(); }
-  [[nodiscard]] bool tells_changes() const override { return true; }
+
+ protected:
+  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, Vicinity* vicinity) const override {
+    ++(vicinity ? sweeps_in : sweeps);
+    return Space::ask_first_of(world_, query, forgets ? nullptr : vicinity);
+  }
+  void ask_near(const roam::Query& query, Collector& collector, Vicinity* vicinity) const override {
+    if (collector.kind() == Collector::Kind::gap) ++(vicinity ? gaps_in : gaps);
+    Space::ask_near_of(world_, query, collector, forgets ? nullptr : vicinity);
+  }
 
  private:
   const World& world_;

@@ -100,7 +100,7 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   q.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
   const auto place = [](const char* option, const std::vector<double>& value) {
     for (const double v : value) {
-      if (!(std::abs(v) <= Space::coordinate_limit))
+      if (!(std::abs(v) <= coordinate_limit))
         throw UsageError(fmt::format("{}: {} is no coordinate; it must be within 1e9 m of the origin", option, v));
     }
     return Vec3(value[0], value[1], value[2]);

@@ -5,7 +5,7 @@
 ///
 ///     viewer.setCameraManipulator(new osgRoam::Manipulator(scene));
 ///
-/// or, with a roam::Space of one's own (a World, a Patchwork, a SceneSpace):
+/// or, with a roam::Space of one's own (a World, a Patchwork, a Pager):
 ///
 ///     osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
 ///     roamer->setSettings({.radius = 0.25});

@@ -30,7 +30,7 @@ enum LevelOfDetail {
 /// One mesh for each geometry that has triangles, in the order of the graph, with vertices in the frame of `node`'s
 /// parents plus `origin` (metres): where the graph that is drawn is the scene minus an origin, pass that origin. A mesh
 /// is called after the innermost node on the way to it that has a name. Triangles with a vertex that is not finite or
-/// beyond roam::Space::coordinate_limit, or with an index beyond the vertices, are left out.
+/// beyond roam::coordinate_limit, or with an index beyond the vertices, are left out.
 std::vector<roam::Mesh> collectMeshes(osg::Node& node, const osg::Vec3d& origin = osg::Vec3d(),
                                       LevelOfDetail level = FINEST_LEVEL);
 

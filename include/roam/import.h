@@ -78,7 +78,7 @@ struct ImportOptions {
 /// An object that was left out as a whole or in part.
 struct LeftOutObject {
   std::string name;
-  std::uint64_t vertices = 0;   ///< that are not finite or beyond World::coordinate_limit (1e9 m); 0 where ignored
+  std::uint64_t vertices = 0;   ///< that are not finite or beyond coordinate_limit (1e9 m); 0 where ignored
   std::uint64_t triangles = 0;  ///< that had such a corner, or that belong to an ignored object
 };
 

@@ -11,6 +11,9 @@
 
 namespace roam {
 
+/// Largest absolute coordinate of a vertex, in metres.
+inline constexpr double coordinate_limit = 1e9;
+
 /// Three corners, in metres. Points and segments (equal corners) are triangles too.
 using Triangle = std::array<Vec3, 3>;
 

@@ -80,33 +80,19 @@ class Pager final : public LiveSpace {
   /// most. Returns whether it is. For programs that may wait: never for a frame.
   bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead = 0.5);
 
-  [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override;
-  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override;
-  using Space::clearance;
-  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const override;
-  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override;
-  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
-                                const Vec3& motion) const override;
-  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                              double reach) const override;
-  using Space::floor_clearance;
-  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
-                                          const Floor& floor) const override;
-  [[nodiscard]] Box bounds() const override;
-  [[nodiscard]] double largest_error() const override;
-  [[nodiscard]] std::uint64_t revision() const override;
-  [[nodiscard]] bool tells_changes() const override { return true; }
-  /// Metres per second: (ready - radius) / (latency + dt), so that a body comes to rest before what is unknown instead
+  /// The speed limit is (ready - radius) / (latency + dt), so that a body comes to rest before what is unknown instead
   /// of against it. `ready` is how far around the body everything is known (PagerStats::ready_m), `latency` how long a
   /// read takes that is asked for now, s, and dt a step of 1/60 s. Slow, never through.
-  [[nodiscard]] double speed_limit() const override;
+  [[nodiscard]] SpaceFacts facts() const override;
   /// Asks a loading thread and answers "" until it knows: ask again later. Of what is unknown: why.
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;
 
   [[nodiscard]] const Store& store() const;
   [[nodiscard]] PagerStats stats() const;
+
+ protected:
+  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
+  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   struct State;

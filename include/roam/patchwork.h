@@ -102,25 +102,13 @@ class Patchwork final : public LiveSpace {
   /// The same before there is a body.
   bool update();
 
-  [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override;
-  /// An unknown box is one contact: where it is nearest.
-  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override;
-  using Space::clearance;
-  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const override;
-  using Space::floor_clearance;
-  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
-                                          const Floor& floor) const override;
-  /// Of what is known to within error_limit, never less.
-  [[nodiscard]] Box bounds() const override;
-  [[nodiscard]] double largest_error() const override { return error_limit; }
-  [[nodiscard]] std::uint64_t revision() const override;
-  [[nodiscard]] bool tells_changes() const override { return true; }
+  /// The largest error is error_limit.
+  [[nodiscard]] SpaceFacts facts() const override;
   /// Of what is unknown: why, where fail() said it, else "not loaded yet". A number whose patch has gone gives "".
   ///
   /// The number of a triangle is that of its patch times 2^32, and its number in the patch's world: the same for as
-  /// long as the patch is in use and never used again. The sides of an unknown box have numbers of their own.
+  /// long as the patch is in use and never used again. The sides of an unknown box have numbers of their own. To
+  /// Space::contacts() such a box is one contact: where it is nearest. Objects are numbered in each patch's world.
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;
 
   /// The patch that a triangle, or the side of an unknown box, belongs to, and its number in the patch's world.
@@ -128,6 +116,10 @@ class Patchwork final : public LiveSpace {
   [[nodiscard]] static TriangleId triangle_in_patch(TriangleId triangle) { return triangle & 0xFFFFFFFF; }
 
   [[nodiscard]] PatchworkStats stats() const;
+
+ protected:
+  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
+  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   struct State;

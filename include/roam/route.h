@@ -42,6 +42,9 @@ struct RouteOptions {
   /// Seconds of real time, >= 0. Of follow() with a LiveSpace alone: how long it waits for what is not known yet, after
   /// the space has changed last.
   double wait = 10.0;
+  /// The box that a body leaves the scene by coming out of (Outcome::left_scene), where it is another than that of all
+  /// triangles: a larger one for a route that leads beside or over them.
+  std::optional<Box> scene = {};
 };
 
 /// Throws what Route throws.
@@ -51,8 +54,8 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
 enum class Outcome : std::uint8_t {
   reached,  ///< was at every waypoint in turn
   blocked,  ///< no longer came nearer to a waypoint; see RouteOptions::patience
-  /// Fly mode: came out of the box of all triangles by its own size, so that nothing of the scene is near; a route that
-  /// starts outside may come in first. Walk mode: walked over the side of that box and fell.
+  /// Fly mode: came out of the box of the scene (RouteOptions::scene) by its own size, so that nothing of the scene is
+  /// near; a route that starts outside may come in first. Walk mode: walked over the side of that box and fell.
   left_scene,
   fell,  ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
   held,  ///< cannot move: did not fit where it was put, found no ground below, or waits for what is not known (space.h)
@@ -99,7 +102,7 @@ class Route {
   ///
   /// The waypoints are copied. The walker must outlive the route and must not be moved by others meanwhile; its space
   /// is never updated here, which for a LiveSpace is the caller's, between two steps. Throws roam::Error for no
-  /// waypoint, a waypoint that is not finite or beyond Space::coordinate_limit, options out of range, and a walker in
+  /// waypoint, a waypoint that is not finite or beyond coordinate_limit, options out of range, and a walker in
   /// ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
@@ -118,6 +121,7 @@ class Route {
 
   [[nodiscard]] bool limited() const;
   [[nodiscard]] double until_rest(const Vec3& way) const;
+  [[nodiscard]] Box scene() const { return options_.scene ? *options_.scene : walker_->space().bounds(); }
   void start_window();
   void turn_to_next(bool hindered);
   void judge(const StepReport& report, double distance_before, double free_way);
@@ -130,7 +134,7 @@ class Route {
   RouteOptions options_;
   RouteResult result_;
   bool coming_down_ = false;  ///< to the ground, before it goes anywhere
-  bool inside_ = false;       ///< has been in the box of all triangles
+  bool inside_ = false;       ///< has been in the box of the scene
   std::size_t next_ = 1;
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
   Vec3 window_from_{0.0};     ///< where the body was then

@@ -33,7 +33,7 @@ enum class EventKind : std::uint8_t {
   throttled,    ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
   met_unknown,  ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
                 ///< known
-  slowed,       ///< the wish was faster than Space::speed_limit() and was followed at that speed
+  slowed,       ///< the wish was faster than SpaceFacts::speed_limit and was followed at that speed
   narrowed,     ///< became a smaller body, in a region or on command: see Walker::set_regions
   widened,      ///< became a larger one again
   carried,      ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius

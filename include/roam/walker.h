@@ -8,7 +8,7 @@
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
 ///   - the body only moves along straight pieces that the space has certified free: in this step or, in a space that
-///     tells its changes, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
+///     has a revision, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
 ///     triangle. The report has the corners between the pieces, each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
@@ -60,9 +60,9 @@ class Walker {
   /// height away, along a straight way on which a sphere about its centre, as large as the start allows, is certified
   /// to meet nothing: so its centre is never moved to the far side of a wall. Where there is none, in walk mode, it
   /// crouches with its centre there. Else it is held: it stays, every step reports `held`, and only place() and ghost
-  /// mode get it away, or a change of the space: when its Space::revision() has grown, the next step goes on as if the
-  /// body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as it
-  /// is known there the next step goes on likewise, in spaces without revisions too.
+  /// mode get it away, or a change of the space: when its revision (SpaceFacts) is another, the next step goes on as if
+  /// the body had been put there then. A body that is held by what is not known yet also says `met_unknown`; as soon as
+  /// it is known there the next step goes on likewise, in spaces without revisions too.
   ///
   /// `centre` is half the height above the feet: a centre on the floor is a body that stands to the waist in it, held
   /// or freed sideways. See place_feet().

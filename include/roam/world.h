@@ -26,9 +26,6 @@
 
 namespace roam {
 
-/// The running number of a mesh, in the order in which they were passed to World::build.
-using ObjectId = std::uint32_t;
-
 /// What a build may be told. The defaults suit everybody.
 struct BuildOptions {
   int threads = 0;  ///< worker threads, at most one per core; 0: one per core. Does not change a bit of the result.
@@ -65,32 +62,19 @@ class World final : public Space {
   /// or beyond coordinate_limit and for an index out of range, naming mesh and triangle.
   [[nodiscard]] static World build(std::span<const Mesh> meshes, const BuildOptions& options = {});
 
-  [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const override;
-  std::size_t contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                       std::span<Contact> contacts) const override;
-  using Space::clearance;
-  [[nodiscard]] Clearance clearance(const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const override;
-  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const override;
-  [[nodiscard]] Impact sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from,
-                                const Vec3& motion) const override;
-  [[nodiscard]] double gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                              double reach) const override;
-  using Space::floor_clearance;
-  [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach,
-                                          const Floor& floor) const override;
-  [[nodiscard]] Box bounds() const override;
-  [[nodiscard]] double largest_error() const override { return stats().largest_error_m; }
+  /// No two worlds of a process that were built have the same revision, so that one which another is assigned to is
+  /// known to have changed. The number itself means nothing.
+  [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] std::string object_name(TriangleId triangle) const override;
-  /// No two worlds of a process that were built have the same, so that one which another is assigned to is known to
-  /// have changed. The number itself means nothing.
-  [[nodiscard]] std::uint64_t revision() const override;
-  [[nodiscard]] bool tells_changes() const override { return true; }
 
   [[nodiscard]] const WorldStats& stats() const;
   /// The object that a triangle belongs to. Throws roam::Error for a number that no triangle of this world has, such as
   /// that of a miss.
   [[nodiscard]] ObjectId object(TriangleId triangle) const;
+
+ protected:
+  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
+  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   friend class Patchwork;  // asks many worlds as one

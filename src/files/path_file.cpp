@@ -13,7 +13,7 @@
 namespace roam {
 namespace {
 
-// Metres, or seconds of a recording: no scene lies farther out (World::coordinate_limit).
+// Metres, or seconds of a recording: no scene lies farther out (coordinate_limit).
 constexpr double largest_number = 1e9;
 
 constexpr std::size_t waypoint_numbers = 3;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -71,7 +71,7 @@ void Assembler::take_vertices(std::span<const std::byte> payload) {
   for (const Vec3& v : vertices) {
     for (int k = 0; k < 3; ++k) {
       // False for a NaN too.
-      if (!(std::abs(v[k]) <= World::coordinate_limit)) throw StreamDamaged{"a vertex that is not finite"};
+      if (!(std::abs(v[k]) <= coordinate_limit)) throw StreamDamaged{"a vertex that is not finite"};
     }
   }
   vertices_ += vertices.size();

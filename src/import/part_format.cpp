@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "import/stream_receiver.h"
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -93,7 +93,7 @@ class Reader {
 };
 
 /// Both ends of a scene and its origin, and what rounding adds.
-constexpr double place_limit = 4.0 * World::coordinate_limit;
+constexpr double place_limit = 4.0 * coordinate_limit;
 
 void check_place(const Vec3& v) {
   // False for a NaN too.

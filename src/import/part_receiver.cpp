@@ -6,7 +6,7 @@
 
 #include "import/part_format.h"
 #include "roam/error.h"
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -50,8 +50,8 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
     part_.bounds.lower[k] = header.lower[k];
     part_.bounds.upper[k] = header.upper[k];
     // False for a NaN too. Pages state their bounds themselves, so that these may be too large.
-    constexpr double limit = 4.0 * World::coordinate_limit;
-    if (!(std::abs(header.origin[k]) <= World::coordinate_limit && std::abs(header.lower[k]) <= limit &&
+    constexpr double limit = 4.0 * coordinate_limit;
+    if (!(std::abs(header.origin[k]) <= coordinate_limit && std::abs(header.lower[k]) <= limit &&
           std::abs(header.upper[k]) <= limit && header.lower[k] <= header.upper[k])) {
       throw StreamDamaged{"a part without a place"};
     }

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -57,8 +57,8 @@ void PieceReceiver::take_vertices(std::span<const std::byte> payload) {
   vertices_ += fresh.size();
   // False for a NaN too.
   const bool good = std::all_of(fresh.begin(), fresh.end(), [](const Vec3& v) {
-    return (std::abs(v.x) <= World::coordinate_limit) & (std::abs(v.y) <= World::coordinate_limit) &
-           (std::abs(v.z) <= World::coordinate_limit);
+    return (std::abs(v.x) <= coordinate_limit) & (std::abs(v.y) <= coordinate_limit) &
+           (std::abs(v.z) <= coordinate_limit);
   });
   if (!good) throw StreamDamaged{"a vertex that is not finite"};
 }

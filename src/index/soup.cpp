@@ -7,7 +7,7 @@
 
 #include "math/largest.h"
 #include "roam/error.h"
-#include "roam/world.h"
+#include "roam/mesh.h"
 #include "text/printable.h"
 
 namespace roam::index {
@@ -31,7 +31,7 @@ Soup::Soup(std::span<const Mesh> meshes) : meshes_(meshes) {
                       std::to_string(mesh.vertices.size()) + " vertices");
         }
         const Vec3& p = mesh.vertices[v];
-        if (!(largest(p) <= World::coordinate_limit) || std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z)) {
+        if (!(largest(p) <= coordinate_limit) || std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z)) {
           throw Error("cannot build a world: vertex " + std::to_string(v) + " of " + title(meshes, m) +
                       " is not finite or farther than 1e9 m from the origin; leave out triangle " + std::to_string(i) +
                       ", or check the unit of the data");

@@ -13,7 +13,7 @@ namespace roam::index {
 /// A view of the meshes that a world is built from: triangle i is triangle i - first(m) of the mesh m that holds it.
 class Soup {
  public:
-  /// Throws roam::Error for an index out of range, a vertex that is not finite or beyond World::coordinate_limit, and
+  /// Throws roam::Error for an index out of range, a vertex that is not finite or beyond coordinate_limit, and
   /// for more than 2^32 - 1 triangles.
   explicit Soup(std::span<const Mesh> meshes);
 

@@ -36,7 +36,7 @@ class Attendant {
     const auto update = [&] { return space_.update(walker_.body(), walker_.position(), walker_.velocity()); };
     bool changed = update();
     if (changed) vain_ = false;
-    const auto stopped = [&] { return space_.speed_limit() < crawling * options_.speed; };
+    const auto stopped = [&] { return space_.facts().speed_limit < crawling * options_.speed; };
     if (walker_.report().met_unknown || stopped()) {
       // What came just now may be what it met: a step will tell.
       if (!changed) changed = wait_for(update, [&] { return stopped() || !changed_; });
@@ -44,7 +44,7 @@ class Attendant {
     }
     // No faster than in life where that is what makes it slow.
     const auto begin = Clock::now();
-    while (space_.speed_limit() < options_.speed && seconds_since(begin) < options_.dt) {
+    while (space_.facts().speed_limit < options_.speed && seconds_since(begin) < options_.dt) {
       std::this_thread::sleep_for(between_updates);
       update();
     }

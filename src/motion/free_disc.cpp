@@ -1,9 +1,10 @@
+#include "motion/free_disc.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "math/floating_point.h"
-#include "motion/free_disc.h"
 
 namespace roam {
 namespace {

@@ -140,7 +140,7 @@ double Move::look_along(const Vec3& motion) {
   }
   const bool in_the_open = same_body && ball.gap >= reach;
   const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
-  const double gap = space.gap_in(vicinity, body(), place, motion, look);
+  const double gap = Nearby::gap(space, vicinity, {body(), place, motion}, look);
   if (gap > free_gap) {
     ball = {place + motion, gap, length, settings.radius, height};
     // What is near may be so at the far end of the way.
@@ -220,6 +220,7 @@ void Move::touch(const Impact& contact, double gap) {
   c.feature = contact.feature;
   c.distance = gap;
   c.triangle = contact.triangle;
+  c.object = contact.object;
   c.unknown = contact.unknown;
   report.met_unknown |= c.unknown;
   // The last touched stands last, and once.

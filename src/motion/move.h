@@ -5,8 +5,8 @@
 #include "motion/known.h"
 #include "roam/space.h"
 #include "roam/step_report.h"
-#include "roam/vicinity.h"
 #include "roam/walker_settings.h"
+#include "world/nearby.h"
 
 namespace roam::walking {
 
@@ -80,7 +80,9 @@ class Move : public Mover, public Whereabouts {
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
   [[nodiscard]] double feet() const { return place.z - 0.5 * height; }
   /// The first impact of the body on its way along `motion`.
-  [[nodiscard]] Impact sweep(const Vec3& motion) const { return space.sweep_in(vicinity, body(), place, motion); }
+  [[nodiscard]] Impact sweep(const Vec3& motion) const {
+    return Nearby::sweep(space, vicinity, {body(), place, motion});
+  }
   /// How far the body gets along `motion`. It stops where the gap to the plane of the contact is `skin`: the skin is
   /// measured along the normal, not along the way, or a grazing body would stop far off and a frontal one near. A body
   /// that is nearer than the skin already does not advance towards that plane; along it and away it does.

@@ -29,8 +29,7 @@ constexpr double tall_person = 2.0;
 constexpr double straight_on = 0.99997;
 
 bool within_limit(const Vec3& v) {  // false for what is not a number
-  return std::abs(v.x) <= Space::coordinate_limit && std::abs(v.y) <= Space::coordinate_limit &&
-         std::abs(v.z) <= Space::coordinate_limit;
+  return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
 }
 
 /// Whether a body is at home in a box: in it, or not farther out than its own size.
@@ -124,7 +123,7 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   result_.add_placement(start);
   result_.waypoints = 1;
   result_.end = walker.position();
-  inside_ = inside(result_.end, walker.space().bounds(), walker.body());
+  inside_ = inside(result_.end, scene(), walker.body());
   filter_.append(result_.events, 0, start);
   start_window();
   coming_down_ = walker.mode() == Mode::walk && !walker.stance().level && walker.settings().gravity > 0.0;
@@ -205,7 +204,7 @@ const StepReport& Route::advance() {
 }
 
 void Route::judge(const StepReport& report, double distance_before, double free_way) {
-  const Box scene = walker_->space().bounds();
+  const Box scene = this->scene();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(Outcome::held);

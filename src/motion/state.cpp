@@ -57,7 +57,7 @@ Vec3 Walker::State::velocity() const {
 
 /// The wish, no faster than the space can follow.
 WalkerInput Walker::State::slowed(const WalkerInput& input) {
-  const double limit = space_->speed_limit(), speed = glm::length(input.velocity);
+  const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
   WalkerInput out = input;
   if (speed > limit) {
     out.velocity *= limit / speed;
@@ -71,10 +71,11 @@ walking::Move Walker::State::under_way() {
 }
 
 void Walker::State::begin() {
-  if (!space_->tells_changes() || space_->revision() != known_at_) at_.known.forget();
+  const std::optional<std::uint64_t> revision = space_->facts().revision;
+  if (!revision || *revision != known_at_) at_.known.forget();
   at_.known.touching = !report_.contacts.empty();
   at_.known.fit = walking::Fit::known;
-  known_at_ = space_->revision();
+  known_at_ = revision.value_or(0);
   report_.corners.clear();
   report_.contacts.clear();
   report_.events.clear();
@@ -151,7 +152,7 @@ bool Walker::State::embedded() const {
 bool Walker::State::in_unknown() const { return space_->clearance(body(), at_.place, 0.0).unknown; }
 
 void Walker::State::look_again() {
-  const std::uint64_t now = space_->revision();
+  const std::uint64_t now = space_->facts().revision.value_or(0);
   const bool changed = now != looked_at_ || resized_;
   looked_at_ = now;
   resized_ = false;
@@ -238,12 +239,12 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
     }
   } else {
-    const bool changed = space_->revision() != looked_at_;
+    const bool changed = space_->facts().revision.value_or(0) != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
     const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
     if (!held() && changed && way * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
-      looked_at_ = space_->revision();
+      looked_at_ = space_->facts().revision.value_or(0);
       resized_ = false;
     } else if (held() || changed) {
       look_again();
@@ -362,7 +363,7 @@ bool Walker::State::resize(double radius, double support_radius) {
     walking::adapt(m, gait_, sizes);
     at_ = m;
     // The new body may fit where something came upon the old one.
-    if (space_->revision() != looked_at_) look_again();
+    if (space_->facts().revision.value_or(0) != looked_at_) look_again();
     resized_ = true;
   }
   finish();
@@ -383,7 +384,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   pace_ = Vec3(0.0);
   release();
   safe_.height = ground_.height = 0.0;
-  looked_at_ = space_->revision();
+  looked_at_ = space_->facts().revision.value_or(0);
   put(at + Vec3(0.0, 0.0, lift * at_.height), 0.0);
   report_.events.push({EventKind::placed, at_.place});
   if (mode_ != Mode::ghost) fit_in();

@@ -7,7 +7,6 @@
 #include "math/floating_point.h"
 #include "motion/ground.h"
 #include "motion/state.h"
-#include "roam/walker.h"
 
 namespace roam::walking {
 namespace {
@@ -66,10 +65,11 @@ bool has_floor(const Space& space, double slope_degrees, double band, const Floo
 /// The same as carrying(), which is asked where it was not asked just now. The answer stays in the gait.
 bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& place) {
   const Size size{m.settings.radius, m.settings.support_radius};
-  FootAnswer asked{place, m.height, size, plane, m.space.revision()};
+  const std::optional<std::uint64_t> revision = m.space.facts().revision;
+  FootAnswer asked{place, m.height, size, plane, revision.value_or(0)};
   if (!gait.foot.lasts || !gait.foot.same_question(asked)) {
     asked.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place, gait.disc);
-    asked.lasts = m.space.tells_changes();
+    asked.lasts = revision.has_value();
     gait.foot = asked;
   }
   return gait.foot.carrying != Carrying::no;

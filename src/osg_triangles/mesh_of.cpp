@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "osg_triangles/primitives.h"
-#include "roam/space.h"
 
 namespace roam::osg_triangles {
 namespace {
@@ -59,8 +58,8 @@ class Collector {
 
 bool is_usable(const Vec3& vertex) {
   // Written so that a NaN is not usable.
-  return std::abs(vertex.x) <= Space::coordinate_limit && std::abs(vertex.y) <= Space::coordinate_limit &&
-         std::abs(vertex.z) <= Space::coordinate_limit;
+  return std::abs(vertex.x) <= coordinate_limit && std::abs(vertex.y) <= coordinate_limit &&
+         std::abs(vertex.z) <= coordinate_limit;
 }
 
 Mesh mesh_of(const osg::Geometry& geometry, const osg::Matrixd& to_world, std::uint64_t& left_out) {

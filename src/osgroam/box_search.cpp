@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "affine.h"
-#include "local_triangle.h"
 #include "osg_triangles/mesh_of.h"
 #include "vectors.h"
 
@@ -128,7 +127,7 @@ void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corner
 }
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {
-  const roam::certified::LocalTriangle local = seen_from(from_, triangle);
+  const roam::certified::LocalTriangle local = roam::certified::seen_from(from_, triangle);
   // Settles most of what a box lets through.
   if (roam::certified::plane_separates(below_._body, motion_, local)) return;
   const double end = below_._intersectionLimit == LIMIT_NEAREST && !root_._intersections.empty()

@@ -6,7 +6,7 @@
 #include "affine.h"
 #include "math/largest.h"
 #include "roam/error.h"
-#include "roam/space.h"
+#include "roam/mesh.h"
 #include "vectors.h"
 
 namespace osgRoam {
@@ -24,7 +24,7 @@ roam::Box boxOf(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix) {
   // The second is of the arithmetic here, in doubles: a dozen roundings of all that is added.
   const double rounding = sphereRounding * stretch * size + 0x1p-48 * (stretch * size + matrix.getTrans().length());
   const double radius = sphere.radius() * stretch + rounding;
-  constexpr double limit = roam::Space::coordinate_limit;
+  constexpr double limit = roam::coordinate_limit;
   roam::Box box;
   for (int k = 0; k < 3; ++k) {
     box.lower[k] = std::max(centre[k] - radius, -limit);

@@ -17,7 +17,7 @@ inline constexpr double sphereRounding = 32.0 * 0x1p-24;
 [[nodiscard]] bool isFinite(const osg::Matrixd& matrix);
 
 /// The box of a sphere brought into the frame that `matrix` leads to, as far as it lies within
-/// roam::Space::coordinate_limit. Empty for a sphere without a size, where it is nowhere within the limit, and where
+/// roam::coordinate_limit. Empty for a sphere without a size, where it is nowhere within the limit, and where
 /// sphere or matrix are not finite.
 [[nodiscard]] roam::Box boxOf(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix);
 

@@ -9,7 +9,7 @@
 #include "index/binary_tree.h"
 #include "index/collapse.h"
 #include "index/partition.h"
-#include "roam/space.h"
+#include "roam/mesh.h"
 
 namespace roam::store {
 namespace {
@@ -29,7 +29,7 @@ static_assert(sizeof(Header) == 128);
 constexpr char kMagic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
 
 /// Metres. Boxes hold what is stored too, which may lie a little beyond the limit of what is read.
-constexpr double kFarthest = Space::coordinate_limit * 1.001;
+constexpr double kFarthest = coordinate_limit * 1.001;
 
 bool finite(const double (&v)[3]) {
   return std::abs(v[0]) <= kFarthest && std::abs(v[1]) <= kFarthest && std::abs(v[2]) <= kFarthest;

@@ -5,10 +5,9 @@
 #include <string>
 
 #include "math/floating_point.h"
-#include "math/largest.h"
 #include "roam/error.h"
-#include "sweep/certified.h"
 #include "sweep/error_bound.h"
+#include "sweep/seen_from.h"
 #include "text/number.h"
 
 namespace roam {
@@ -40,12 +39,6 @@ void check(const Body& body, const Vec3& from, const Vec3& motion, const Triangl
   }
 }
 
-/// Subtraction is the only rounding: at most unit_roundoff of each difference.
-certified::LocalTriangle seen_from(const Vec3& origin, const Triangle& t) {
-  const Vec3 a = t[0] - origin, b = t[1] - origin, c = t[2] - origin;
-  return {{a, b, c}, certified::unit_roundoff * std::max({largest(a), largest(b), largest(c)})};
-}
-
 }  // namespace
 
 const char* name(Feature feature) {
@@ -63,7 +56,7 @@ const char* name(Feature feature) {
 SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
   const DefaultFloatingPoint guard;
   check(body, from, motion, triangle);
-  const certified::LocalTriangle local = seen_from(from, triangle);
+  const certified::LocalTriangle local = certified::seen_from(from, triangle);
   SweepResult result = certified::sweep(body, motion, local, 0.0, 1.0, 0.0);
   if (result.hit) {
     result.point += from;
@@ -76,7 +69,7 @@ SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const 
 Proximity proximity(const Body& body, const Vec3& place, const Triangle& triangle) {
   const DefaultFloatingPoint guard;
   check(body, place, Vec3(0.0), triangle);
-  Proximity result = certified::proximity(body, seen_from(place, triangle));
+  Proximity result = certified::proximity(body, certified::seen_from(place, triangle));
   result.point += place;
   return result;
 }

@@ -143,6 +143,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   data->stats.tiles = data->tiles.size;
   data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +
                       data->first.size() * sizeof(std::uint64_t);
+  data->index = data->view();
   World world;
   world.data_ = std::move(data);
   return world;

@@ -2,6 +2,7 @@
 /// \file
 /// What a World holds: the arenas of all tiles, the tree over them, and what the triangles are called.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -42,6 +43,9 @@ struct WorldData {
   std::vector<std::uint64_t> first;  ///< the number of the first triangle of each mesh, and the count of all
   std::vector<std::string> names;    ///< of the meshes
 
+  /// Everything above as queries see it. Set when that is complete.
+  index::Index index;
+
   [[nodiscard]] index::Index view() const {
     return {.top = blocks.items.get(),
             .tiles = tiles.items.get(),
@@ -50,6 +54,11 @@ struct WorldData {
             .ids = ids.items.get(),
             .grid = grid,
             .absent = nullptr};
+  }
+  /// The object of one of its triangles.
+  [[nodiscard]] ObjectId object(std::uint64_t triangle) const {
+    if (first.size() == 2) return 0;
+    return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;
   }
 };
 

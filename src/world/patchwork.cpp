@@ -46,21 +46,32 @@ struct Failed {
 };
 using Message = std::variant<Expected, Delivered, Failed>;
 
-Sweep swept(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
-  const double around = body.radius + reach + Patchwork::margin;
-  return {from, motion, {around, around, around + body.half_height}};
+Sweep reached(const Query& query, double reach) {
+  const double around = query.body.radius + reach + Patchwork::margin;
+  return {query.from, query.motion, {around, around, around + query.body.half_height}};
 }
 
 /// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
-query::Way part(const Body& body, const Vec3& from, const Vec3& motion, const Interval& when) {
-  if (largest(motion) <= index::kLongestPiece) return {body, from, motion};
-  return {body, from, motion, when.begin, when.end};
+query::Part part(const Query& query, const Interval& when) {
+  return largest(query.motion) <= index::kLongestPiece ? query::Part{} : query::Part{when.begin, when.end};
+}
+
+/// What is met of a box of which nothing is known.
+FirstImpact met_unknown(const Box& box, const Query& query) {
+  const Impact met = unknown::sweep(box, Patchwork::margin, query.body, query.from, query.motion);
+  FirstImpact first;
+  if (!met.hit) return first;
+  first.hit = first.unknown = true;
+  first.time = met.time;
+  first.triangle = met.triangle;
+  first.contact = Contact{{met.point, met.normal, met.feature, met.distance}, met.triangle, no_object, true};
+  return first;
 }
 
 /// Whether `a` is met before `b`. At the start the deepest counts: that is what to get out of.
-bool earlier(const Impact& a, const Impact& b) {
+bool earlier(const FirstImpact& a, const FirstImpact& b) {
   if (a.time != b.time) return a.time < b.time;
-  if (a.time == 0.0 && a.distance != b.distance) return a.distance < b.distance;
+  if (a.time == 0.0 && a.contact->distance != b.contact->distance) return a.contact->distance < b.contact->distance;
   return a.triangle < b.triangle;
 }
 
@@ -124,7 +135,7 @@ struct Patchwork::State {
   bool update(const Patchwork& self, const Body* body, const Vec3& place) {
     const DefaultFloatingPoint guard;
     // What throws must do so before the messages are taken: nobody sends them twice.
-    if (body) query::check(*body, place, Vec3(0.0));
+    if (body) query::check({*body, place});
     std::vector<Message> messages;
     {
       const std::lock_guard lock(mutex);
@@ -150,23 +161,29 @@ struct Patchwork::State {
   }
 
   /// Offers the collector everything within its reach of the way.
-  void collect(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-               query::Collector& collector) const {
+  void collect(const Query& query, Collector& collector) const {
     // Which part of the way is looked at must not depend on what was found before, or the last bits would, too.
-    const Sweep whole = swept(body, from, motion, reach);
-    Sweep look = swept(body, from, motion, collector.reach());
+    const Sweep whole = reached(query, collector.asked());
+    Sweep look = whole;
     tree.near(look, [&](std::uint32_t index, const Interval&) {
       const Patch& patch = patches[index];
       if (patch.world) {
         const WorldData& data = *patch.world->data_;
-        query::collect(data, part(body, from, motion, whole.meets(data.reach)), first_id(index), collector);
-      } else if (collector.takes_unknown(patch.where, body.radius, margin)) {
-        Contact c = unknown::nearest(patch.where, margin, body, from, motion);
+        query::collect(data, query, part(query, whole.meets(data.reach)), first_id(index), collector);
+      } else if (collector.takes_unknown(patch.where, query.body.radius, margin)) {
+        Contact c = unknown::nearest(patch.where, margin, query.body, query.from, query.motion);
         c.triangle += first_id(index) + kFirstSide;
         collector.offer(c, margin);
       }
-      look = swept(body, from, motion, collector.reach());
+      look = reached(query, collector.reach());
     });
+    for (Contact& c : collector.kept()) {
+      if (!c.unknown) c.object = world(c.triangle).object(triangle_in_patch(c.triangle));
+    }
+  }
+  /// The world of a patch in use that a triangle is of.
+  [[nodiscard]] const WorldData& world(TriangleId triangle) const {
+    return *patches[static_cast<std::uint32_t>(static_cast<std::uint64_t>(patch(triangle)) - 1)].world->data_;
   }
 };
 
@@ -218,50 +235,34 @@ bool Patchwork::update(const Body& body, const Vec3& place) { return state_->upd
 
 bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
 
-Impact Patchwork::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
-  const DefaultFloatingPoint guard;
-  query::check(body, from, motion);
+FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) const {
   const State& s = *state_;
-  Impact first;
+  FirstImpact first;
   double until = 1.0;
-  s.tree.along(swept(body, from, motion, 0.0), until, [&](std::uint32_t index, const Interval& when) {
+  s.tree.along(reached(query, 0.0), until, [&](std::uint32_t index, const Interval& when) {
     const Patch& patch = s.patches[index];
-    Impact impact = patch.world ? query::first_impact(*patch.world->data_, part(body, from, motion, when))
-                                : unknown::sweep(patch.where, margin, body, from, motion);
-    impact.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
-    if (!impact.hit || (first.hit && !earlier(impact, first))) return;
-    first = impact;
+    FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, part(query, when))
+                                  : met_unknown(patch.where, query);
+    met.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
+    if (!met.hit || (first.hit && !earlier(met, first))) return;
+    first = met;
     until = first.time;
   });
   return first;
 }
 
-std::size_t Patchwork::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                                std::span<Contact> contacts) const {
-  const DefaultFloatingPoint guard;
-  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
-    state_->collect(body, from, way, reach, collector);
-  });
-}
-
-Clearance Patchwork::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
+void Patchwork::ask_near(const Query& query, Collector& collector, Vicinity* /*vicinity*/) const {
+  if (const FirstImpact* const only = collector.only()) {
+    return query::collect_one(state_->world(only->triangle).index, query, collector);
+  }
   // With a tolerance the last digits would depend on the order in which patches came.
-  return query::clearance_of(body, from, motion, reach, 0.0, [&](const Vec3& way, query::Collector& collector) {
-    state_->collect(body, from, way, reach, collector);
-  });
+  collector.demand(0.0);
+  state_->collect(query, collector);
 }
 
-Clearance Patchwork::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
-  const DefaultFloatingPoint guard;
-  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
-    state_->collect(body, place, way, reach, collector);
-  });
+SpaceFacts Patchwork::facts() const {
+  return {.bounds = state_->tree.bounds(), .largest_error = error_limit, .revision = state_->revision};
 }
-
-Box Patchwork::bounds() const { return state_->tree.bounds(); }
-
-std::uint64_t Patchwork::revision() const { return state_->revision; }
 
 std::string Patchwork::object_name(TriangleId triangle) const {
   const Patches& patches = state_->patches;

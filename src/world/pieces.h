@@ -14,36 +14,37 @@ namespace roam::query {
 
 class Pieces {
  public:
-  explicit Pieces(const Way& way)
-      : way_(way),
-        span_(way.end - way.begin),
-        count_(std::max(1, static_cast<int>(std::ceil(span_ * largest(way.motion) / index::kLongestPiece)))) {
+  /// The query must live as long.
+  Pieces(const Query& way, const Part& part) : way_(way), begin_(part.begin), span_(part.end - part.begin) {
+    const double length = span_ * largest(way.motion);
+    if (length > index::kLongestPiece) count_ = static_cast<int>(std::ceil(length / index::kLongestPiece));
+    is_whole_ = count_ == 1 && span_ == 1.0;
+    if (is_whole_) return;
     // Starts of later pieces are rounded: three roundings of coordinates no larger than this. Where the pieces cover
     // only a part of the way, ten.
     const double reach = largest(way.from) + largest(way.motion);
-    if (span_ != 1.0) {
-      way_.body.radius += 0x1p-48 * reach;
-    } else if (count_ > 1) {
-      way_.body.radius += 0x1p-50 * reach;
-    }
+    grown_ = (span_ != 1.0 ? 0x1p-48 : 0x1p-50) * reach;
   }
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] index::Piece operator[](int i) const {
-    if (count_ == 1 && span_ == 1.0) return {way_.body, way_.from, way_.motion};
-    return {way_.body, way_.from + way_.motion * (way_.begin + span_ * (double(i) / count_)),
+    if (is_whole_) return {way_.body, way_.from, way_.motion};
+    return {{way_.body.radius + grown_, way_.body.half_height},
+            way_.from + way_.motion * (begin_ + span_ * (double(i) / count_)),
             way_.motion * span_ / double(count_)};
   }
   /// The time of the whole motion, rounded down.
   [[nodiscard]] double time(int i, double piece_time) const {
-    if (span_ != 1.0) return std::max(0.0, (way_.begin + span_ * ((i + piece_time) / count_)) * (1.0 - 0x1p-49));
-    return count_ == 1 ? piece_time : std::max(0.0, (i + piece_time) / count_ * (1.0 - 0x1p-51));
+    if (is_whole_) return piece_time;
+    if (span_ != 1.0) return std::max(0.0, (begin_ + span_ * ((i + piece_time) / count_)) * (1.0 - 0x1p-49));
+    return std::max(0.0, (i + piece_time) / count_ * (1.0 - 0x1p-51));
   }
 
  private:
-  Way way_;
-  double span_;
-  int count_;
+  const Query& way_;
+  double begin_, span_, grown_ = 0.0;
+  int count_ = 1;
+  bool is_whole_;
 };
 
 }  // namespace roam::query

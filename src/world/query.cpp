@@ -1,15 +1,9 @@
 #include "world/query.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <string>
 
-#include "index/tile_builder.h"
-#include "math/floating_point.h"
-#include "math/largest.h"
-#include "roam/error.h"
-#include "text/number.h"
+#include "roam/world.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
 
@@ -20,21 +14,6 @@ namespace {
 /// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
 /// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
 constexpr float kTight = 2.5e-4F;
-
-/// Metres. The longest motion of one query.
-constexpr double kMotionLimit = 1e6;
-
-[[noreturn]] void refuse(const std::string& what) { throw Error("cannot answer a query: " + what); }
-
-[[noreturn]] void refuse_length(double value, double limit, const char* name) {
-  refuse(std::string(name) + " is " + number_text(value) + " m; it must be between 0 and " +
-         std::to_string(static_cast<long>(limit)) + " m");
-}
-
-/// Small enough to be compiled into its callers.
-void check_length(double value, double limit, const char* name) {
-  if (!(value >= 0.0 && value <= limit)) refuse_length(value, limit, name);
-}
 
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
 /// whole steps of the grids would not fit an integer.
@@ -50,19 +29,15 @@ bool meets(const Box& box, const index::Piece& piece, double reach) {
   return true;
 }
 
-bool nearer(const Contact& a, const Contact& b) {
-  return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
-}
-
 std::span<const index::Root> all_of(const index::Roots& roots) {
   return {roots.root.data(), static_cast<std::size_t>(roots.count)};
 }
 
-/// One world, as impact_of and collect_of ask it.
+/// One world, as first_of and collect_of ask it.
 class WorldScene {
  public:
   WorldScene(const WorldData& world, TriangleId base, const index::Roots* roots)
-      : world_(world), index_(world.view()), base_(base), roots_(roots) {}
+      : world_(world), index_(world.index), base_(base), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece) {
     if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
@@ -71,8 +46,15 @@ class WorldScene {
     place_ = impact.place;
     return impact.hit ? std::optional(impact.time) : std::nullopt;
   }
+  [[nodiscard]] bool name(FirstImpact& first) const {
+    first.triangle = number_at(index_, place_);
+    first.place = {place_.tile, place_.leaf, place_.triangle, 0};
+    return true;
+  }
   [[nodiscard]] Contact touched(const index::Piece& at_rest) const {
-    return contact_at(index_, at_rest, place_, base_);
+    Contact c = contact_at(index_, at_rest, place_);
+    c.triangle = number_at(index_, place_);
+    return c;
   }
   void near(const index::Piece& piece, Collector& collector) const {
     if (!meets(world_.reach, piece, collector.reach())) return;
@@ -85,25 +67,17 @@ class WorldScene {
 
  private:
   const WorldData& world_;
-  index::Index index_;
+  const index::Index& index_;
   TriangleId base_;
   const index::Roots* roots_;
   index::Place place_;
 };
 
-/// Where the body comes nearest to a triangle that is, or is a part of, the stored one at `place`.
+/// The same of a triangle that is, or is a part of, the stored one at `place`.
 Contact contact_with(const certified::LocalTriangle& triangle, const index::Index& index, const index::Piece& piece,
-                     const index::Place& place, TriangleId base) {
-  const index::Tile& tile = index.tiles[place.tile];
-  const index::Leaf& leaf = index.blocks[place.leaf].leaf;
-  Contact c;
-  static_cast<Proximity&>(c) = piece.motion == Vec3(0.0)
-                                   ? certified::proximity(piece.body, triangle)
-                                   : certified::approach(piece.body, piece.motion, triangle, 0.0, 1.0).proximity;
-  c.point += piece.start;
-  c.distance -= index::stored_error(tile);
-  c.triangle = base + (index.ids ? index::read_id(index.ids + tile.ids, leaf, static_cast<int>(place.triangle))
-                                 : (TriangleId{place.tile} << index::kTileTriangleBits | (leaf.ids + place.triangle)));
+                     const index::Place& place) {
+  Contact c = query::contact_with(triangle, piece.body, piece.start, piece.motion);
+  c.distance -= index::stored_error(index.tiles[place.tile]);
   return c;
 }
 
@@ -113,6 +87,12 @@ struct Visitor {
   const index::Piece& piece;
   TriangleId base;
   Collector& collector;
+
+  void offer(const certified::LocalTriangle& triangle, const index::Place& place, double doubt) const {
+    Contact c = contact_with(triangle, index, piece, place);
+    c.triangle = base + number_at(index, place);
+    collector.offer(c, doubt);
+  }
 
   static double visit(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
@@ -134,10 +114,10 @@ struct Visitor {
     const double doubt = 2.0 * index::stored_error(tile);
     if (const FloorOnly* const floor = v.collector.floor()) {
       for (const auto& part : floor->pieces(triangle)) {
-        v.collector.offer(contact_with(part, v.index, v.piece, place, v.base), doubt);
+        v.offer(part, place, doubt);
       }
     } else {
-      v.collector.offer(contact_with(triangle, v.index, v.piece, place, v.base), doubt);
+      v.offer(triangle, place, doubt);
     }
     return v.collector.enough();
   }
@@ -145,53 +125,8 @@ struct Visitor {
 
 }  // namespace
 
-void check(const Body& body, const Vec3& from, const Vec3& motion) {
-  check_length(body.radius, World::reach_limit, "the radius");
-  check_length(body.half_height, World::reach_limit, "the half height");
-  if (!std::isfinite(from.x) || !std::isfinite(from.y) || !std::isfinite(from.z)) refuse("the place is not finite");
-  if (!std::isfinite(motion.x) || !std::isfinite(motion.y) || !std::isfinite(motion.z)) {
-    refuse("the motion is not finite");
-  }
-  check_length(largest(motion), kMotionLimit, "the motion's largest component");
-}
-
-void check_reach(double reach) { check_length(reach, World::reach_limit, "the reach"); }
-
-void Collector::offer(const Contact& c, double doubt) {
-  if (c.distance <= reach_ && !known(c)) {
-    if (count_ < out_.size()) {
-      out_[count_++] = c;
-      std::push_heap(out_.begin(), end(), nearer);
-    } else if (nearer(c, out_[0])) {
-      std::pop_heap(out_.begin(), end(), nearer);
-      out_[count_ - 1] = c;
-      std::push_heap(out_.begin(), end(), nearer);
-    }
-  }
-  // What is farther than the farthest of a full list need not be looked at.
-  if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
-  enough_ = std::min(enough_, reach_);
-  if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {
-    const double told = bounds_only_ ? c.distance + doubt : c.distance;
-    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, told * (1.0 - part_)));
-  }
-}
-
-void Collector::sort() { std::sort_heap(out_.begin(), end(), nearer); }
-
-bool Collector::known(const Contact& c) {
-  if (!repeats_) return false;
-  const auto same = std::find_if(out_.begin(), end(), [&](const Contact& o) { return o.triangle == c.triangle; });
-  if (same == end()) return false;
-  if (nearer(c, *same)) {
-    *same = c;
-    std::make_heap(out_.begin(), end(), nearer);
-  }
-  return true;
-}
-
-Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place, TriangleId base) {
-  return contact_with(index::local_triangle(index, place, piece.start), index, piece, place, base);
+Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place) {
+  return contact_with(index::local_triangle(index, place, piece.start), index, piece, place);
 }
 
 namespace {
@@ -214,89 +149,53 @@ void visit_near(const index::Index& index, std::span<const index::Root> roots, c
       index::visit_near(index, roots, piece, collector.enough(), part_of(collector), &Visitor::visit, &visitor));
 }
 
-void collect(const WorldData& world, const Way& way, TriangleId base, Collector& collector, const index::Roots* roots) {
-  collect_of(WorldScene(world, base, roots), way, collector);
+void collect(const WorldData& world, const Query& query, const Part& part, TriangleId base, Collector& collector,
+             const index::Roots* roots) {
+  collect_of(WorldScene(world, base, roots), query, part, collector);
 }
 
-Impact first_impact(const WorldData& world, const Way& way, const index::Roots* roots) {
+void collect_one(const index::Index& index, const Query& query, Collector& collector) {
+  const FirstImpact& first = *collector.only();
+  Contact c =
+      contact_at(index, {query.body, query.from, query.motion}, {first.place[0], first.place[1], first.place[2]});
+  c.triangle = first.triangle;
+  collector.offer(c);
+}
+
+FirstImpact first_impact(const WorldData& world, const Query& query, const Part& part, const index::Roots* roots) {
   WorldScene scene(world, 0, roots);
-  return impact_of(scene, way);
-}
-
-Clearance clearance_of(const Contact* nearest, double reach) {
-  Clearance result;
-  result.distance = reach;
-  if (!nearest) return result;
-  static_cast<Proximity&>(result) = *nearest;
-  result.found = true;
-  result.triangle = nearest->triangle;
-  result.unknown = nearest->unknown;
-  return result;
+  FirstImpact first = first_of(scene, query, part);
+  if (!first.hit) return first;
+  first.object = world.object(first.triangle);
+  if (first.contact) first.contact->object = first.object;
+  return first;
 }
 
 }  // namespace query
 
 namespace {
 
-/// Where the search in a world begins.
-const index::Roots* of_world(Vicinity& vicinity, const WorldData& world, const Body& body, const Vec3& from,
-                             const Vec3& motion, double reach) {
-  const Question question{body, from, motion, reach, world.stats.largest_error_m, world.revision};
-  return roots_in(vicinity, question, [&](const Box& box, index::Roots& out) {
-    return world.reach.empty() || index::gather(world.view(), 0, box, out);
+/// Where the search in a world begins: null, with everything.
+const index::Roots* roots_of(const WorldData& world, Vicinity* vicinity, const Query& query, double reach) {
+  if (vicinity == nullptr) return nullptr;
+  const Question question{query.body, query.from, query.motion, reach, world.stats.largest_error_m, world.revision};
+  return roots_in(*vicinity, question, [&](const Box& box, index::Roots& out) {
+    return world.reach.empty() || index::gather(world.index, 0, box, out);
   });
 }
 
 }  // namespace
 
-Impact World::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
-  const DefaultFloatingPoint guard;
-  query::check(body, from, motion);
-  return query::first_impact(*data_, {body, from, motion});
+FirstImpact World::ask_first(const Query& query, Vicinity* vicinity) const {
+  return query::first_impact(*data_, query, {}, roots_of(*data_, vicinity, query, query::hit_reach));
 }
 
-std::size_t World::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                            std::span<Contact> contacts) const {
-  const DefaultFloatingPoint guard;
-  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, from, way}, 0, collector);
-  });
-}
-
-Clearance World::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  const double tolerance = query::clearance_tolerance_of(data_->lossless);
-  return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, from, way}, 0, collector);
-  });
-}
-
-double World::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, from, way}, 0, collector);
-  });
-}
-
-Impact World::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
-  const DefaultFloatingPoint guard;
-  query::check(body, from, motion);
-  return query::first_impact(*data_, {body, from, motion},
-                             of_world(vicinity, *data_, body, from, motion, query::hit_reach));
-}
-
-double World::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, from, way}, 0, collector, of_world(vicinity, *data_, body, from, way, reach));
-  });
-}
-
-Clearance World::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
-  const DefaultFloatingPoint guard;
-  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
-    query::collect(*data_, {body, place, way}, 0, collector);
-  });
+void World::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+  if (collector.only() != nullptr) return query::collect_one(data_->index, query, collector);
+  if (data_->lossless) collector.demand(query::lossless_tolerance);
+  query::collect(*data_, query, {}, 0, collector, roots_of(*data_, vicinity, query, collector.asked()));
+  if (collector.bounds_only()) return;
+  for (Contact& c : collector.kept()) c.object = data_->object(c.triangle);
 }
 
 }  // namespace roam

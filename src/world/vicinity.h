@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "index/roots.h"
-#include "roam/space.h"
+#include "world/nearby.h"
 
 namespace roam {
 

@@ -22,9 +22,9 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-std::uint64_t World::revision() const { return data_->revision; }
-
-Box World::bounds() const { return data_->bounds; }
+SpaceFacts World::facts() const {
+  return {.bounds = data_->bounds, .largest_error = data_->stats.largest_error_m, .revision = data_->revision};
+}
 
 const WorldStats& World::stats() const { return data_->stats; }
 
@@ -34,7 +34,7 @@ ObjectId World::object(TriangleId triangle) const {
     throw Error("the world has " + std::to_string(first.back()) + " triangles, and none with the number " +
                 (triangle == no_triangle ? "of a miss" : std::to_string(triangle)) + "; ask of a hit only");
   }
-  return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;
+  return data_->object(triangle);
 }
 
 std::string World::object_name(TriangleId triangle) const {

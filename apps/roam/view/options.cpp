@@ -271,9 +271,9 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.height = height;
   if (!options.at.empty()) {
     for (const double x : options.at) {
-      if (!(std::abs(x) <= Space::coordinate_limit)) {
-        throw UsageError(fmt::format("--at: {:g} is no number from {:g} to {:g}", x, -Space::coordinate_limit,
-                                     Space::coordinate_limit));
+      if (!(std::abs(x) <= coordinate_limit)) {
+        throw UsageError(
+            fmt::format("--at: {:g} is no number from {:g} to {:g}", x, -coordinate_limit, coordinate_limit));
       }
     }
     const auto value = [&](std::size_t i) { return i < options.at.size() ? options.at[i] : 0.0; };

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -65,8 +65,7 @@ std::size_t slot_of(const Vec3& v) {
 
 bool good(const Vec3& v) {
   // Written so that a NaN is not good.
-  return std::abs(v.x) <= World::coordinate_limit && std::abs(v.y) <= World::coordinate_limit &&
-         std::abs(v.z) <= World::coordinate_limit;
+  return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
 }
 
 }  // namespace
@@ -357,7 +356,7 @@ void MeshSink::report_progress(std::uint64_t bytes_read) {
 
 void MeshSink::say_what_was_rounded() {
   const double largest = largest_rounded_ * settings_.metres_per_unit;
-  if (!(largest <= World::coordinate_limit)) return;
+  if (!(largest <= coordinate_limit)) return;
   // Neighbouring floats at x are up to x * 2^-23 apart; a millimetre of that is worth a word.
   const double spacing = std::ldexp(largest, -std::numeric_limits<float>::digits + 1);
   constexpr double worth_telling = 1e-3;

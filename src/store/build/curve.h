@@ -11,7 +11,7 @@
 
 namespace roam::store {
 
-/// The curve over all that World::coordinate_limit allows: see CurveKey.
+/// The curve over all that coordinate_limit allows: see CurveKey.
 struct AbsoluteCurve {
   using Key = CurveKey;
   static constexpr int kAxisBits = 41;

@@ -89,7 +89,7 @@ MetCells sweep_cells(const TileEntry& tile, const index::Piece& piece, double un
   return met;
 }
 
-void near_cells(const TileEntry& tile, const index::Piece& piece, TriangleId base, query::Collector& collector) {
+void near_cells(const TileEntry& tile, const index::Piece& piece, TriangleId base, Collector& collector) {
   int far_side = 0;
   for (int k = 0; k < 3; ++k) far_side |= piece.start[k] > 0.5 * (tile.lower[k] + tile.upper[k]) ? 1 << k : 0;
   visit_cells(

@@ -25,7 +25,7 @@ struct MetCells {
 [[nodiscard]] MetCells sweep_cells(const store::TileEntry& tile, const index::Piece& piece, double until);
 
 /// Offers the collector all cells within its reach of the way. Sides are numbered from `base`.
-void near_cells(const store::TileEntry& tile, const index::Piece& piece, TriangleId base, query::Collector& collector);
+void near_cells(const store::TileEntry& tile, const index::Piece& piece, TriangleId base, Collector& collector);
 
 /// The body's way and all that is within its radius, Pager::margin and `reach` of it.
 [[nodiscard]] Sweep way_around(const index::Piece& piece, double reach);

@@ -22,8 +22,8 @@ constexpr double trusted_part = 0.25;
 /// The gap between the body's surface and the nearest thing that is still to come, or `reach`.
 double gap(const Residents& residents, const Traveller& t, double reach) {
   Contact nearest;
-  query::Collector collector(reach, {&nearest, 1}, false);
-  query::collect_of(PagedScene(residents, PagedScene::What::coming), {t.body(), t.place(), Vec3(0.0)}, collector);
+  Collector collector(Collector::Kind::contacts, reach, {&nearest, 1});
+  query::collect_of(PagedScene(residents, PagedScene::What::coming), {t.body(), t.place()}, {}, collector);
   return collector.count() > 0 ? std::max(0.0, nearest.distance) : reach;
 }
 

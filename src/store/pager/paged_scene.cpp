@@ -14,7 +14,7 @@ static_assert(index::kTileTriangleBits == store::triangle_bits);
 struct Asking {
   const Residents& residents;
   const index::Piece& piece;
-  query::Collector* collector = nullptr;
+  Collector* collector = nullptr;
   bool only_coming = false;
   std::uint32_t page = 0;
   Cells met;
@@ -118,13 +118,29 @@ std::optional<double> PagedScene::first_of_roots(const index::Piece& piece) {
   return hit ? std::optional(until) : std::nullopt;
 }
 
+bool PagedScene::name(FirstImpact& first) const {
+  if (!known_) return false;
+  const index::Absent none{};
+  first.triangle = page_base(page_) + query::number_at(residents_.view(residents_.page(page_), none), place_);
+  first.place = {place_.tile, place_.leaf, place_.triangle, page_};
+  return true;
+}
+
 Contact PagedScene::touched(const index::Piece& at_rest) const {
   if (!known_) return near_box(box_, at_rest, base_);
   const index::Absent none{};
-  return query::contact_at(residents_.view(residents_.page(page_), none), at_rest, place_, page_base(page_));
+  const index::Index index = residents_.view(residents_.page(page_), none);
+  Contact c = query::contact_at(index, at_rest, place_);
+  c.triangle = page_base(page_) + query::number_at(index, place_);
+  return c;
 }
 
-void PagedScene::near(const index::Piece& piece, query::Collector& collector) const {
+index::Index index_of(const Residents& residents, const FirstImpact& first) {
+  const index::Absent none{};
+  return residents.view(residents.page(first.place[3]), none);
+}
+
+void PagedScene::near(const index::Piece& piece, Collector& collector) const {
   if (roots_ != nullptr) {
     const index::Absent none{};
     each_page(*roots_, [&](std::uint32_t number, std::span<const index::Root> roots) {

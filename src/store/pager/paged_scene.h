@@ -26,8 +26,9 @@ class PagedScene {
   PagedScene(const Residents& residents, const index::Roots* roots) : residents_(residents), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece);
+  [[nodiscard]] bool name(FirstImpact& first) const;
   [[nodiscard]] Contact touched(const index::Piece& at_rest) const;
-  void near(const index::Piece& piece, query::Collector& collector) const;
+  void near(const index::Piece& piece, Collector& collector) const;
 
  private:
   std::optional<double> first_of_roots(const index::Piece& piece);
@@ -42,5 +43,8 @@ class PagedScene {
   Box box_;
   TriangleId base_ = 0;
 };
+
+/// The index that holds what a first impact touches, which PagedScene has named.
+[[nodiscard]] index::Index index_of(const Residents& residents, const FirstImpact& first);
 
 }  // namespace roam::paging

@@ -124,9 +124,8 @@ struct Pager::State {
   void count(const Thing& thing, bool comes);
   [[nodiscard]] bool take(const Message& message, const Traveller& traveller);
   [[nodiscard]] bool exchange(const Traveller& traveller, double& latency);
-  /// What a body asks that keeps what lies around it.
-  [[nodiscard]] PagedScene scene_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                                    double reach) const;
+  /// What a query of `reach` (m) sees.
+  [[nodiscard]] PagedScene scene(const Query& query, double reach, Vicinity* vicinity) const;
 };
 
 /// Keeps the counters when something comes into use, or goes.
@@ -221,7 +220,7 @@ Pager::~Pager() = default;
 
 bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
   const DefaultFloatingPoint guard;
-  query::check(body, place, Vec3(0.0));
+  query::check({body, place});
   if (!std::isfinite(velocity.x + velocity.y + velocity.z)) {
     throw Error("cannot update a pager: the velocity is not finite");
   }
@@ -250,75 +249,33 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
   }
 }
 
-Impact Pager::sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
-  const DefaultFloatingPoint guard;
-  query::check(body, from, motion);
-  PagedScene scene(state_->residents);
-  return query::impact_of(scene, {body, from, motion});
-}
-
-std::size_t Pager::contacts(const Body& body, const Vec3& from, const Vec3& motion, double reach,
-                            std::span<Contact> contacts) const {
-  const DefaultFloatingPoint guard;
-  const PagedScene scene(state_->residents);
-  return query::contacts_of(body, from, motion, reach, contacts, [&](const Vec3& way, query::Collector& collector) {
-    query::collect_of(scene, {body, from, way}, collector);
-  });
-}
-
-Clearance Pager::clearance(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  const PagedScene scene(state_->residents);
-  const double tolerance = query::clearance_tolerance_of(state_->store->info().lossless);
-  return query::clearance_of(body, from, motion, reach, tolerance, [&](const Vec3& way, query::Collector& collector) {
-    query::collect_of(scene, {body, from, way}, collector);
-  });
-}
-
-double Pager::gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  const PagedScene scene(state_->residents);
-  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
-    query::collect_of(scene, {body, from, way}, collector);
-  });
-}
-
-PagedScene Pager::State::scene_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
-                                  double reach) const {
-  const Question question{body, from, motion, reach, store->info().largest_error_m, revision};
-  return {residents, roots_in(vicinity, question,
+PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicinity) const {
+  if (vicinity == nullptr) return PagedScene(residents);
+  const Question question{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
+  return {residents, roots_in(*vicinity, question,
                               [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
 }
 
-Impact Pager::sweep_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion) const {
-  const DefaultFloatingPoint guard;
-  query::check(body, from, motion);
-  PagedScene scene = state_->scene_in(vicinity, body, from, motion, query::hit_reach);
-  return query::impact_of(scene, {body, from, motion});
+FirstImpact Pager::ask_first(const Query& query, Vicinity* vicinity) const {
+  PagedScene scene = state_->scene(query, query::hit_reach, vicinity);
+  return query::first_of(scene, query);
 }
 
-double Pager::gap_in(Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-  const DefaultFloatingPoint guard;
-  return query::gap_of(body, from, motion, reach, [&](const Vec3& way, query::Collector& collector) {
-    query::collect_of(state_->scene_in(vicinity, body, from, way, reach), {body, from, way}, collector);
-  });
+void Pager::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+  if (const FirstImpact* const only = collector.only()) {
+    return query::collect_one(index_of(state_->residents, *only), query, collector);
+  }
+  if (state_->store->info().lossless) collector.demand(query::lossless_tolerance);
+  query::collect_of(state_->scene(query, collector.asked(), vicinity), query, {}, collector);
 }
 
-Clearance Pager::floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const {
-  const DefaultFloatingPoint guard;
-  const PagedScene scene(state_->residents);
-  return query::floor_clearance_of(body, place, reach, floor, [&](const Vec3& way, query::Collector& collector) {
-    query::collect_of(scene, {body, place, way}, collector);
-  });
+SpaceFacts Pager::facts() const {
+  const auto& info = state_->store->info();
+  return {.bounds = info.bounds,
+          .largest_error = info.largest_error_m,
+          .revision = state_->revision,
+          .speed_limit = state_->governor.limit()};
 }
-
-Box Pager::bounds() const { return state_->store->info().bounds; }
-
-double Pager::largest_error() const { return state_->store->info().largest_error_m; }
-
-std::uint64_t Pager::revision() const { return state_->revision; }
-
-double Pager::speed_limit() const { return state_->governor.limit(); }
 
 std::string Pager::object_name(TriangleId triangle) const {
   return triangle == no_triangle ? std::string() : state_->names.ask(triangle);

@@ -36,7 +36,7 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
   };
   for (const auto& [end, p] : {std::pair("start", from), std::pair("end", to)}) {
     for (int k = 0; k < 3; ++k)
-      if (!(std::abs(p[k]) <= Space::coordinate_limit))
+      if (!(std::abs(p[k]) <= coordinate_limit))
         refuse(fmt::format("its {} is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin", end, p.x, p.y,
                            p.z));
   }

@@ -13,7 +13,6 @@
 #include "roam/standing.h"
 #include "ways/probe/search.h"
 #include "ways/trials/on_way.h"
-#include "ways/trials/open_space.h"
 
 namespace roam {
 
@@ -66,9 +65,10 @@ ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const Pr
   // Flying, an end may lie over the scene or beside it.
   Box box;
   for (const Vec3& place : path) box.include(place);
-  const OpenSpace space(survey.world(), question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
-  Walker walker(space, probed_body(question, answer.size, survey.slope_degrees()), question.mode, path.front());
-  const RouteResult result = follow(walker, path);
+  const Box scene = survey.world().bounds().grown(question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(survey.world(), probed_body(question, answer.size, survey.slope_degrees()), question.mode,
+                path.front());
+  const RouteResult result = follow(walker, path, {.scene = scene});
   ProbeWalk walk{result.outcome, result.end, Vec3(0.0)};
   // Where the ground ended, not how deep it was then.
   for (const RouteEvent& e : result.events) {
@@ -168,7 +168,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   }
   for (const auto& [end, place] : {std::pair("from", question.from), std::pair("to", question.to)}) {
     for (int k = 0; k < 3; ++k) {
-      if (!(std::abs(place[k]) <= Space::coordinate_limit))
+      if (!(std::abs(place[k]) <= coordinate_limit))
         throw Error(
             fmt::format("cannot probe: \"{}\" is ({:g}, {:g}, {:g}); it must be a point within 1e9 m of the origin",
                         end, place.x, place.y, place.z));

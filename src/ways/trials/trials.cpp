@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "ways/trials/open_space.h"
-
 namespace roam::ways {
 
 namespace {
@@ -88,9 +86,9 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   // Flying, the way may lead over the scene and beside it.
   Box box;
   for (const Vec3& place : centres) box.include(place);
-  const OpenSpace space(survey.world(), kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);
-  Walker walker(space, settings, kind.mode, centres.front());
-  Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt});
+  const Box scene = survey.world().bounds().grown(kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  Walker walker(survey.world(), settings, kind.mode, centres.front());
+  Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt, .scene = scene});
   const RouteResult& result = route.result();
   const bool fits = !was_put_aside(result, centres.front());
   const double most_steps = patience * free_steps(way, kind.speed);

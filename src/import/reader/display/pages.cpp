@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "roam/world.h"
+#include "roam/mesh.h"
 
 namespace roam::reader {
 namespace {
@@ -61,12 +61,12 @@ Vec3 vec3(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
 bool is_place(const osg::Vec3d& v) {
   // Written so that a NaN is none.
-  return std::abs(v.x()) <= World::coordinate_limit && std::abs(v.y()) <= World::coordinate_limit &&
-         std::abs(v.z()) <= World::coordinate_limit;
+  return std::abs(v.x()) <= coordinate_limit && std::abs(v.y()) <= coordinate_limit &&
+         std::abs(v.z()) <= coordinate_limit;
 }
 
 /// Written so that a NaN is none.
-bool is_length(double length) { return length >= 0.0 && length <= 2.0 * World::coordinate_limit; }
+bool is_length(double length) { return length >= 0.0 && length <= 2.0 * coordinate_limit; }
 
 }  // namespace
 
