@@ -42,7 +42,7 @@ TEST(ProbeText, SaysNotShownWhereTheWalkerContradictsTheWay) {
                                                               {Outcome::held, "was held at (9.00, 0.25, 0.00)"}};
   for (const auto& [outcome, how] : outcomes) {
     const ProbeAnswer answer = wide_enough(outcome);
-    const std::string text = explain(question, answer);
+    const std::string text = words::explain(question, answer);
     EXPECT_TRUE(text.starts_with("Not shown: ")) << text;
     EXPECT_TRUE(contains(text, how)) << text;
     const app::Json json = app::json_report(answer, false);
@@ -59,10 +59,10 @@ TEST(ProbeText, SaysOfFlyingThatTheWalkerLeftTheScene) {
   flying.mode = Mode::fly;
   ProbeAnswer answer = wide_enough(Outcome::left_scene);
   answer.size.height = 0.6;
-  const std::string text = explain(flying, answer);
+  const std::string text = words::explain(flying, answer);
   EXPECT_TRUE(text.starts_with("Not shown: ") && contains(text, "left the scene at (9.00, 0.25, 0.90)")) << text;
   // On foot it fell over the side of the scene.
-  EXPECT_TRUE(explain(question, wide_enough(Outcome::left_scene)).starts_with("No: "));
+  EXPECT_TRUE(words::explain(question, wide_enough(Outcome::left_scene)).starts_with("No: "));
 }
 
 TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
@@ -70,7 +70,7 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.size = {0.3, 1.8};
   answer.passage.complete = false;
   answer.passage.places = 4'000'000;
-  const std::string text = explain(question, answer);
+  const std::string text = words::explain(question, answer);
   EXPECT_TRUE(text.starts_with("Not known: ")) << text;
   EXPECT_TRUE(contains(text, "ended after 4000000 places")) << text;
   EXPECT_FALSE(contains(text, "There is no way")) << text;
@@ -82,11 +82,11 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.limit->size = 0.4;
   answer.limit->needed = 0.6;
   answer.missing = 0.2;
-  const std::string narrow = explain(question, answer);
+  const std::string narrow = words::explain(question, answer);
   EXPECT_TRUE(narrow.starts_with("No: ") && contains(narrow, "A wider way may exist")) << narrow;
   // Nothing wider leads off an end that has no room.
   answer.limit->kind = Kind::start;
-  EXPECT_FALSE(contains(explain(question, answer), "may exist")) << explain(question, answer);
+  EXPECT_FALSE(contains(words::explain(question, answer), "may exist")) << words::explain(question, answer);
 }
 
 /// Of a body that no way was found for, where none for a radius over 0.1252 m exists.
@@ -106,14 +106,14 @@ TEST(ProbeText, SaysThatNobodyPassesOnlyWhereThatIsCertified) {
   for (const bool apart : {true, false}) {
     if (!apart) answer.limit.reset();
     answer.passage.bound = 0.1252;
-    const std::string text = explain(question, answer);
+    const std::string text = words::explain(question, answer);
     EXPECT_TRUE(contains(text, "No way was found, not even for a radius of 0.050 m")) << text;
     EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified;")) << text;
     EXPECT_TRUE(contains(text, "openings under 0.14 m may be overlooked")) << text;
     EXPECT_FALSE(contains(text, "no way at all") || contains(text, "That is certified")) << text;
     EXPECT_FALSE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
     answer.passage.bound = 0.05;
-    const std::string shut = explain(question, answer);
+    const std::string shut = words::explain(question, answer);
     EXPECT_TRUE(contains(shut, "There is no way at all") && contains(shut, "That is certified.")) << shut;
   }
   EXPECT_TRUE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
@@ -123,7 +123,7 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   ProbeAnswer answer = none_found();
   answer.passage.complete = false;
   answer.passage.places = 84'571;
-  const std::string text = explain(question, answer);
+  const std::string text = words::explain(question, answer);
   EXPECT_TRUE(text.starts_with("No: ")) << text;
   EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << text;
   EXPECT_TRUE(contains(text, "ended after 84571 places")) << text;
@@ -137,7 +137,7 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   answer.limit->size = 0.2;
   answer.limit->needed = 0.6;
   answer.missing = 0.4;
-  const std::string narrow = explain(question, answer);
+  const std::string narrow = words::explain(question, answer);
   EXPECT_TRUE(contains(narrow, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << narrow;
 }
 
@@ -157,7 +157,7 @@ TEST(ProbeText, TellsTheBoundOfABodyThatMayStillGetThrough) {
   answer.size = {0.402, 0.804};
   answer.passage.proven = true;
   answer.passage.bound = 0.404;
-  const std::string text = explain(question, answer);
+  const std::string text = words::explain(question, answer);
   EXPECT_TRUE(contains(text, "That none for a radius over 0.404 m exists is certified.")) << text;
 }
 

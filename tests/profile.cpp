@@ -1,6 +1,5 @@
 // The profile beside a scene: written whole, read strictly, and only for the scene that it was trained on.
 #include "roam/profile.h"
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -10,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "roam/store.h"
+#include "roam/store.h"
 
 namespace {
 

@@ -219,7 +219,9 @@ TEST(Training, RecommendsNoFootForATrenchThatNoneHelpsOver) {
     const bool helps = depth > 0.25;
     EXPECT_EQ(t.support_radius > 0.0, helps) << depth << ": " << answer(t);
     ASSERT_EQ(t.trench.has_value(), !helps) << depth << ": " << answer(t);
-    if (t.trench) EXPECT_NEAR(t.trench->crack.radius, 0.6, 1e-3);
+    if (t.trench) {
+      EXPECT_NEAR(t.trench->crack.radius, 0.6, 1e-3);
+    }
     EXPECT_TRUE(t.contradictions.empty()) << depth << ": " << answer(t);
   }
 }

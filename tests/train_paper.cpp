@@ -15,16 +15,16 @@ using roam::Trial;
 using roam::Vec3;
 using roam::training::adjust_radius;
 using roam::training::PaperOptions;
-using roam::training::PaperResult;
+using roam::training::PaperRun;
 using roam::ways::BodyKind;
-using Ending = PaperResult::Ending;
+using Ending = PaperRun::Ending;
 
 /// A path that bodies of [smallest, largest] pass.
 struct Limits {
   double smallest, largest;
 };
 
-PaperResult adjust(const std::vector<Limits>& paths, const PaperOptions& options = {}) {
+PaperRun adjust(const std::vector<Limits>& paths, const PaperOptions& options = {}) {
   return adjust_radius(paths.size(), options, [&](std::size_t path, double radius) {
     Trial trial{.radius = radius, .path = path};
     if (radius < paths[path].smallest) trial.outcome = Outcome::fell;
@@ -34,7 +34,7 @@ PaperResult adjust(const std::vector<Limits>& paths, const PaperOptions& options
 }
 
 TEST(AdjustedRadius, StaysWhereEveryPathIsPassedAtOnce) {
-  const PaperResult r = adjust({{0.0, 1.0}, {0.1, 0.5}, {0.29, 0.31}});
+  const PaperRun r = adjust({{0.0, 1.0}, {0.1, 0.5}, {0.29, 0.31}});
   EXPECT_EQ(r.ending, Ending::settled);
   EXPECT_DOUBLE_EQ(r.radius, 0.3);
   EXPECT_EQ(r.trials.size(), 3u);
@@ -43,10 +43,10 @@ TEST(AdjustedRadius, StaysWhereEveryPathIsPassedAtOnce) {
 }
 
 TEST(AdjustedRadius, GoesDownWhereABodyCannotEnterAndUpWhereItFliesOff) {
-  const PaperResult down = adjust({{0.0, 0.2}});
+  const PaperRun down = adjust({{0.0, 0.2}});
   EXPECT_EQ(down.ending, Ending::settled);
   EXPECT_LE(down.radius, 0.2);
-  const PaperResult up = adjust({{0.7, 1.0}});
+  const PaperRun up = adjust({{0.7, 1.0}});
   EXPECT_EQ(up.ending, Ending::settled);
   EXPECT_GE(up.radius, 0.7);
 }
@@ -54,7 +54,7 @@ TEST(AdjustedRadius, GoesDownWhereABodyCannotEnterAndUpWhereItFliesOff) {
 TEST(AdjustedRadius, RoamsEarlierPathsAgainWithWhatALaterOneChanged) {
   // The second path asks for more than the first takes at once: between them 0.5 to 0.55 is left.
   const std::vector<Limits> paths{{0.0, 0.55}, {0.5, 1.0}};
-  const PaperResult r = adjust(paths);
+  const PaperRun r = adjust(paths);
   ASSERT_EQ(r.ending, Ending::settled);
   EXPECT_GE(r.radius, 0.5);
   EXPECT_LE(r.radius, 0.55);
@@ -67,7 +67,7 @@ TEST(AdjustedRadius, RoamsEarlierPathsAgainWithWhatALaterOneChanged) {
 }
 
 TEST(AdjustedRadius, NamesTheTwoTrialsThatContradictEachOther) {
-  const PaperResult r = adjust({{0.0, 0.4}, {0.625, 1.0}});
+  const PaperRun r = adjust({{0.0, 0.4}, {0.625, 1.0}});
   EXPECT_EQ(r.ending, Ending::contradiction);
   ASSERT_TRUE(r.fallen && r.blocked);
   EXPECT_EQ(r.blocked->path, 0u);
@@ -83,14 +83,14 @@ TEST(AdjustedRadius, EndsWhereNotEvenTheSmallestEntersOrTheLargestIsCarried) {
 TEST(AdjustedRadius, TriesEachPathTwentyTimesAtMost) {
   PaperOptions options;
   options.precision = 0.0;
-  const PaperResult r = adjust({{0.4, 0.4 - 1e-9}}, options);
+  const PaperRun r = adjust({{0.4, 0.4 - 1e-9}}, options);
   EXPECT_EQ(r.ending, Ending::out_of_trials);
   EXPECT_EQ(r.trials.size(), 20u);
 }
 
 TEST(AdjustedRadius, EndsWhenItIsToldTo) {
   int asked = 0;
-  const PaperResult r = adjust_radius(3, {}, [&](std::size_t path, double radius) -> std::optional<Trial> {
+  const PaperRun r = adjust_radius(3, {}, [&](std::size_t path, double radius) -> std::optional<Trial> {
     if (++asked == 2) return std::nullopt;
     return Trial{.radius = radius, .path = path};
   });
@@ -145,7 +145,7 @@ TEST(ATrial, FliesWithoutFalling) {
 
 TEST(ThePapersProcedure, SettlesBetweenTheSplitAndTheDoor) {
   const Survey survey = corridor({.door = 1.2, .split = 0.8});
-  const PaperResult r = adjust_radius(1, {}, [&](std::size_t path, double radius) {
+  const PaperRun r = adjust_radius(1, {}, [&](std::size_t path, double radius) {
     Trial trial = tried(survey, radius, corridor_way);
     trial.path = path;
     return std::optional(trial);
@@ -159,7 +159,7 @@ TEST(ThePapersProcedure, SettlesBetweenTheSplitAndTheDoor) {
 
 TEST(ThePapersProcedure, FindsNoRadiusWhereTheSplitIsWiderThanTheDoor) {
   const Survey survey = corridor({.door = 0.8, .split = 1.25});
-  const PaperResult r = adjust_radius(
+  const PaperRun r = adjust_radius(
       1, {}, [&](std::size_t, double radius) { return std::optional(tried(survey, radius, corridor_way)); });
   EXPECT_EQ(r.ending, Ending::contradiction);
 }

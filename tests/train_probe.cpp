@@ -248,7 +248,7 @@ TEST(Probe, SaysANoInWordsWhereNothingIsNearEnoughToBeNamed) {
   const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
   EXPECT_FALSE(answer.passable || answer.passage.found);
   EXPECT_FALSE(answer.limit);
-  const std::string said = explain(question, answer);
+  const std::string said = words::explain(question, answer);
   EXPECT_TRUE(said.starts_with("No: ") && contains(said, "No way was found")) << said;
   EXPECT_TRUE(contains(said, "nor come near each other")) << said;
 }

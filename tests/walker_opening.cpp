@@ -52,13 +52,13 @@ TEST(MeasuredOpening, IsTheDoorThatIsTooNarrow) {
 }
 
 TEST(MeasuredOpening, IsTheLintelThatIsTooLow) {
-  Person person({.door = 1.5, .lintel = 1.4});
+  Person person({.door = 1.5, .lintel = 1.6});
   person.walk(8.0);
   ASSERT_TRUE(person.walker.report().blocked);
   const auto opening = roam::measure_opening(person.walker, ahead);
   ASSERT_TRUE(opening);
   EXPECT_EQ(opening->kind, Opening::Kind::lintel);
-  EXPECT_NEAR(opening->width, 1.4, 0.02);
+  EXPECT_NEAR(opening->width, 1.6, 0.02);
   EXPECT_NEAR(std::abs(opening->direction.z), 1.0, 1e-3);
 }
 
