@@ -18,7 +18,7 @@ struct Opening {
 /// A contact is what the opening is measured from when it is within this many of the body's skins.
 inline constexpr double opening_skins = 4.0;
 
-/// What stands most against the way of all that a step touched, the ground included; null where that is nothing.
+/// The contact of a step, the ground included, whose normal points most against the way; null where there is none.
 [[nodiscard]] const Contact* most_against(const StepReport& report, const Vec3& way);
 
 /// The opening ahead of a blocked body, see Blockage::opening: the least distance of two points that the body touches
