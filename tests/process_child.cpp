@@ -33,7 +33,7 @@ class Script : public Child {
       : Child("/bin/sh", {"-c", commands}, settings) {}
 };
 
-/// What a script writes to its descriptor 3.
+/// The text that a script writes to its descriptor 3.
 std::string said(const std::string& commands, ChildSettings settings = {}) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
@@ -216,7 +216,7 @@ TEST(Child, ManyThreadsStartTheirOwn) {
 }
 
 TEST(EndChildren, EndsThoseThatWereStartedHereAndNoOthers) {
-  // What a shell had started before it became this program.
+  // A shell may have started one before it became this program.
   const pid_t foreign = ::fork();
   if (foreign == 0) {
     ::execlp("sleep", "sleep", "600", nullptr);

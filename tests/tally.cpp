@@ -1,4 +1,4 @@
-// What a run of steps comes to: its length, its time, the least clearance, the events that are told of it.
+// Sums over a run of steps: its length, its time, the least clearance, and the events that are picked.
 #include "roam/tally.h"
 
 #include <gtest/gtest.h>

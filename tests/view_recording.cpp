@@ -8,6 +8,7 @@
 #include "roam/path_file.h"
 #include "view/options.h"
 #include "view/path_recorder.h"
+#include "view/walk_log.h"
 
 namespace {
 
@@ -125,6 +126,35 @@ TEST(UnusedName, NeverNamesWhatIsThere) {
   EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-1.png"));
   folder.write("roam-1.png", "");
   EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-2.png"));
+}
+
+TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
+  const auto step = [](double x, double clearance) {
+    StepReport report;
+    report.corners.push({Vec3(x, 0.0, 0.0), 1.8, 0.3, 0.01, clearance, false});
+    report.from = {x - 1.0, 0.0, 0.0};
+    report.to = {x, 0.0, 0.0};
+    report.height = 1.8;
+    report.radius = 0.3;
+    report.elapsed = 0.01;
+    report.clearance = report.least_clearance = clearance;
+    return report;
+  };
+  WalkLog log({}, true);
+  log.take(step(0.0, 0.9), Mode::walk, 0.0);
+  StepReport held = step(1.0, 0.4);
+  held.held = true;
+  log.take(held, Mode::walk, 0.01);
+  log.take(step(2.0, 0.0), Mode::ghost, 0.01);
+  EXPECT_EQ(log.tally().steps, 2u);
+  EXPECT_EQ(log.tally().length, 2.0);
+  EXPECT_EQ(log.tally().least_clearance, 0.4);
+  int of_the_step = 0;
+  for (const Piece& piece : log.take_pieces()) {
+    EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
+    of_the_step += piece.step == 1 ? 1 : 0;
+  }
+  EXPECT_EQ(of_the_step, 2) << "the way, and the place at its end";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a run of steps comes to: how far, how long, how near.
+/// Sums over a run of steps: length, time, least clearance, events.
 
 #include <cstdint>
 #include <vector>
@@ -33,11 +33,11 @@ struct Tally {
   void add_placement(const StepReport& report);
 };
 
-/// Picks the events that a run tells of: of a kind that steps in a row report, and of one that a step reports more than
-/// once, only the first.
+/// Picks the events of a run that are worth a line: the first of each kind in a step, and the first of steps in a row
+/// that report the kind.
 class EventFilter {
  public:
-  /// Appends the picked ones of a step, which come one after the other.
+  /// Appends those of a step. Steps come in their order.
   void append(std::vector<RouteEvent>& events, std::uint64_t step, const StepReport& report);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a file's name says about its format.
+/// Extensions of files, which say their formats.
 
 #include <algorithm>
 #include <filesystem>

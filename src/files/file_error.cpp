@@ -8,7 +8,7 @@
 namespace roam::files {
 namespace {
 
-/// What a person can do about it.
+/// Advice for people.
 const char* advice(int error, bool reading) {
   if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
   if (!reading && (error == ENOENT || error == ENOTDIR)) return "make its folder first or choose another place";

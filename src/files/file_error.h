@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the operating system refuses to do with files, in words.
+/// Errors of the operating system about files, in words.
 
 #include <filesystem>
 #include <string>

@@ -48,7 +48,7 @@ Ends open_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// Two ends that are told, and do not kill, when the other is gone.
+/// Two ends: to write to one whose other end is gone is an error, and no signal that kills.
 Ends open_sockets() {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse_pipe();

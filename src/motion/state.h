@@ -38,7 +38,7 @@ class Walker::State {
   [[nodiscard]] Vec3 velocity() const;
   [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
   /// The plane that a body goes by which is carried by its foot.
-  [[nodiscard]] const walking::FloorPlane& floor() const { return gait_.floor; }
+  [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
 
  private:
   friend class Walker;

@@ -99,7 +99,7 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   plan.own_session = settings.own_session;
   plan.dies_with_parent = settings.orphan == Orphan::dies;
   Registry& all = registry();
-  // Locked before, so that whoever ends all children ends this one, too.
+  // Locked before, so that end_children() ends this one, too.
   const std::lock_guard lock(all.mutex);
   const pid_t child = spawn(plan);
   if (child < 0) refuse(-child);

@@ -24,7 +24,7 @@ struct Ending {
   [[nodiscard]] bool is_success() const { return known && signal == 0 && exit_code == 0; }
 };
 
-/// What becomes of a child when this process ends, also by a crash. On Linux; elsewhere all live on.
+/// The fate of a child when this process ends, also by a crash. On Linux; elsewhere all live on.
 enum class Orphan { dies, lives_on };
 
 struct ChildSettings {

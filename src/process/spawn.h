@@ -14,8 +14,8 @@ struct Inheritance {
   int theirs = -1;
 };
 
-/// What a child does before it runs its program. Everything is made ready beforehand: the child shares this process's
-/// memory until then and must not allocate.
+/// The steps of a child before it runs its program. Everything is made ready beforehand: the child shares this
+/// process's memory until then and must not allocate.
 struct Plan {
   const char* program = nullptr;
   char* const* arguments = nullptr;            ///< the program's name first, a null pointer last

@@ -64,7 +64,7 @@ void Patches::deliver(PatchId id, World world) {
 }
 
 void Patches::fail(PatchId id, std::string reason) {
-  // What has been replaced is missed by nobody.
+  // A replaced patch is not needed.
   if (is_replaced(index_of(id))) return;
   Patch& patch = patches_[index_of(id)];
   if (!patch.failed) {
