@@ -10,6 +10,22 @@
 #include "cracks/void_measure.h"
 #include "roam/support.h"
 
+namespace roam {
+
+const char* name(Crack::Kind kind) {
+  switch (kind) {
+    case Crack::Kind::crack:
+      return "crack";
+    case Crack::Kind::step_down:
+      return "step_down";
+    case Crack::Kind::open_drop:
+      return "open_drop";
+  }
+  return "unknown";
+}
+
+}  // namespace roam
+
 namespace roam::cracks {
 
 namespace {
