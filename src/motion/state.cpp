@@ -67,15 +67,12 @@ Vec3 Walker::State::pace() const {
   return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
 }
 
-/// The wish, no faster than the space can follow.
-WalkerInput Walker::State::slowed(const WalkerInput& input) {
+/// Makes the wish no faster than the space can follow.
+void Walker::State::slow_down(WalkerInput& input) {
   const double limit = space_->speed_limit(), speed = glm::length(input.velocity);
-  WalkerInput out = input;
-  if (speed > limit) {
-    out.velocity *= limit / speed;
-    report_.events.push({EventKind::slowed, at_.place});
-  }
-  return out;
+  if (!(speed > limit)) return;
+  input.velocity *= limit / speed;
+  report_.events.push({EventKind::slowed, at_.place});
 }
 
 walking::Move Walker::State::under_way() {
@@ -263,7 +260,10 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     } else if (held() || changed) {
       look_again();
     }
-    if (!held()) move(slowed(input), dt);
+    if (!held()) {
+      slow_down(input);
+      move(input, dt);
+    }
     if (at_.known.fit == walking::Fit::unproven) {
       if (embedded()) fit_in();
       at_.known.fit = walking::Fit::known;

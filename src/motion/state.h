@@ -55,7 +55,7 @@ class Walker::State {
   [[nodiscard]] walking::Sizes sizes();
   void take_size_here();
   walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
-  [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
+  void slow_down(WalkerInput& input);
   void begin();
   void move(const WalkerInput& input, double dt);
   walking::Ending move_for(const WalkerInput& input, double dt);
