@@ -234,10 +234,10 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   }
   WalkerInput input = wish;
   std::optional<walking::Pace> change;
-  if (walking::limits(wish) && dt > 0.0) {
+  if (walking::limits(wish)) {
     if (mode_ == Mode::walk) input.velocity.z = 0.0;
     change = walking::change(pace(), input);
-    input.velocity = change->mean(dt);
+    if (dt > 0.0) input.velocity = change->mean(dt);
   }
   begin();
   if (mode_ == Mode::ghost) {
