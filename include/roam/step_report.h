@@ -14,7 +14,7 @@ namespace roam {
 /// What may happen in a step.
 enum class EventKind : std::uint8_t {
   slid,          ///< touched something and went on along it
-  blocked,       ///< touched something and could not go on
+  blocked,       ///< touched something and could not go on; said once, and again after it could (StepReport::blocked)
   stepped_up,    ///< walked up a kerb, stair or sill
   stepped_down,  ///< walked down one
   jumped,        ///< left the ground by a jump
@@ -122,7 +122,7 @@ struct StepReport {
   double landing_speed = 0.0;
   bool grounded = false;     ///< stands on something (walk mode)
   bool carried = false;      ///< stands on its foot over a crack: see WalkerSettings::support_radius
-  bool blocked = false;      ///< ended this step unable to go on in the wished direction; contacts.back() is why
+  bool blocked = false;      ///< could not go on in the wished direction in this step; contacts.back() is why
   bool held = false;         ///< see EventKind::held: the same as Walker::held()
   bool put_back = false;     ///< see EventKind::put_back
   bool met_unknown = false;  ///< see EventKind::met_unknown

@@ -118,7 +118,7 @@ class Walker {
   /// Metres per second, at the end of the last step, horizontal in walk mode: where the next wish goes on from that has
   /// limits of acceleration. What the last wish had become by then, along what the body slid, and 0 where it was
   /// stopped, held or put.
-  [[nodiscard]] const Vec3& pace() const;
+  [[nodiscard]] Vec3 pace() const;
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const;
 

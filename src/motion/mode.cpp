@@ -10,6 +10,7 @@
 namespace roam {
 
 const StepReport& Walker::State::set_mode(Mode mode) {
+  in_the_end_ = pace();
   begin();
   const Mode before = mode_;
   mode_ = mode;

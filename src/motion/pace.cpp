@@ -49,12 +49,12 @@ Vec3 Pace::mean(double over) const {
          over;
 }
 
-Pace pace(const Vec3& from, const WalkerInput& wish) {
-  const Vec3 change = wish.velocity - from;
-  const double whole = glm::length(change);
+Pace change(const Vec3& from, const WalkerInput& wish) {
+  const Vec3 by = wish.velocity - from;
+  const double whole = glm::length(by);
   if (!(whole > 0.0)) return {from, from, from};
-  const double slower = std::clamp(-glm::dot(from, change) / (whole * whole), 0.0, 1.0);
-  return {from, from + change * slower, wish.velocity, slower * whole / wish.braking,
+  const double slower = std::clamp(-glm::dot(from, by) / (whole * whole), 0.0, 1.0);
+  return {from, from + by * slower, wish.velocity, slower * whole / wish.braking,
           (1.0 - slower) * whole / wish.acceleration};
 }
 

@@ -2,6 +2,8 @@
 /// \file
 /// Becoming faster and slower within limits.
 
+#include <cmath>
+
 #include "roam/walker_settings.h"
 
 namespace roam::walking {
@@ -12,14 +14,17 @@ struct Pace {
   double braking = 0.0;                   ///< seconds from `from` to `slowest`
   double gaining = 0.0;                   ///< seconds from there to `to`
 
-  [[nodiscard]] bool changes() const { return braking + gaining > 0.0; }
-
   [[nodiscard]] Vec3 velocity(double after) const;  ///< m/s, `after` so many seconds
   [[nodiscard]] Vec3 mean(double over) const;       ///< m/s, on average over so many seconds, > 0
 };
 
+/// Whether a wish has limits.
+[[nodiscard]] inline bool limits(const WalkerInput& wish) {
+  return std::isfinite(wish.acceleration) || std::isfinite(wish.braking);
+}
+
 /// The change from a velocity to the wish, within the limits of the wish.
-[[nodiscard]] Pace pace(const Vec3& from, const WalkerInput& wish);
+[[nodiscard]] Pace change(const Vec3& from, const WalkerInput& wish);
 
 /// One step on a straight way at whose end the body is to be at rest.
 struct Approach {

@@ -154,7 +154,9 @@ void Route::turn_to_next(bool hindered) {
   finish(Outcome::reached);
 }
 
-bool Route::limited() const { return std::isfinite(options_.acceleration) || std::isfinite(options_.braking); }
+bool Route::limited() const {
+  return walking::limits({.acceleration = options_.acceleration, .braking = options_.braking});
+}
 
 /// Metres to where the body is to be at rest, the next waypoint being `way` off: farther than it takes to brake counts
 /// as that far.

@@ -55,15 +55,24 @@ Vec3 Walker::State::velocity() const {
   return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
 }
 
-/// The wish, no faster than the space can follow.
-WalkerInput Walker::State::slowed(const WalkerInput& input) {
+Vec3 Walker::State::pace() const {
+  if (held() || report_.put_back) return Vec3(0.0);
+  Vec3 pace = in_the_end_, moved = velocity();
+  if (mode_ == Mode::walk) pace.z = moved.z = 0.0;
+  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
+  const double speed = glm::length(moved), most = glm::length(wished_);
+  if (!(speed > 0.0 && most > 0.0)) return Vec3(0.0);
+  // Along what it slides, and no more of it than of the way.
+  const Vec3 along = moved / speed;
+  return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
+}
+
+/// Makes the wish no faster than the space can follow.
+void Walker::State::slow_down(WalkerInput& input) {
   const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
-  WalkerInput out = input;
-  if (speed > limit) {
-    out.velocity *= limit / speed;
-    report_.events.push({EventKind::slowed, at_.place});
-  }
-  return out;
+  if (!(speed > limit)) return;
+  input.velocity *= limit / speed;
+  report_.events.push({EventKind::slowed, at_.place});
 }
 
 walking::Move Walker::State::under_way() {
@@ -225,9 +234,12 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
                 number_text(wish.braking) + " m/s^2; both must be more than 0");
   }
   WalkerInput input = wish;
-  if (mode_ == Mode::walk) input.velocity.z = 0.0;
-  const walking::Pace pace = walking::pace(pace_, input);
-  input.velocity = pace.changes() && dt > 0.0 ? pace.mean(dt) : wish.velocity;
+  std::optional<walking::Pace> change;
+  if (walking::limits(wish)) {
+    if (mode_ == Mode::walk) input.velocity.z = 0.0;
+    change = walking::change(pace(), input);
+    if (dt > 0.0) input.velocity = change->mean(dt);
+  }
   begin();
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
@@ -249,7 +261,10 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     } else if (held() || changed) {
       look_again();
     }
-    if (!held()) move(slowed(input), dt);
+    if (!held()) {
+      slow_down(input);
+      move(input, dt);
+    }
     if (at_.known.fit == walking::Fit::unproven) {
       if (embedded()) fit_in();
       at_.known.fit = walking::Fit::known;
@@ -257,24 +272,10 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
   was_blocked_ = report_.blocked;
-  take_pace(input.velocity, pace.velocity(report_.elapsed));
+  wished_ = input.velocity;
+  in_the_end_ = change ? change->velocity(report_.elapsed) : wished_;
   finish();
   return report_;
-}
-
-/// What is left of the velocity at the end of a step in which the body was `wished` to go at that on average.
-void Walker::State::take_pace(const Vec3& wished, const Vec3& in_the_end) {
-  pace_ = held() || report_.put_back ? Vec3(0.0) : in_the_end;
-  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return;
-  Vec3 moved = velocity();
-  if (mode_ == Mode::walk) moved.z = 0.0;
-  const double speed = glm::length(moved), most = glm::length(wished);
-  if (speed > 0.0 && most > 0.0) {
-    const Vec3 along = moved / speed;
-    pace_ = along * std::clamp(glm::dot(pace_, along), 0.0, glm::length(pace_) * (speed / most));
-  } else {
-    pace_ = Vec3(0.0);
-  }
 }
 
 void Walker::State::move(const WalkerInput& input, double dt) {
@@ -354,6 +355,7 @@ void Walker::State::set_regions(std::span<const SizeRegion> regions) {
 
 bool Walker::State::resize(double radius, double support_radius) {
   check(walking::sized(given_, {radius, support_radius}));
+  in_the_end_ = pace();
   begin();
   outside_ = {radius, support_radius};
   resized_ = true;
@@ -381,7 +383,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;
-  pace_ = Vec3(0.0);
+  wished_ = in_the_end_ = Vec3(0.0);
   release();
   safe_.height = ground_.height = 0.0;
   looked_at_ = space_->facts().revision.value_or(0);

@@ -36,6 +36,7 @@ class Walker::State {
   [[nodiscard]] Body body() const;
   [[nodiscard]] Vec3 feet() const;
   [[nodiscard]] Vec3 velocity() const;
+  [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
   /// The plane that a body goes by which is carried by its foot.
   [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
@@ -54,10 +55,9 @@ class Walker::State {
   [[nodiscard]] walking::Sizes sizes();
   void take_size_here();
   walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
-  [[nodiscard]] WalkerInput slowed(const WalkerInput& input);
+  void slow_down(WalkerInput& input);
   void begin();
   void move(const WalkerInput& input, double dt);
-  void take_pace(const Vec3& wished, const Vec3& in_the_end);
   walking::Ending move_for(const WalkerInput& input, double dt);
   void settle();
   void fit_in();
@@ -88,7 +88,8 @@ class Walker::State {
   StepReport report_;
   walking::Gait gait_;
   walking::Whereabouts at_;
-  Vec3 pace_{0.0};  ///< see Walker::pace()
+  Vec3 wished_{0.0};      ///< velocity on average over the last step, m/s
+  Vec3 in_the_end_{0.0};  ///< the velocity that the wish had become then
   Vicinity vicinity_;
   walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
   walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode

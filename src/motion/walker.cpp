@@ -70,7 +70,6 @@ bool Walker::grounded() const { return state_->gait_.grounded(); }
 const Stance& Walker::stance() const { return state_->gait_; }
 bool Walker::held() const { return state_->held(); }
 double Walker::rise_speed() const { return state_->gait_.rise_speed; }
-const Vec3& Walker::pace() const { return state_->pace_; }
 const StepReport& Walker::report() const { return state_->report_; }
 double Walker::skin() const { return state_->skin_; }
 double Walker::fall_limit() const { return state_->settings_.radius + state_->settings_.step; }
@@ -94,6 +93,11 @@ Vec3 Walker::eye() const {
 Vec3 Walker::velocity() const {
   const DefaultFloatingPoint guard;
   return state_->velocity();
+}
+
+Vec3 Walker::pace() const {
+  const DefaultFloatingPoint guard;
+  return state_->pace();
 }
 
 }  // namespace roam
