@@ -203,4 +203,14 @@ TEST_F(Interrupt, ViewWhileTheDriverWorks) {
   }
 }
 
+TEST(IgnoredInterrupt, StaysIgnored) {
+  const TestFolder folder;
+  const std::string scene = folder.file("terrain.ply");
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", "trap '' INT; exec '" ROAM_PROGRAM "' make terrain -o '" + scene + "' --triangles 2M"},
+      {.interrupt_after = 0.1});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(fs::exists(scene));
+}
+
 }  // namespace

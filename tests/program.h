@@ -29,6 +29,10 @@ struct ProgramResult {
   long peak = 0;
 };
 
+/// Programs heed an interrupt also where the tests run in the background of a shell that ignores it.
+inline const bool interrupts_count =
+    std::signal(SIGINT, SIG_DFL) != SIG_ERR && std::signal(SIGTERM, SIG_DFL) != SIG_ERR;
+
 struct ProgramOptions {
   std::string input{};         ///< its standard input
   double interrupt_after = 0;  ///< seconds after which it gets SIGINT; 0: never

@@ -41,7 +41,6 @@ namespace {
 struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
-  std::uint64_t memory = StoreBuildOptions{}.memory;
   bool plan = false, merge = false, json = false;
   std::optional<std::uint64_t> shard;
   std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
@@ -90,7 +89,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.scene = verb.scene.scenes;
   options.output = verb.output;
   options.import = verb.scene.import_options();
-  options.memory = verb.memory;
+  options.memory = verb.scene.memory.value_or(options.memory);
   options.threads = verb.scene.threads;
   options.lossless = verb.scene.lossless;
   options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
@@ -197,10 +196,9 @@ ExitStatus run_steps(const BuildVerb& verb) {
 /// What no build can mean, before anything is made on the disk.
 void check_usage(const BuildVerb& verb) {
   if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
-  if (verb.memory < StoreBuildOptions::least_memory) {
+  if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
     throw UsageError(fmt::format("build: --memory {:.5g} MiB: a build needs at least {} MiB",
-                                 std::ldexp(static_cast<double>(verb.memory), -20),
-                                 StoreBuildOptions::least_memory >> 20));
+                                 std::ldexp(static_cast<double>(*memory), -20), StoreBuildOptions::least_memory >> 20));
   }
   if (verb.shard || verb.merge) {
     if (verb.reading.empty()) return;  // they read the plan, not the scene
@@ -261,9 +259,7 @@ void add_build(CLI::App& program, Run& run) {
   verb->get_option("SCENE")->required(false);
   verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
-  verb->add_option("--memory", options->memory, "Memory to keep within, the reader's too (default: 1G; at least 256M)")
-      ->transform(CLI::AsSizeValue(false))
-      ->type_name("SIZE");
+  verb->get_option("--memory")->description("Memory to keep within, the reader's too (default: 1G; at least 256M)");
   CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed and decide the shards");
   CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
                            ->check(CLI::NonNegativeNumber)

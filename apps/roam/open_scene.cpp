@@ -95,20 +95,10 @@ std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std
 
 }  // namespace
 
-void StoreOptions::add_to(CLI::App& verb) {
-  verb.add_option("--memory", memory, "For a store: memory of its collision, e.g. 64M or 1G (default: 64M)")
-      ->transform(CLI::AsSizeValue(false))
-      ->type_name("SIZE");
-}
-
-OpenScene::OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source)
-    : store_(open_store(options, store_options.bytes())) {
+OpenScene::OpenScene(const SceneOptions& options, Source source) : store_(open_store(options, options.store_memory())) {
   if (store_) {
-    pager_ = make_pager(store_, store_options.bytes());
+    pager_ = make_pager(store_, options.store_memory());
     return;
-  }
-  if (store_options.memory) {
-    throw UsageError("--memory is for stores; " + options.names() + " is read whole (roam build makes a store of it)");
   }
   loaded_ = load(options, source);
 }

@@ -14,20 +14,11 @@
 
 namespace roam::app {
 
-/// `--memory`: of the collision of a store, bytes.
-struct StoreOptions {
-  static constexpr std::uint64_t usual_memory = 64ull << 20;
-  std::optional<std::uint64_t> memory;
-
-  [[nodiscard]] std::uint64_t bytes() const { return memory.value_or(usual_memory); }
-  void add_to(CLI::App& verb);
-};
-
 class OpenScene {
  public:
   /// Reads and indexes a scene, or opens a store, which must then be the only one that is named. Throws what load and
   /// Store::open throw, and UsageError for options that have no meaning for what is opened.
-  OpenScene(const SceneOptions& options, const StoreOptions& store_options, Source source);
+  OpenScene(const SceneOptions& options, Source source);
 
   [[nodiscard]] const Space& space() const;
   [[nodiscard]] std::uint64_t triangles() const;

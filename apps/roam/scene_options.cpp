@@ -66,6 +66,10 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
   verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
+  verb.add_option("--memory", memory,
+                  "Memory of a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
 }
 
 ImportOptions SceneOptions::import_options() const {
@@ -74,6 +78,7 @@ ImportOptions SceneOptions::import_options() const {
   how.unit = parse_length_unit(unit);
   how.ignore = ignore;
   how.allow = allow;
+  if (memory) how.memory_limit = *memory;
   return how;
 }
 

@@ -3,7 +3,9 @@
 /// The options by which every verb names its scene, and the way from them to a world.
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +23,16 @@ struct SceneOptions {
   std::vector<std::filesystem::path> allow;
   bool lossless = false;
   int threads = 0;
-  bool identify = false;  ///< no option of the command line: whether LoadedScene::identity is wanted
+  std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
+  bool identify = false;                ///< no option of the command line: whether LoadedScene::identity is wanted
 
-  /// Adds SCENE..., --up, --unit, --ignore, --allow, --lossless and --threads.
+  /// Of a store's collision, bytes, where `memory` does not say.
+  static constexpr std::uint64_t usual_store_memory = 64ull << 20;
+  [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
+
+  /// Adds SCENE..., --up, --unit, --ignore, --allow, --lossless, --threads and --memory.
   void add_to(CLI::App& verb);
-  /// Adds --up, --unit, --ignore, --allow and --threads.
+  /// Adds --up, --unit, --ignore, --allow, --threads and --memory.
   void add_reading_to(CLI::App& verb);
   /// What the options mean to import_scene and the like.
   [[nodiscard]] ImportOptions import_options() const;

@@ -182,8 +182,8 @@ class Missing {
   std::set<std::string> told_;
 };
 
-ExitStatus sweep(const SceneOptions& options, const StoreOptions& store) {
-  OpenScene scene(options, store, Source::release);
+ExitStatus sweep(const SceneOptions& options) {
+  OpenScene scene(options, Source::release);
   const int threads =
       options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -236,14 +236,9 @@ constexpr const char* help =
 void add_sweep(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("sweep", "Answers sweeps of a body through a scene, from CSV to CSV");
   verb->footer(help);
-  struct Options {
-    SceneOptions scene;
-    StoreOptions store;
-  };
-  const auto options = std::make_shared<Options>();
-  options->scene.add_to(*verb);
-  options->store.add_to(*verb);
-  verb->callback([options, &run] { run = [options] { return sweep(options->scene, options->store); }; });
+  const auto options = std::make_shared<SceneOptions>();
+  options->add_to(*verb);
+  verb->callback([options, &run] { run = [options] { return sweep(*options); }; });
 }
 
 }  // namespace roam::app

@@ -55,7 +55,8 @@ Verification verified(const ViewReport& report, const ViewOptions& options,
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
   SceneOptions store;
   store.scenes = {report.store};
-  return OpenScene(store, options.paging, Source::release).verified(report.pieces, progress);
+  store.memory = options.scene.memory;
+  return OpenScene(store, Source::release).verified(report.pieces, progress);
 }
 
 ExitStatus view(const ViewOptions& options) {

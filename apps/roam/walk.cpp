@@ -201,7 +201,7 @@ ExitStatus walk(WalkOptions options) {
   std::optional<picture::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
-  OpenScene scene(options.scene, options.store, needs_triangles ? Source::keep : Source::release);
+  OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
   if (!options.against.scenes.empty() && scene.store()) read_as(options.against, *scene.store());
   if (options.profile) {
     demand_belongs(*options.profile, scene.store() ? identity_of(scene.store()->info()) : scene.loaded().identity,

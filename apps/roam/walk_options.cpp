@@ -120,7 +120,6 @@ void WalkOptions::add_to(CLI::App& verb) {
                   "For a store: check every move against the triangles of the scene that it was made of, as they are "
                   "read")
       ->type_name("SCENE");
-  store.add_to(verb);
   verb.add_flag("--json", json, "Print one JSON object");
 }
 

@@ -30,7 +30,6 @@ struct WalkOptions {
   std::filesystem::path trace;
   std::filesystem::path picture;
   bool verify = false;
-  StoreOptions store;
   SceneOptions against;  ///< the scene that a store was made of
   bool json = false;
 

@@ -33,6 +33,8 @@ class ProcessorBudget {
   [[nodiscard]] std::uint64_t triangles() const;
   /// Bytes of files that `allowed` is for.
   [[nodiscard]] std::uint64_t bytes() const;
+  /// Bytes of the files that were opened, whether they have been read or not.
+  [[nodiscard]] std::uint64_t file_bytes() const { return file_bytes_; }
 
  private:
   int process_;

@@ -71,11 +71,15 @@ std::string absolute_folders(const std::string& list) {
 /// opened, so that no other is handed on.
 std::vector<std::string> clean_environment() {
   std::vector<std::string> variables{"PATH=/usr/bin:/bin"};
-  for (const char* name : {"LD_LIBRARY_PATH", "TMPDIR"}) {
+  const auto value_of = [](const char* name) {
     const char* value = std::getenv(name);
-    const std::string folders = value == nullptr ? "" : absolute_folders(value);
-    if (!folders.empty()) variables.push_back(std::string(name) + "=" + folders);
+    return std::string(value == nullptr ? "" : value);
+  };
+  if (const std::string libraries = absolute_folders(value_of("LD_LIBRARY_PATH")); !libraries.empty()) {
+    variables.push_back("LD_LIBRARY_PATH=" + libraries);
   }
+  // One folder, whose name may have a colon in it.
+  if (const std::string folder = value_of("TMPDIR"); folder.starts_with('/')) variables.push_back("TMPDIR=" + folder);
   // Where the sanitizers that both are built with are told what to do.
   for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
     if (const char* value = std::getenv(name)) variables.push_back(std::string(name) + "=" + value);

@@ -97,6 +97,11 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
            "changing a file, and the reader was ended. Do not trust this file";
   }
 #endif
+  if (ending.signal == SIGKILL) {
+    return "cannot be read: its reader was killed, as the system does when memory runs out. Close other programs, or "
+           "allow less memory";
+  }
+  if (ending.signal == SIGXCPU) return "cannot be read: its reader used up the processor time that the shell allows";
   if (ending.signal != 0) {
     return fmt::format(
         "made its reader crash with signal {} ({}){}. The file is damaged, or of a kind that this "
@@ -153,13 +158,10 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
   const std::string path = reading.path.string();
   const auto fail = [&](const std::string& what) -> Error { return Error(printable(path) + ": " + what + "."); };
 
-  const double silence_limit =
-      options.silence_limit + static_cast<double>(reading.path_bytes) / silence_bytes_per_second;
   receiver.spell(reading.scope.scene.string(), without_slash(path));
   ProcessorBudget budget(process.id());
-  Clock::time_point heard = Clock::now();
-  Clock::time_point reported = heard;
-  double waited = 0.0;  // seconds
+  Clock::time_point reported = Clock::now();
+  double waited = 0.0, heard = 0.0;  // seconds: in all, and until it was heard last
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
@@ -193,11 +195,13 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
               allowed, budget.bytes()));
         }
       }
-      // A taker may be slow, which is not the reader's fault.
-      const Clock::time_point now = Clock::now();
+      // It may be reading all that it opened from a slow disk.
+      const double silence_limit =
+          options.silence_limit +
+          static_cast<double>(std::max(reading.path_bytes, budget.file_bytes())) / silence_bytes_per_second;
       if (arrival == ReaderProcess::Arrival::bytes) {
-        heard = now;
-      } else if (std::chrono::duration<double>(now - heard).count() > silence_limit) {
+        heard = waited;
+      } else if (waited - heard > silence_limit) {
         throw fail(
             fmt::format("its reader said nothing for {:.0f} s and was ended. The file is damaged, or needs a "
                         "longer time limit",
@@ -213,6 +217,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
               patience, budget.bytes()));
         }
       }
+      const Clock::time_point now = Clock::now();
       if (now - reported >= std::chrono::milliseconds(wait_milliseconds)) {
         reported = now;
         reading.report_progress(receiver.bytes_read(), receiver.triangles());

@@ -176,9 +176,9 @@ void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   // Not for --keys, which needs no scene.
   verb.get_option("SCENE")->required(false);
+  verb.get_option("--memory")->description("Memory of a store's collision (default: 64M)");
   verb.add_option("--store", store, "Collide with this store (default: SCENE.roam beside the scene, if it is of it)")
       ->type_name("STORE");
-  paging.add_to(verb);
   constexpr double metres = Space::reach_limit / 4.0;
   verb.add_option("--mode", mode, "walk, fly or ghost to begin with (default: walk)")
       ->check(CLI::IsMember({"fly", "walk", "ghost"}))
@@ -280,7 +280,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
     plan.at = Pose{{value(0), value(1), value(2)}, value(3), value(4)};
   }
   if (recorded) plan.note = compare(*recorded, plan.walker, plan.mode);
-  if (options.paging.memory && *options.paging.memory < Pager::least_memory) {
+  if (options.scene.memory && *options.scene.memory < Pager::least_memory) {
     throw UsageError(fmt::format("--memory: a store needs {}M at least", Pager::least_memory >> 20));
   }
   if (!options.path.empty() && plan.mode == Mode::ghost) {

@@ -22,7 +22,6 @@ namespace roam::app {
 struct ViewOptions {
   SceneOptions scene;
   std::filesystem::path store;  ///< empty: look beside the scene
-  StoreOptions paging;
   std::optional<std::string> mode;
   std::optional<double> radius, height, eye, step, slope, speed, fov;
   std::string size = "1280x720";

@@ -37,7 +37,7 @@ CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const st
   } else if (!path.empty()) {
     wish.place = path.front().position;
   }
-  wish.memory = options.paging.memory.value_or(StoreOptions::usual_memory);
+  wish.memory = options.scene.store_memory();
   wish.walker = plan.walker;
   wish.mode = plan.mode;
   return wish;
