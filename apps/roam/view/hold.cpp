@@ -34,7 +34,6 @@ std::string describe(const Walker& walker, const Contact& contact, const Vec3& w
 
 void Hold::take(const Walker& walker, const Vec3& wish, double seconds, bool failing) {
   now_ += seconds;
-  const StepReport& report = walker.report();
   held_ = walker.held();
   if (!held_) nothing_below_ = false;
   note_unknown(walker, failing);
