@@ -176,7 +176,7 @@ TEST(Pace, WhatStopsABodyTakesItsSpeed) {
     EXPECT_NEAR(w.walker.pace().y, 2.0, 0.01);
     EXPECT_NEAR(w.walker.pace().x, 0.0, 0.01);
     const Vec3 before = w.walker.pace();
-    w.walker.step({.velocity = {9.0, 0.0, 0.0}, .acceleration = 1.0}, 0.0);
+    w.walker.step({.velocity = {9.0, 0.0, 0.0}, .acceleration = 1.0, .braking = 1.0}, 0.0);
     EXPECT_NEAR(length(w.walker.pace() - before), 0.0, 1e-12) << "no time, no change";
     w.walker.place({0.0, 0.0, 0.91});
     EXPECT_EQ(w.walker.pace(), Vec3(0.0));
