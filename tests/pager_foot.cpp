@@ -14,7 +14,7 @@ namespace {
 
 using namespace scenes;
 using roam::Pager;
-using roam::walking::Carrying;
+using roam::Carrying;
 
 /// The files of a store, of which some tiles cannot be read.
 class SomeGone : public roam::StoreBytes {
@@ -79,7 +79,7 @@ TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
           ++told;
           continue;
         }
-        const roam::walking::FloorPlane plane{w.stance().floor_point, w.stance().floor_normal};
+        const roam::FloorPlane plane{w.stance().floor_point, w.stance().floor_normal};
         EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), plane, w.position()),
                   Carrying::yes)
             << "seed " << seed << " at " << w.position().x << " " << w.position().y;
