@@ -14,8 +14,8 @@
 namespace {
 
 using namespace scenes;
+using roam::Carrying;
 using roam::Pager;
-using roam::walking::Carrying;
 
 /// The files of a store, of which some tiles cannot be read.
 class SomeGone : public roam::StoreBytes {
@@ -80,8 +80,9 @@ TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
           ++told;
           continue;
         }
-        const roam::walking::FloorPlane& plane = w.state().floor();
-        EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), plane, w.position()),
+        roam::walking::DiscFound none;
+        EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), w.state().floor(),
+                                          w.position(), none),
                   Carrying::yes)
             << "seed " << seed << " at " << w.position().x << " " << w.position().y;
       }
