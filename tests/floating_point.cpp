@@ -16,6 +16,7 @@
 #include "roam/walker.h"
 #include "roam/world.h"
 #include "same_bits.h"
+#include "world/nearby.h"
 
 namespace {
 
@@ -67,8 +68,9 @@ void ask(const roam::Space& space, const std::vector<Query>& queries, double rea
     bits(space.clearance(q.body, q.from, reach));
     bits(space.floor_clearance(q.body, q.from, reach, {.slope_degrees = 40.0}));
     bits(space.gap(q.body, q.from, q.motion, reach));
-    bits(space.sweep_in(vicinity, q.body, q.from, q.motion));
-    bits(space.gap_in(vicinity, q.body, q.from, q.motion, reach));
+    bits(space.first_impact(q.body, q.from, q.motion).time);
+    bits(roam::Nearby::sweep(space, vicinity, {q.body, q.from, q.motion}));
+    bits(roam::Nearby::gap(space, vicinity, {q.body, q.from, q.motion}, reach));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "affine.h"
 #include "osg_triangles/mesh_of.h"
+#include "sweep/seen_from.h"
 #include "vectors.h"
 
 namespace osgRoam {
