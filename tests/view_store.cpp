@@ -82,7 +82,7 @@ TEST(ViewStore, TakesTheStoreThatIsNamed) {
   const std::string scene = d.write_scene();
   d.options.store = d.folder.file("elsewhere.roam");
   build_store(build_of(scene, d.options.store));
-  d.options.paging.memory = 16u << 20;
+  d.options.scene.memory = 16u << 20;
   d.begin();
   d.run(0.2);
   ASSERT_TRUE(d.on_store());
