@@ -119,7 +119,7 @@ TEST(TrainVerb, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
 }
 
 TEST(TrainVerb, TellsItsAnswerThoughTheProfileCannotBeWritten) {
-  const Train train({}, {"--json", "-o", "@" + std::string(254, 'p')});
+  const Train train({}, {"--json", "-o", "@" + std::string(256, 'p')});
   EXPECT_EQ(train.result.status, 1);
   EXPECT_TRUE(contains(train.result.err, "cannot write")) << train.result.err;
   EXPECT_TRUE(train.json().contains("answer")) << train.result.out;

@@ -52,6 +52,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// Whichever thread started them.
+inline std::vector<pid_t> children_of_this_process() {
+  std::vector<pid_t> all;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream children(thread.path() / "children");
+    for (pid_t child = 0; children >> child;) all.push_back(child);
+  }
+  return all;
+}
+
 /// All triangles of a scene in order, by their corners.
 inline std::vector<Triangle> triangles_of(const Scene& scene) {
   std::vector<Triangle> all;

@@ -32,8 +32,9 @@ std::uint64_t memory_of(const std::string& pid, const std::string& what) {
 class Watch {
  public:
   void look() {
-    std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
-    for (std::string pid; children >> pid;) most_ = std::max(most_, memory_of(pid, "VmHWM"));
+    for (const pid_t reader : children_of_this_process()) {
+      most_ = std::max(most_, memory_of(std::to_string(reader), "VmHWM"));
+    }
     here_ = std::max(here_, memory_of("self", "VmRSS"));
   }
   [[nodiscard]] std::uint64_t of_reader() const { return most_; }

@@ -11,9 +11,7 @@ known='
 apps/roam/picture apps/roam 6
 bench apps/roam 18
 bench tests 2
-src/index src/world 1
-src/osgroam src/sweep 2
-src/osgroam src/world 2
+src/osgroam src/sweep 1
 '
 set -euo pipefail
 

@@ -139,7 +139,7 @@ END
       said=$(tr -s ' \n' ' ' <<< "$said")
       [[ $said == *"$1"* ]] || { echo "$said"; echo "expected: $1"; exit 1; }
     }
-    for component in roam path import generate store ways profile training osg; do
+    for component in roam files process import generate store ways profile training osg; do
       request=REQUIRED
       [[ $component == roam ]] || request="REQUIRED COMPONENTS $component"
       expect "Generating done" configure "$request" "get_target_property(kind roam::$component TYPE)

@@ -32,7 +32,8 @@ namespace {
 
 using namespace roam::reader;
 
-std::string beside;  ///< a path in the scene's folder
+std::string beside;           ///< a path in the scene's folder
+FrameWriter* said = nullptr;  ///< the stream that has begun
 
 /// Each returns 0, or -1 and errno, as the system call that it makes.
 const std::map<std::string, std::function<long()>> misdeeds{
@@ -99,11 +100,9 @@ const std::map<std::string, std::function<long()>> misdeeds{
     {"drip",
      []() -> long {
        constexpr std::array<std::byte, sizeof(std::uint64_t)> nothing_read{};
-       FrameWriter frames(stream_fd);
-       frames.send(FrameKind::hello, PayloadWriter().add(Greeting{}));
        for (;;) {
-         frames.send(FrameKind::progress, nothing_read);
-         frames.flush();
+         said->send(FrameKind::progress, nothing_read);
+         said->flush();
          usleep(100'000);
        }
      }},
@@ -136,6 +135,7 @@ int main(int argc, char** argv) {
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello,
               PayloadWriter().add(Greeting{stream_version, walls.landlock, walls.system_calls, 1, 1, 1}));
+  said = &frames;
   SceneFiles files(rights.scope, frames);
   std::ifstream file(files.open(scene));
   std::string deed, rest;

@@ -22,7 +22,7 @@ class ProcessorBudget {
   /// `process`: a child. What it used and read before does not count.
   explicit ProcessorBudget(int process);
 
-  /// A file of the scene that the reader says it opened. Each counts once, by its bytes, holes apart.
+  /// A file of the scene that the reader says it opened. Each counts once, by its bytes, as far as the disk has them.
   void add_file(const std::filesystem::path& file);
 
   /// Seconds that the process may have used by now.

@@ -50,6 +50,7 @@ BoxIntersector::BoxIntersector(const roam::Body& body, const osg::Vec3d& start, 
 BoxIntersector::BoxIntersector(CoordinateFrame frame, const roam::Body& body, const osg::Vec3d& start,
                                const osg::Vec3d& end)
     : osgUtil::Intersector(frame, LIMIT_NEAREST), _body(body), _start(start), _end(end) {
+  const roam::DefaultFloatingPoint guard;
   check(frame);
   // A sweep past nothing checks what is passed.
   const roam::Vec3 from{start.x(), start.y(), start.z()};
