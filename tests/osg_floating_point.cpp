@@ -30,18 +30,18 @@ TEST(FloatingPoint, IntersectionsWithASceneGraph) {
   turned->addChild(geometry);
   struct Query {
     roam::Body body;
-    roam::Vec3 from{0.0}, motion{0.0};
+    osg::Vec3d from, to;
   };
   std::vector<Query> queries;
   for (int i = 0; i < 60; ++i) {
-    queries.push_back({{random.between(0.0, 0.5), random.between(0.0, 0.5)}, random.in_box(5.0), random.in_box(3.0)});
+    const roam::Body body{random.between(0.0, 0.5), random.between(0.0, 0.5)};
+    const roam::Vec3 from = random.in_box(5.0), to = from + random.in_box(3.0);
+    queries.push_back({body, {from.x, from.y, from.z}, {to.x, to.y, to.z}});
   }
   const double margin = osgRoam::boundsMargin(*turned);
   expect_same([&](Bits& bits) {
     for (const Query& q : queries) {
-      const roam::Vec3 to = q.from + q.motion;
-      osg::ref_ptr<osgRoam::BoxIntersector> box =
-          new osgRoam::BoxIntersector(q.body, {q.from.x, q.from.y, q.from.z}, {to.x, to.y, to.z});
+      const osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector(q.body, q.from, q.to);
       box->setBoundsMargin(margin);
       osgUtil::IntersectionVisitor visitor(box);
       turned->accept(visitor);

@@ -53,6 +53,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       log_(options.trace, options.verify),
       begin_(Clock::now()) {
   options_.scene = what_.scene;
+  options_.scene.memory = options.scene.memory;
   if (!options_.path.empty()) path_ = load_path(options_.path);
   const std::filesystem::path folder = settings_folder();
   try {
@@ -85,7 +86,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   // Both read the same files, at the same time: each in a process of its own that can only fail alone.
   collision_.emplace(what_, wish_of(options_, plan_, path_));
   auto display = what_.store_only ? std::make_unique<DisplayLoader>(what_.store, collision_->place())
-                                  : std::make_unique<DisplayLoader>(options_.scene, stage_->texture_quality());
+                                  : std::make_unique<DisplayLoader>(what_.scene, stage_->texture_quality());
   scene_.emplace(stage_->viewer(), *stage_->frame().space(), std::move(display),
                  stage_->headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth);
 }
