@@ -126,6 +126,9 @@ TEST(UnusedName, NeverNamesWhatIsThere) {
   EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-1.png"));
   folder.write("roam-1.png", "");
   EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-2.png"));
+  // What is written through a link that leads nowhere lies wherever the link's author wants.
+  std::filesystem::create_symlink("elsewhere.png", folder.file("roam-2.png"));
+  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-3.png"));
 }
 
 TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {

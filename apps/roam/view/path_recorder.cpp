@@ -59,7 +59,8 @@ std::filesystem::path unused_name(const std::filesystem::path& folder, const std
   for (int number = 1;; ++number) {
     std::filesystem::path file = folder / fmt::format("roam-{}.{}", number, extension);
     std::error_code none;
-    if (!std::filesystem::exists(file, none)) return file;
+    // A link that leads nowhere would be written through.
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return file;
   }
 }
 

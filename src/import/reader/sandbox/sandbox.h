@@ -9,7 +9,7 @@
 ///     system calls    (seccomp) starts no program or process, maps no code, opens no socket; creates, changes and
 ///                     removes no file; the process is killed when it tries
 ///     no_new_privs    gains no rights by starting a program
-///     limits          memory, size of its unnamed file, no core dump; it dies with the thread that started it
+///     limits          memory, size of its unnamed file, no core dump; it dies with the program that started it
 ///
 /// Each wall that the kernel lacks is skipped; enter() says which hold.
 
