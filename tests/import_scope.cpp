@@ -72,7 +72,7 @@ TEST(ImportScope, ReportsNoLandlockWhereAThreadEscapesIt) {
 TEST(ImportScope, ABudgetCountsNoMoreThanIsRead) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.obj", std::string(1u << 20, 'x'));
-  reader::ProcessorBudget budget(static_cast<int>(getpid()));
+  auto budget = reader::ProcessorBudget::from_now_on(static_cast<int>(getpid()));
   fs::resize_file(file, std::uintmax_t{1} << 40);
   budget.add_file(file);
   std::ifstream bytes(file);

@@ -9,6 +9,7 @@
 #include "import/display.h"
 #include "import/find_reader.h"
 #include "import/part_receiver.h"
+#include "import/processor_budget.h"
 #include "import/reader_process.h"
 #include "import/reading.h"
 #include "import/stream.h"
@@ -69,8 +70,9 @@ DisplayPart PageReader::read(std::uint32_t source, const Vec3& origin, const std
   };
   reader::PartReceiver receiver(report, known, options_.ignore.size(), options_.memory_limit, give);
   try {
+    auto budget = reader::ProcessorBudget::from_now_on(one.process->id());
     one.process->request(page);
-    reader::receive(one.reading, *one.process, receiver);
+    reader::receive(one.reading, *one.process, receiver, std::move(budget));
   } catch (...) {
     // One that said itself what is wrong goes on.
     if (!receiver.ended()) one.process.reset();

@@ -48,9 +48,11 @@ std::uint64_t bytes_on_disk(const std::filesystem::path& file) {
 
 }  // namespace
 
-ProcessorBudget::ProcessorBudget(int process) : process_(process) {
-  used_before_ = used();
-  read_before_ = bytes_read_by(process);
+ProcessorBudget ProcessorBudget::from_now_on(int process) {
+  ProcessorBudget budget(process);
+  budget.used_before_ = budget.used();
+  budget.read_before_ = bytes_read_by(process);
+  return budget;
 }
 
 void ProcessorBudget::add_file(const std::filesystem::path& file) {

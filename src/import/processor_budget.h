@@ -19,8 +19,10 @@ class ProcessorBudget {
   static constexpr std::uint64_t least_triangles = 20'000'000;
   static constexpr std::uint64_t triangles_per_byte = 4;
 
-  /// `process`: a child. What it used and read before does not count.
-  explicit ProcessorBudget(int process);
+  /// Of all that a child computes and reads.
+  explicit ProcessorBudget(int process) : process_(process) {}
+  /// Of what a child computes and reads from now on.
+  [[nodiscard]] static ProcessorBudget from_now_on(int process);
 
   /// A file of the scene that the reader says it opened. Each counts once, by its bytes, as far as the disk has them.
   void add_file(const std::filesystem::path& file);

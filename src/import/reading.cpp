@@ -153,13 +153,12 @@ std::unique_ptr<ReaderProcess> start(const Reading& reading) {
                                          reading.wanted == Reading::Wanted::pages);
 }
 
-void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver) {
+void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver, ProcessorBudget budget) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
   const auto fail = [&](const std::string& what) -> Error { return Error(printable(path) + ": " + what + "."); };
 
   receiver.spell(reading.scope.scene.string(), without_slash(path));
-  ProcessorBudget budget(process.id());
   Clock::time_point reported = Clock::now();
   double waited = 0.0, heard = 0.0;  // seconds: in all, and until it was heard last
   try {
@@ -238,7 +237,9 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
 }
 
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
-  receive(reading, *start(reading), receiver);
+  const std::unique_ptr<ReaderProcess> process = start(reading);
+  // It may have read much already.
+  receive(reading, *process, receiver, ProcessorBudget(process->id()));
   for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || receiver.matched()[i];
 }
 

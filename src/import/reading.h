@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "import/processor_budget.h"
 #include "import/reader_process.h"
 #include "import/scene_scope.h"
 #include "import/stream_receiver.h"
@@ -40,8 +41,9 @@ struct Reading {
 /// Starts the reader; of pages one that takes requests.
 [[nodiscard]] std::unique_ptr<ReaderProcess> start(const Reading& reading);
 
-/// Gives what the reader says to `receiver`, until that has ended. Throws what read_one throws.
-void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver);
+/// Gives what the reader says to `receiver`, until that has ended. `budget` is that of the process. Throws what
+/// read_one throws.
+void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver, ProcessorBudget budget);
 
 /// Gives what the reader says of the path to `receiver`, and sets matched[i] where ignore pattern i matched. Throws
 /// roam::Error, and whatever report_progress and the receiver throw; the reader is gone either way.
