@@ -62,6 +62,16 @@ TEST(ImportScope, LandlockLetsNoLinkIn) {
                        "secret was refused"));
 }
 
+TEST(ImportScope, ReadsNoInventorFileWithoutLandlock) {
+  const TemporaryFolder folder;
+  const fs::path scene =
+      folder.write("scene.iv", "#Inventor V2.1 ascii\nSeparator { File { name \"/etc/passwd\" } }\n");
+  ImportOptions options;
+  options.reader = folder.write_script("reader.sh", "exec '" ROAM_READER_PROGRAM "' --highest-landlock 0 \"$@\"\n");
+  EXPECT_TRUE(contains(import_error(scene, options), "Inventor files are not read here"));
+  EXPECT_FALSE(contains(import_error(scene), "Inventor files are not read here") && reader_confinement().landlock > 0);
+}
+
 TEST(ImportScope, ReportsNoLandlockWhereAThreadEscapesIt) {
   const TemporaryFolder folder;
   ImportOptions options;

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "import/reader/display/part_pool.h"
+#include "import/reader/file_names.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/mesh_sink.h"
 #include "import/reader/numbers.h"
@@ -180,6 +181,12 @@ int run(const std::vector<std::string>& arguments) {
     frames.flush();
     return EXIT_FAILURE;
   };
+  if (reads && walls.landlock == 0 && extension_of(path) == "iv") {
+    return fail(
+        fmt::format("{}: Inventor files are not read here: their library opens whatever they name, and this "
+                    "system has no Landlock to keep it to the scene. Convert the file to glTF, OBJ or PLY.",
+                    path));
+  }
   try {
     read_path(path, files, sink, request.settings);
     sink.end();
