@@ -101,6 +101,23 @@ bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& ope
   return ahead && behind;
 }
 
+/// Calls f(place, run, along) for places of a way that are `station` apart at most: the leg that each lies on, and its
+/// distance from the way's start.
+template <class F>
+void for_each_station(const std::vector<Vec3>& way, const F& f) {
+  double gone = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const Vec3 run = way[i + 1] - way[i];
+    const double length = glm::length(run);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
+    for (int k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      f(way[i] + part * run, run, gone + part * length);
+    }
+    gone += length;
+  }
+}
+
 /// The headroom of a way: the least height of a body of that radius that something above lets through. Looks for it up
 /// to `most`.
 ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
@@ -110,23 +127,14 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
   limit.size = most;
   const Body body{radius - slack, 0.0};
   const double bottom = search.options.step + radius, rise = most - bottom - radius;
-  double gone = 0.0;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const Vec3 run = way[i + 1] - way[i];
-    const double length = glm::length(run);
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
-    for (int k = 0; k < parts; ++k) {
-      const double part = static_cast<double>(k) / parts;
-      const Vec3 feet = way[i] + part * run;
-      const Impact up = search.survey.world().sweep(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
-      if (!up.hit || bottom + up.time * rise + body.radius >= limit.size) continue;
-      limit.size = bottom + up.time * rise + body.radius;
-      limit.feet = feet;
-      limit.heading = level(run);
-      limit.along = gone + part * length;
-    }
-    gone += length;
-  }
+  for_each_station(way, [&](const Vec3& feet, const Vec3& run, double along) {
+    const Impact up = search.survey.world().sweep(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
+    if (!up.hit || bottom + up.time * rise + body.radius >= limit.size) return;
+    limit.size = bottom + up.time * rise + body.radius;
+    limit.feet = feet;
+    limit.heading = level(run);
+    limit.along = along;
+  });
   return limit;
 }
 
@@ -135,19 +143,11 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
 double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const ProbeLimit& lowest, double radius) {
   const Measure measure = search.measure();
   Station narrowest{lowest.feet, measure.widest, false};
-  double gone = 0.0;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const Vec3 run = way[i + 1] - way[i];
-    const double length = glm::length(run);
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
-    for (int k = 0; k < parts; ++k) {
-      const double part = static_cast<double>(k) / parts;
-      if (std::abs(gone + part * length - lowest.along) > radius) continue;
-      const Station here = station_at(search.survey, measure, way[i] + part * run);
-      if (here.free < narrowest.free) narrowest = here;
-    }
-    gone += length;
-  }
+  for_each_station(way, [&](const Vec3& place, const Vec3&, double along) {
+    if (std::abs(along - lowest.along) > radius) return;
+    const Station here = station_at(search.survey, measure, place);
+    if (here.free < narrowest.free) narrowest = here;
+  });
   if (narrowest.free >= measure.widest || !(narrowest.free > 0.0)) return 0.0;
   const double reach = search.options.spacing;
   const double widest = widest_beside(search.survey, measure, narrowest, lowest.heading, reach).free;
