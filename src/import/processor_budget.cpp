@@ -35,17 +35,6 @@ bool counts_blocks(const std::filesystem::path& file) {
   return false;
 }
 
-/// A hole in a file costs its author nothing.
-std::uint64_t bytes_on_disk(const std::filesystem::path& file) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) return 0;
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  // Some file systems compress what is there.
-  constexpr std::uint64_t block = 512, compression = 16;
-  const auto on_disk = compression * block * static_cast<std::uint64_t>(status.st_blocks);
-  return counts_blocks(file) ? std::min(size, on_disk) : size;
-}
-
 }  // namespace
 
 ProcessorBudget ProcessorBudget::from_now_on(int process) {
@@ -58,12 +47,12 @@ ProcessorBudget ProcessorBudget::from_now_on(int process) {
 void ProcessorBudget::add_file(const std::filesystem::path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
-  if (files_.try_emplace({status.st_dev, status.st_ino}, file).second) file_bytes_ += bytes_on_disk(file);
-}
-
-void ProcessorBudget::look_again() {
-  file_bytes_ = 0;
-  for (const auto& [number, file] : files_) file_bytes_ += bytes_on_disk(file);
+  if (!files_.insert({status.st_dev, status.st_ino}).second) return;
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  // A hole in a file costs its author nothing. Some file systems compress what is there.
+  constexpr std::uint64_t block = 512, compression = 16;
+  const auto on_disk = compression * block * static_cast<std::uint64_t>(status.st_blocks);
+  file_bytes_ += counts_blocks(file) ? std::min(size, on_disk) : size;
 }
 
 std::uint64_t ProcessorBudget::bytes() const {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -26,9 +26,6 @@ class ProcessorBudget {
 
   /// A file of the scene that the reader says it opened. Each counts once, by its bytes, as far as the disk has them.
   void add_file(const std::filesystem::path& file);
-  /// Looks at all files again. Of one that was written just now the disk may have had a part. Call it before a reader
-  /// is ended.
-  void look_again();
 
   /// Seconds that the process may have used by now.
   [[nodiscard]] double allowed() const;
@@ -46,7 +43,7 @@ class ProcessorBudget {
   double used_before_ = 0.0;
   std::uint64_t read_before_ = 0;
   std::uint64_t file_bytes_ = 0;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::filesystem::path> files_;  ///< by device and number
+  std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and number
 };
 
 }  // namespace roam::reader

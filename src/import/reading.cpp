@@ -177,7 +177,6 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
         for (const std::string& file : receiver.take_opened()) {
           if (reading.scope.resolve(file) == fs::path(file)) budget.add_file(file);
         }
-        if (receiver.triangles() > budget.triangles()) budget.look_again();
         if (receiver.triangles() > budget.triangles()) {
           throw fail(fmt::format(
               "it gives more than {} triangles from {} bytes: it repeats itself over and over. If that is meant, write "
@@ -188,7 +187,6 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       // What is still in the pipe may say that more files were read.
       const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;
       if (const double used = budget.used(); used > ProcessorBudget::least_seconds) {
-        if (used > budget.allowed() + grace) budget.look_again();
         if (const double allowed = budget.allowed(); used > allowed + grace) {
           throw fail(fmt::format(
               "its reader computed for more than {:.0f} s on {} bytes and was ended. The file is damaged, or refers to "
