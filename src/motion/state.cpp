@@ -161,7 +161,7 @@ bool Walker::State::embedded() const {
 bool Walker::State::in_unknown() const { return space_->clearance(body(), at_.place, 0.0).unknown; }
 
 void Walker::State::look_again() {
-  const std::uint64_t now = space_->facts().revision.value_or(0);
+  const std::uint64_t now = revision();
   const bool changed = now != looked_at_ || resized_;
   looked_at_ = now;
   resized_ = false;
@@ -251,12 +251,12 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
     }
   } else {
-    const bool changed = space_->facts().revision.value_or(0) != looked_at_;
+    const bool changed = revision() != looked_at_;
     // A way that is found free, from where the body is, proves that nothing has come there.
     const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
     if (!held() && changed && way * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
-      looked_at_ = space_->facts().revision.value_or(0);
+      looked_at_ = revision();
       resized_ = false;
     } else if (held() || changed) {
       look_again();
@@ -365,7 +365,7 @@ bool Walker::State::resize(double radius, double support_radius) {
     walking::adapt(m, gait_, sizes);
     at_ = m;
     // The new body may fit where something came upon the old one.
-    if (space_->facts().revision.value_or(0) != looked_at_) look_again();
+    if (revision() != looked_at_) look_again();
     resized_ = true;
   }
   finish();
@@ -386,7 +386,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   wished_ = in_the_end_ = Vec3(0.0);
   release();
   safe_.height = ground_.height = 0.0;
-  looked_at_ = space_->facts().revision.value_or(0);
+  looked_at_ = revision();
   put(at + Vec3(0.0, 0.0, lift * at_.height), 0.0);
   report_.events.push({EventKind::placed, at_.place});
   if (mode_ != Mode::ghost) fit_in();

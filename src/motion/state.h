@@ -51,6 +51,8 @@ class Walker::State {
   void set_regions(std::span<const SizeRegion> regions);
   bool resize(double radius, double support_radius);
 
+  /// Of the space; 0 where it has none.
+  [[nodiscard]] std::uint64_t revision() const { return space_->facts().revision.value_or(0); }
   [[nodiscard]] walking::Move under_way();
   [[nodiscard]] walking::Sizes sizes();
   void take_size_here();

@@ -39,6 +39,13 @@ bool limit(int resource, rlim_t value) {
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
+/// Whether no other thread runs: it would not be behind Landlock.
+bool is_alone() {
+  std::error_code none;
+  std::filesystem::directory_iterator thread("/proc/self/task", none);
+  return none || std::next(thread) == std::filesystem::directory_iterator();
+}
+
 }  // namespace
 
 bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
@@ -72,13 +79,6 @@ bool enter_empty_folder() {
   // A folder that is gone takes no new file.
   rmdir(folder.c_str());
   return inside;
-}
-
-/// Whether no other thread runs: it would not be behind Landlock.
-bool is_alone() {
-  std::error_code none;
-  std::filesystem::directory_iterator thread("/proc/self/task", none);
-  return none || std::next(thread) == std::filesystem::directory_iterator();
 }
 
 Confinement enter(const Rights& rights, int highest_landlock) {
