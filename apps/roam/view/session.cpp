@@ -29,7 +29,8 @@ constexpr double headless_frame = 1.0 / 60.0;  // s
 // Where nothing else keeps the frames from running free: no screen shows more.
 constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
-CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path) {
+CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path,
+                      std::uint64_t store_memory) {
   CollisionWish wish;
   wish.keep_meshes = options.verify;
   if (plan.at) {
@@ -37,7 +38,7 @@ CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const st
   } else if (!path.empty()) {
     wish.place = path.front().position;
   }
-  wish.memory = options.scene.store_memory();
+  wish.memory = store_memory;
   wish.walker = plan.walker;
   wish.mode = plan.mode;
   return wish;
@@ -53,7 +54,6 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       log_(options.trace, options.verify),
       begin_(Clock::now()) {
   options_.scene = what_.scene;
-  options_.scene.memory = options.scene.memory;
   if (!options_.path.empty()) path_ = load_path(options_.path);
   const std::filesystem::path folder = settings_folder();
   try {

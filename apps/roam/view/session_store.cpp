@@ -48,7 +48,7 @@ void Session::toggle_building() {
   } else {
     builder_stopped_ = false;
     const Vec3 place = placed_ ? roamer_->walker()->position() : scene_->bounds().center();
-    builder_.emplace(what_, roamer_->settings(), place, options_.scene.store_memory());
+    builder_.emplace(what_, roamer_->settings(), place, what_.store_memory);
     tell(fmt::format("building {}, what is near first; {} stops it", builder_->output().string(), key_of("store")));
   }
 }

@@ -44,8 +44,7 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::fu
 }  // namespace
 
 SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
-  SceneAndStore what{scene, store, false};
-  // It is for the store: the scene is read in pages, or in the memory that reading takes by itself.
+  SceneAndStore what{scene, store, false, scene.store_memory()};
   what.scene.memory.reset();
   if (!store.empty() && !Store::is_store(store)) {
     throw UsageError(fmt::format("--store {}: there is no store there; `roam build {} -o {}` makes it", store.string(),

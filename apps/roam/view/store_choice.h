@@ -18,6 +18,7 @@ struct SceneAndStore {
   SceneOptions scene;           ///< of a store whose scene is not there: the store itself
   std::filesystem::path store;  ///< that was named; empty: look beside the scene
   bool store_only = false;      ///< there is no scene to be seen
+  std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes; the scene that is shown does without
 };
 
 /// What the command line means: `store` is that of --store. Where the scene that is named is a store, it is the one to
