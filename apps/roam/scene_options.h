@@ -26,7 +26,7 @@ struct SceneOptions {
   std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
   bool identify = false;                ///< no option of the command line: whether LoadedScene::identity is wanted
 
-  /// Of a store's collision, bytes, where `memory` does not say.
+  /// Bytes for a store's collision where `memory` is not given.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;
   [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
 

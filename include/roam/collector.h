@@ -36,7 +36,7 @@ class FloorOnly;
 /// exact one: what is answered is no less than the part of the true gap, whichever bound it comes from.
 class Collector {
  public:
-  /// What the caller of the space wants to know.
+  /// The question of the space's caller.
   enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };
 
   [[nodiscard]] Kind kind() const { return kind_; }
@@ -44,7 +44,7 @@ class Collector {
   [[nodiscard]] double reach() const { return reach_; }
   /// Metres. What comes no nearer may be left out, if left_out() is given the bound.
   [[nodiscard]] double enough() const { return enough_; }
-  /// Of Kind::one_contact, the first impact whose triangle is wanted and no other, at the place of the query; else
+  /// For Kind::one_contact: the first impact whose triangle is wanted, and no other, at the place of the query. Else
   /// null. A space may find it by FirstImpact::place instead of looking for it.
   [[nodiscard]] const FirstImpact* only() const { return only_; }
 
@@ -59,7 +59,7 @@ class Collector {
   /// be, of a gap, too. A space that does not say is granted 1.99 mm.
   void demand(double tolerance);
 
-  // What this library's own spaces and Space need besides.
+  // The rest is for this library's own spaces and for Space.
 
   Collector(Kind kind, double reach, std::span<Contact> out);
   /// For the contact of a first impact alone. It is looked for as far as a hit may be from what it touches.
@@ -72,12 +72,12 @@ class Collector {
   void sort();
   /// The reach that it was made for.
   [[nodiscard]] double asked() const { return asked_; }
-  /// Of a clearance that found something: the least gap to anything.
+  /// The least gap to anything, for a clearance that found something.
   [[nodiscard]] double certified() const { return out_[0].distance < left_out_ ? out_[0].distance : left_out_; }
   [[nodiscard]] std::span<Contact> kept() const { return out_.first(count_); }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const query::FloorOnly* floor() const { return floor_; }
-  /// Nothing but how far the nearest is will be asked for.
+  /// Whether the caller wants the distance of the nearest and nothing else.
   [[nodiscard]] bool bounds_only() const { return bounds_only_; }
   /// Whether a box of which nothing is known, from which `margin` (m) is kept, counts for a body of this radius.
   [[nodiscard]] bool takes_unknown(const Box& box, double radius, double margin) const;

@@ -33,8 +33,8 @@ struct Opening {
 /// "door", "lintel" or "gap".
 [[nodiscard]] const char* name(Opening::Kind kind);
 
-/// Of all that a step touched, the ground included, the contact that stands most against `way`; null where nothing was
-/// touched.
+/// The contact that stands most against `way` among all that a step touched, the ground included; null where nothing
+/// was touched.
 [[nodiscard]] const Contact* most_against(const StepReport& report, const Vec3& way);
 
 /// The opening in front of a blocked body: the two points nearest to each other that the body touches on either side of

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a body moves in, whoever holds it: a World in memory, a Patchwork that grows while one walks in it, a Pager
+/// The interface of all that a body moves in: a World in memory, a Patchwork that grows while one walks in it, a Pager
 /// over a store. All of them answer the same questions.
 ///
 ///     double headroom(const roam::Space& space, const roam::Vec3& place) {
@@ -11,7 +11,7 @@
 /// | question | function |
 /// |---|---|
 /// | what is met first, when and where | sweep(), ray() |
-/// | what is met first and when; where can be asked later | first_impact(), completed() |
+/// | what is met first and when; the place only if it is wanted | first_impact(), completed() |
 /// | everything that comes near, nearest first | contacts() |
 /// | how near the nearest comes, and which it is | clearance(), floor_clearance() |
 /// | how near the nearest comes, in less time | gap() |
@@ -127,7 +127,7 @@ struct Floor {
   Vec3 normal{0.0, 0.0, 1.0};  ///< of any length; z > 0
 };
 
-/// What a space says about itself.
+/// Facts about a whole space.
 struct SpaceFacts {
   Box bounds = {};  ///< of all that is there, known or not; empty for an empty space
   /// The farthest that any stored vertex lies from where the caller put it, metres. Does not grow in the life of a
@@ -156,8 +156,8 @@ class Space {
   [[nodiscard]] Impact sweep(const Query& query) const { return swept(query, nullptr); }
   /// The same without point, normal, feature and distance, which take a sixth of the time of a hit.
   [[nodiscard]] FirstImpact first_impact(const Query& query) const;
-  /// What sweep() answers to the query, to the bit, when first_impact() has answered `first` to it. Throws roam::Error
-  /// when the space has changed since.
+  /// Completes the answer `first` of first_impact() to the same query; the result has the bits of sweep(). Throws
+  /// roam::Error when the space has changed since.
   [[nodiscard]] Impact completed(const Query& query, const FirstImpact& first) const;
 
   /// The triangles that come within `reach` (m) of the body's surface somewhere on its way (zero motion: at the place).
@@ -183,7 +183,8 @@ class Space {
   /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
   /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
   /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
-  /// Of what is not positive only the sign counts: where the axis meets something it may be minus the radius, no depth.
+  /// A value <= 0 means touching or overlapping; it is not a depth, and may be minus the radius where the axis meets
+  /// something.
   [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
   /// Many queries at once, on all cores: answers[i] is what the function above answers to queries[i], to the bit. Both
@@ -223,7 +224,7 @@ class Space {
     return clearance(body, place, least_gap).distance >= least_gap;
   }
 
-  /// What the space says about itself now.
+  /// Facts about the whole space, as it is now.
   [[nodiscard]] virtual SpaceFacts facts() const = 0;
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }

@@ -29,7 +29,7 @@ class WalkLog {
   /// Writes what is left. Throws roam::Error when not all of the trace could be written.
   void finish();
 
-  /// Of the steps and placements; a ghost has no clearance.
+  /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// For verify(), once.
   [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
