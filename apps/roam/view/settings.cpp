@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "roam/error.h"
+#include "user_folder.h"
 
 namespace roam::app {
 namespace {
@@ -112,16 +112,7 @@ std::optional<HudMode> parse_hud_mode(const std::string& text) {
   return std::nullopt;
 }
 
-std::filesystem::path settings_folder() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  // The standard of the XDG folders: a path that is not absolute is to be ignored.
-  if (const auto config = folder("XDG_CONFIG_HOME"); config.is_absolute()) return config / "roam";
-  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".config" / "roam";
-  return {};
-}
+std::filesystem::path settings_folder() { return user_folder("XDG_CONFIG_HOME", ".config"); }
 
 ViewSettings read_settings(const std::filesystem::path& file) {
   std::error_code none;
