@@ -43,6 +43,7 @@ struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
   bool plan = false, merge = false, adopt = false, json = false;
+  bool beside = false;  ///< nobody named the output
   std::optional<std::uint64_t> shard;
   std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
 };
@@ -94,6 +95,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.threads = verb.scene.threads;
   options.lossless = verb.scene.lossless;
   options.adopt = verb.adopt;
+  options.through_link = !verb.beside;
   options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
   return options;
 }
@@ -237,6 +239,7 @@ ExitStatus build(BuildVerb verb) {
   if (verb.output.empty()) {
     if (verb.scene.scenes.empty()) throw UsageError("build: without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());
+    verb.beside = true;
     demand_no_link(verb.output);
   }
   try {

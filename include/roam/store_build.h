@@ -53,6 +53,8 @@ struct StoreBuildOptions {
   std::optional<StoreKey> key{};
   /// With a key: the store that is there gets a code of it, whoever built it, and is built upon.
   bool adopt = false;
+  /// Whether `output` may be a symbolic link. The folders above it may be.
+  bool through_link = true;
   /// Shards whose boxes are nearest to this place are built first; does not change the result.
   std::optional<Vec3> nearest_first{};
   /// Called from one thread at a time, several times a second. Returning false ends the build: roam::Cancelled.

@@ -55,7 +55,7 @@ bool has_code(StoreBytes& bytes, const std::string& manifest, const StoreKey& ke
   }
 }
 
-void add_code(const std::filesystem::path& store, const std::string& manifest, const StoreKey& key) {
+void add_code(const Folder& store, const std::string& manifest, const StoreKey& key) {
   if (has_code(*files_of(store), manifest, key)) return;
   make_folder_in(store, "codes");
   const std::string file = codes_file(manifest);
@@ -67,8 +67,7 @@ void add_code(const std::filesystem::path& store, const std::string& manifest, c
   write_file(store, file, text + code_of_manifest(key, manifest) + "\n");
 }
 
-void write_coded(const std::filesystem::path& store, const std::string& name, std::string text,
-                 const std::optional<StoreKey>& key) {
+void write_coded(const Folder& store, const std::string& name, std::string text, const std::optional<StoreKey>& key) {
   if (key) {
     const std::string digits = code(*key, "roam file 1", name, text);
     text.append(kStart).append(digits).append("\n");
@@ -76,7 +75,7 @@ void write_coded(const std::filesystem::path& store, const std::string& name, st
   write_file(store, name, text);
 }
 
-std::optional<std::string> read_coded(const std::filesystem::path& store, const std::string& name, std::uint64_t limit,
+std::optional<std::string> read_coded(const Folder& store, const std::string& name, std::uint64_t limit,
                                       const std::optional<StoreKey>& key) {
   if (!size_of(store, name)) return std::nullopt;
   const std::vector<std::byte> bytes = read_file(store, name, limit);

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "roam/store.h"
+#include "store/folder.h"
 
 namespace roam::store {
 
@@ -20,14 +21,13 @@ namespace roam::store {
 /// Whether a code of the key is there. False where that cannot be read.
 [[nodiscard]] bool has_code(StoreBytes& bytes, const std::string& manifest, const StoreKey& key);
 /// Adds the code of the key where it is not there. Throws roam::Error.
-void add_code(const std::filesystem::path& store, const std::string& manifest, const StoreKey& key);
+void add_code(const Folder& store, const std::string& manifest, const StoreKey& key);
 
 /// Writes a file that only builders read, as write_file does; with its code where there is a key.
-void write_coded(const std::filesystem::path& store, const std::string& name, std::string text,
-                 const std::optional<StoreKey>& key);
+void write_coded(const Folder& store, const std::string& name, std::string text, const std::optional<StoreKey>& key);
 /// The text of such a file. Nothing where it is not there, and where there is a key and the code is not that of the
 /// key. Throws as read_file.
-[[nodiscard]] std::optional<std::string> read_coded(const std::filesystem::path& store, const std::string& name,
-                                                    std::uint64_t limit, const std::optional<StoreKey>& key);
+[[nodiscard]] std::optional<std::string> read_coded(const Folder& store, const std::string& name, std::uint64_t limit,
+                                                    const std::optional<StoreKey>& key);
 
 }  // namespace roam::store

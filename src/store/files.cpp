@@ -33,7 +33,7 @@ constexpr std::size_t kPiece = 1 << 20;
 
 }  // namespace
 
-std::string sha256_of_file(const fs::path& store, const std::string& name,
+std::string sha256_of_file(const Folder& store, const std::string& name,
                            const std::function<void(std::uint64_t)>& tick) {
   const Descriptor file = open_file(store, name, O_RDONLY);
   if (!file.is_open()) fail("read", store, name, errno);
@@ -53,7 +53,7 @@ std::string sha256_of_file(const fs::path& store, const std::string& name,
 namespace {
 
 /// The folder of a store's file, for a WholeFile.
-Descriptor folder_to_write(const fs::path& store, const std::string& name) {
+Descriptor folder_to_write(const Folder& store, const std::string& name) {
   Descriptor folder = open_folder(store, split(name).first);
   if (!folder.is_open()) fail("write", store, name, errno);
   return folder;
@@ -61,7 +61,7 @@ Descriptor folder_to_write(const fs::path& store, const std::string& name) {
 
 }  // namespace
 
-NewFile::NewFile(const fs::path& store, const std::string& name)
+NewFile::NewFile(const Folder& store, const std::string& name)
     : store_(store),
       name_(name),
       file_(folder_to_write(store, name), (store / name).parent_path(), split(name).second) {}
@@ -89,13 +89,13 @@ std::string NewFile::commit_by_hash() {
   return digits;
 }
 
-void write_file(const fs::path& store, const std::string& name, std::string_view text) {
+void write_file(const Folder& store, const std::string& name, std::string_view text) {
   NewFile out(store, name);
   out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
 
-std::vector<std::byte> read_file(const fs::path& store, const std::string& name, std::uint64_t limit) {
+std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit) {
   const Descriptor file = open_file(store, name, O_RDONLY);
   if (!file.is_open()) fail("read", store, name, errno);
   struct stat status {};
@@ -147,7 +147,7 @@ std::string spare_file(const std::string& hash) { return "spare/" + hash + ".jso
 
 // -------------------------------------------------------------------------------------------------------------- packs
 
-PackWriter::PackWriter(const fs::path& store) : file_(store, pack_file("new")) {
+PackWriter::PackWriter(const Folder& store) : file_(store, pack_file("new")) {
   std::array<std::byte, pack_header_bytes> header{};
   std::memcpy(header.data(), "ROAMPACK", 8);
   const std::uint32_t version = format_version;
@@ -200,7 +200,7 @@ bool has_ended(const std::string& process) {
   return (::kill(static_cast<pid_t>(number), 0) != 0 && errno == ESRCH) || is_dead(number);
 }
 
-std::string held_by(const fs::path& store, const std::string& process, bool ended) {
+std::string held_by(const Folder& store, const std::string& process, bool ended) {
   if (ended) {
     return fmt::format(
         "{} is still locked, though process {}, which built it, has ended here; it may run on another machine or in a "
@@ -213,7 +213,7 @@ std::string held_by(const fs::path& store, const std::string& process, bool ende
 
 }  // namespace
 
-BuildLock::BuildLock(const fs::path& store) {
+BuildLock::BuildLock(const Folder& store) {
   const std::string name = lock_file;
   Descriptor lock = open_file(store, name, O_RDWR | O_CREAT);
   if (!lock.is_open()) fail("write", store, name, errno);

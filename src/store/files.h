@@ -25,14 +25,14 @@ using files::sync_folder;
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 /// Of a file's content; `tick` is called with the bytes of each piece that was read, and may throw.
-[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& store, const std::string& name,
+[[nodiscard]] std::string sha256_of_file(const Folder& store, const std::string& name,
                                          const std::function<void(std::uint64_t)>& tick = {});
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
 /// A file of a store in the making: a WholeFile that is hashed while it is written. Throws FileError.
 class NewFile {
  public:
-  NewFile(const std::filesystem::path& store, const std::string& name);
+  NewFile(const Folder& store, const std::string& name);
 
   void write(std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -43,17 +43,16 @@ class NewFile {
  private:
   void commit_as(const std::string& last);
 
-  std::filesystem::path store_;
+  Folder store_;
   std::string name_;
   files::WholeFile file_;
   std::uint64_t size_ = 0;
   Sha256 hash_;
 };
 
-void write_file(const std::filesystem::path& store, const std::string& name, std::string_view text);
+void write_file(const Folder& store, const std::string& name, std::string_view text);
 /// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
-[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& store, const std::string& name,
-                                               std::uint64_t limit);
+[[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
 /// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
 void make_folder(const std::filesystem::path& folder);
 
@@ -73,7 +72,7 @@ inline constexpr const char* lock_file = "LOCK";
 /// A pack in the making: a header, then blobs, each at a multiple of pack_alignment.
 class PackWriter {
  public:
-  explicit PackWriter(const std::filesystem::path& store);
+  explicit PackWriter(const Folder& store);
   /// Returns its offset.
   std::uint64_t add(std::span<const std::byte> blob);
   [[nodiscard]] std::uint64_t size() const { return file_.size(); }
@@ -88,7 +87,7 @@ inline constexpr std::uint64_t pack_header_bytes = 64;
 
 /// The files of a folder. Keeps the descriptors of the packs that were read from, up to half of what the process may
 /// have open.
-[[nodiscard]] std::shared_ptr<StoreBytes> files_of(const std::filesystem::path& folder);
+[[nodiscard]] std::shared_ptr<StoreBytes> files_of(const Folder& folder);
 
 /// Another process holds the lock of a store.
 class LockedError : public Error {
@@ -102,7 +101,7 @@ class LockedError : public Error {
 class BuildLock {
  public:
   /// Tries once. Throws LockedError naming the other process, and FileError.
-  explicit BuildLock(const std::filesystem::path& store);
+  explicit BuildLock(const Folder& store);
   BuildLock(const BuildLock&) = delete;
   BuildLock& operator=(const BuildLock&) = delete;
 

@@ -74,8 +74,8 @@ Descriptor open_component(int folder, std::string_view text, int flags, mode_t w
 }
 
 /// The first part of the name that is a link, or the name.
-fs::path in_the_way(const fs::path& store, const std::string& name) {
-  fs::path path = store;
+fs::path in_the_way(const Folder& store, const std::string& name) {
+  fs::path path = store.path();
   std::error_code error;
   for (const fs::path& part : fs::path(name)) {
     path /= part;
@@ -88,7 +88,7 @@ struct CloseFolder {
   void operator()(DIR* folder) const { ::closedir(folder); }
 };
 
-bool remove(const fs::path& store, const std::string& name, int flags) noexcept {
+bool remove(const Folder& store, const std::string& name, int flags) noexcept {
   const std::size_t slash = name.rfind('/');
   const bool nested = slash != std::string::npos;
   const Descriptor folder = open_folder(store, std::string_view(name).substr(0, nested ? slash : 0));
@@ -99,8 +99,31 @@ bool remove(const fs::path& store, const std::string& name, int flags) noexcept 
 
 }  // namespace
 
-void fail(const char* what, const fs::path& store, const std::string& name, int error) {
-  const fs::path file = name.empty() ? store : store / name;
+Folder Folder::held(const fs::path& path, bool through_link) {
+  Folder folder(path);
+  const int flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC | (through_link ? 0 : O_NOFOLLOW);
+  folder.held_ = std::make_shared<const Descriptor>(again([&] { return ::open(path.c_str(), flags); }));
+  if (folder.held_->is_open()) return folder;
+  const int error = errno;
+  std::error_code none;
+  fail("open", path, "", !through_link && fs::is_symlink(fs::symlink_status(path, none)) ? is_a_link : error);
+}
+
+Descriptor Folder::open() const noexcept {
+  constexpr int flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+  if (held_) return Descriptor(again([&] { return ::openat(held_->number(), ".", flags); }));
+  return Descriptor(again([&] { return ::open(path_.c_str(), flags); }));
+}
+
+bool Folder::is_in_place() const noexcept {
+  struct stat now {
+  }, then{};
+  return held_ && ::stat(path_.c_str(), &now) == 0 && ::fstat(held_->number(), &then) == 0 &&
+         now.st_dev == then.st_dev && now.st_ino == then.st_ino;
+}
+
+void fail(const char* what, const Folder& store, const std::string& name, int error) {
+  const fs::path file = name.empty() ? store.path() : store / name;
   if (error == is_a_link) {
     throw FileError(fmt::format("cannot {} {}: {} is a symbolic link, and what a store consists of lies in its own "
                                 "folder; remove the link, and put there what it leads to",
@@ -121,8 +144,8 @@ void fail(const char* what, const fs::path& store, const std::string& name, int 
   files::fail(what, file, error);
 }
 
-Descriptor open_folder(const fs::path& store, std::string_view name) noexcept {
-  Descriptor folder(again([&] { return ::open(store.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+Descriptor open_folder(const Folder& store, std::string_view name) noexcept {
+  Descriptor folder = store.open();
   while (folder.is_open() && !name.empty()) {
     const std::size_t slash = std::min(name.find('/'), name.size());
     folder = open_component(folder.number(), name.substr(0, slash), O_RDONLY, S_IFDIR);
@@ -131,7 +154,7 @@ Descriptor open_folder(const fs::path& store, std::string_view name) noexcept {
   return folder;
 }
 
-Descriptor open_file(const fs::path& store, std::string_view name, int flags) noexcept {
+Descriptor open_file(const Folder& store, std::string_view name, int flags) noexcept {
   const std::size_t slash = name.rfind('/');
   const bool nested = slash != std::string_view::npos;
   const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
@@ -145,7 +168,17 @@ std::pair<std::string, std::string> split(const std::string& name) {
   return {name.substr(0, slash), name.substr(slash + 1)};
 }
 
-std::optional<std::uint64_t> size_of(const fs::path& store, const std::string& name) {
+bool is_file(const Folder& store, std::string_view name) noexcept {
+  const std::size_t slash = name.rfind('/');
+  const bool nested = slash != std::string_view::npos;
+  const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
+  const Component last(name.substr(nested ? slash + 1 : 0));
+  struct stat status {};
+  return folder.is_open() && last.fits() && ::fstatat(folder.number(), last.get(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISREG(status.st_mode);
+}
+
+std::optional<std::uint64_t> size_of(const Folder& store, const std::string& name) {
   const auto [folder_name, last] = split(name);
   const Descriptor folder = open_folder(store, folder_name);
   struct stat status {};
@@ -157,7 +190,7 @@ std::optional<std::uint64_t> size_of(const fs::path& store, const std::string& n
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-std::vector<std::string> files_in(const fs::path& store, const std::string& folder) {
+std::vector<std::string> names_in(const Folder& store, const std::string& folder) {
   Descriptor opened = open_folder(store, folder);
   if (!opened.is_open()) {
     if (errno == ENOENT) return {};
@@ -165,17 +198,22 @@ std::vector<std::string> files_in(const fs::path& store, const std::string& fold
   }
   const std::unique_ptr<DIR, CloseFolder> entries(::fdopendir(opened.number()));
   if (!entries) fail("read", store, folder, errno);
-  const int number = opened.release();  // which `entries` closes
+  (void)opened.release();  // which `entries` closes
   std::vector<std::string> names;
   while (const dirent* entry = ::readdir(entries.get())) {
-    struct stat status {};
-    if (::fstatat(number, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode)) continue;
-    names.push_back(folder.empty() ? entry->d_name : folder + "/" + entry->d_name);
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.push_back(folder.empty() ? std::string(name) : folder + "/" + entry->d_name);
   }
   return names;
 }
 
-void make_folder_in(const fs::path& store, const std::string& name) {
+std::vector<std::string> files_in(const Folder& store, const std::string& folder) {
+  std::vector<std::string> names = names_in(store, folder);
+  std::erase_if(names, [&](const std::string& name) { return !is_file(store, name); });
+  return names;
+}
+
+void make_folder_in(const Folder& store, const std::string& name) {
   Descriptor above = open_folder(store, "");
   if (!above.is_open()) fail("open", store, "", errno);
   for (const fs::path& part : fs::path(name)) {
@@ -184,7 +222,7 @@ void make_folder_in(const fs::path& store, const std::string& name) {
       if (::mkdirat(above.number(), part.c_str(), 0777) != 0 && errno != EEXIST) {
         fail("make the folder", store, name, errno);
       }
-      sync_folder(above.number(), store);
+      sync_folder(above.number(), store.path());
       next = open_component(above.number(), part.native(), O_RDONLY, S_IFDIR);
     }
     if (!next.is_open()) fail("use the folder", store, name, errno);
@@ -192,9 +230,13 @@ void make_folder_in(const fs::path& store, const std::string& name) {
   }
 }
 
-bool remove_file(const fs::path& store, const std::string& name) noexcept { return remove(store, name, 0); }
-bool remove_folder(const fs::path& store, const std::string& name) noexcept {
-  return remove(store, name, AT_REMOVEDIR);
+bool remove_file(const Folder& store, const std::string& name) noexcept { return remove(store, name, 0); }
+bool remove_folder(const Folder& store, const std::string& name) noexcept { return remove(store, name, AT_REMOVEDIR); }
+
+void remove_all(const Folder& store, const std::string& name) {
+  if (remove_file(store, name) || !open_folder(store, name).is_open()) return;
+  for (const std::string& inner : names_in(store, name)) remove_all(store, inner);
+  remove_folder(store, name);
 }
 
 }  // namespace roam::store

@@ -125,7 +125,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
   }
 }
 
-std::string publish(const std::filesystem::path& store, const Manifest& manifest) {
+std::string publish(const Folder& store, const Manifest& manifest) {
   const std::string text = to_text(manifest);
   make_folder_in(store, "manifests");
   NewFile file(store, manifest_file("new"));

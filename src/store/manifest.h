@@ -10,6 +10,7 @@
 
 #include "roam/math.h"
 #include "roam/store.h"
+#include "store/folder.h"
 
 namespace roam::store {
 
@@ -102,7 +103,7 @@ void check_format(std::uint32_t version, const std::string& name);
                                      std::uint64_t* text_bytes = nullptr, std::uint64_t memory = Store::usual_memory,
                                      std::uint64_t* kept = nullptr);
 /// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename, the folder synced. Returns the hash.
-std::string publish(const std::filesystem::path& store, const Manifest& manifest);
+std::string publish(const Folder& store, const Manifest& manifest);
 
 /// TriangleId of a store: page (numbered through), tile in the page, triangle in the tile.
 inline constexpr int triangle_bits = 14, tile_bits = 10;

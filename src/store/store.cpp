@@ -76,10 +76,7 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
   return std::shared_ptr<const Store>(new Store(std::move(state)));
 }
 
-bool Store::is_store(const std::filesystem::path& folder) {
-  std::error_code none;
-  return std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / store::current_file, none));
-}
+bool Store::is_store(const std::filesystem::path& folder) { return store::is_file(folder, store::current_file); }
 
 const StoreInfo& Store::info() const { return state_->info; }
 const std::string& Store::name() const { return state_->name; }

@@ -45,7 +45,7 @@ const char* reason(int error) {
 
 class Files : public StoreBytes {
  public:
-  explicit Files(fs::path folder) : folder_(std::move(folder)) {
+  explicit Files(Folder folder) : folder_(std::move(folder)) {
     rlimit limit{};
     if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) most_open_ = limit.rlim_cur / 2;
   }
@@ -118,7 +118,7 @@ class Files : public StoreBytes {
     return nullptr;
   }
 
-  fs::path folder_;
+  Folder folder_;
   std::size_t most_open_ = 512;
   std::mutex mutex_;
   std::unordered_map<std::string, int> open_;
@@ -127,6 +127,6 @@ class Files : public StoreBytes {
 
 }  // namespace
 
-std::shared_ptr<StoreBytes> files_of(const fs::path& folder) { return std::make_shared<Files>(folder); }
+std::shared_ptr<StoreBytes> files_of(const Folder& folder) { return std::make_shared<Files>(folder); }
 
 }  // namespace roam::store

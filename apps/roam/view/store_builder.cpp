@@ -63,6 +63,7 @@ bool StoreBuilder::goes_on(const StoreBuildProgress& p) {
 void StoreBuilder::build() {
   if (what_.store.empty()) demand_no_link(output_);
   StoreBuildOptions options;
+  options.through_link = !what_.store.empty();
   options.scene = what_.scene.scenes;
   options.output = output_;
   options.import = what_.scene.import_options();

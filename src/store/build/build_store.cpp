@@ -24,7 +24,7 @@ namespace {
 using namespace store;
 namespace fs = std::filesystem;
 
-void make_folders(const fs::path& store) {
+void make_folders(const Folder& store) {
   for (const char* name : {"packs", "parts", "manifests", "scratch/runs", "scratch/parts", "scratch/shards"}) {
     make_folder_in(store, name);
   }
@@ -76,7 +76,7 @@ void note(StoreBuildReport& report, std::string sentence) {
 
 /// Before anything is planned: what was the root of the store is put right, or out of the way. Returns what was wrong,
 /// for the user.
-std::string mend_or_remove_root(const fs::path& store) {
+std::string mend_or_remove_root(const Folder& store) {
   const RootMending mending = mend_root(store);
   if (mending.wrong.empty()) return "";
   std::string sentence = fmt::format("{} was damaged: {}; ", store.string(), mending.wrong);
@@ -87,8 +87,8 @@ std::string mend_or_remove_root(const fs::path& store) {
 
 /// A store that is there may have come with the scene: only one with a code of the key is built upon.
 void demand_authentic(const Work& work) {
-  if (!work.options.key || !Store::is_store(work.store)) return;
-  const auto there = Store::open(work.store);
+  if (!work.options.key || !is_file(work.store, current_file)) return;
+  const auto there = Store::open(files_of(work.store), work.store.string());
   if (there->is_authentic(*work.options.key)) return;
   if (!work.options.adopt) {
     throw NotAuthentic(
@@ -211,7 +211,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
   const DefaultFloatingPoint guard;
   Work work(options);
   check_output(options);
-  OutputFolder output(work.store, options.progress);
+  OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
   return plan ? plan->to_build().size() : 0;
 }
@@ -219,6 +219,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
+  work.store = Folder::held(options.output, options.through_link);
   const Plan plan = read_plan(work);
   describe(plan, report);
   const std::vector<std::size_t> numbers = plan.to_build();
@@ -232,11 +233,7 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
-  std::error_code error;
-  if (!fs::is_directory(work.store, error)) {
-    throw Error(fmt::format("{} is no folder of a store{}{}", work.store.string(), error ? ": " : "",
-                            error ? error.message() : ""));
-  }
+  work.store = Folder::held(options.output, options.through_link);
   const auto lock = locked(work.store, options.progress);
   demand_authentic(work);
   const Plan plan = read_plan(work);
@@ -249,7 +246,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   StoreBuildReport report;
   Work work(options);
   check_output(options);
-  OutputFolder output(work.store, options.progress);
+  OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
   if (!plan) return report;
   build_shards(work, *plan, plan->to_build(), report);
@@ -260,8 +257,9 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
 StoreBuildReport repair_store(const StoreBuildOptions& options) {
   const DefaultFloatingPoint guard;
   if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
-  const auto lock = locked(options.output, options.progress);
-  const RootMending root = mend_root(options.output);
+  const Folder store = Folder::held(options.output, options.through_link);
+  const auto lock = locked(store, options.progress);
+  const RootMending root = mend_root(store);
   if (!root.wrong.empty() && !root.mended) {
     // A repair must give the store that was: how that was read, nothing tells.
     throw Error(
@@ -270,17 +268,18 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
                     "--lossless that it was built with, builds it again",
                     options.output.string(), root.wrong));
   }
-  if (!Store::is_store(options.output)) refuse_to_open(options.output);
-  const Manifest manifest = *manifest_in_force(options.output);
+  if (!is_file(store, current_file)) refuse_to_open(options.output);
+  const Manifest manifest = *manifest_in_force(store);
   StoreBuildOptions as_built = options;
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
-  if (options.key && !Store::open(options.output)->is_authentic(*options.key)) {
+  if (options.key && !Store::open(files_of(store), store.string())->is_authentic(*options.key)) {
     // It gets no code by being repaired, and nothing that its builder left is gone on from.
     as_built.key.reset();
-    remove_scratch(options.output);
+    remove_scratch(store);
   }
   Work work(as_built);
+  work.store = store;
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {
     if (!size_of(work.store, file) || sha256_of_file(work.store, file, [&](std::uint64_t) { work.tick(); }) != hash) {

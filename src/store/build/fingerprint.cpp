@@ -97,7 +97,7 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
-Sources::Sources(fs::path store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
+Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
   if (!size_of(store_, sources_file)) return;
   if (*size_of(store_, sources_file) > kSourcesMemory / 4) return;
   const std::optional<std::string> text = read_coded(store_, sources_file, kSourcesMemory / 4, key_);

@@ -11,6 +11,7 @@
 
 #include "roam/import.h"
 #include "roam/store.h"
+#include "store/folder.h"
 
 namespace roam::store {
 
@@ -27,7 +28,7 @@ class Sources {
  public:
   /// It is remembered in the folder of a store. What is damaged there, or was not remembered with the key, is
   /// forgotten.
-  Sources(std::filesystem::path store, const std::optional<StoreKey>& key);
+  Sources(Folder store, const std::optional<StoreKey>& key);
 
   /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw.
   void look(const std::vector<ScenePart>& parts, const std::function<void()>& tick);
@@ -47,7 +48,7 @@ class Sources {
   };
   static Seen status(const std::filesystem::path& file);
 
-  std::filesystem::path store_;
+  Folder store_;
   std::optional<StoreKey> key_;
   std::map<std::string, Seen> known_, seen_;
 };

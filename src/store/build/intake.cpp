@@ -149,7 +149,7 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
 }
 
 std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
-  const fs::path& store = work.store;
+  const Folder& store = work.store;
   const std::string file = record_file(id);
   const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
   if (!text) return {};

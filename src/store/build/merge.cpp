@@ -75,7 +75,7 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
 
 /// Removes a manifest unless a process reads the store by it, which then holds a shared lock on it. It is removed while
 /// it is locked here: who waits for the lock finds it gone, and looks at CURRENT again. Returns whether it was removed.
-bool remove_unless_read(const fs::path& store, const std::string& manifest) {
+bool remove_unless_read(const Folder& store, const std::string& manifest) {
   // Network file systems lock against readers only what may be written.
   const Descriptor opened = open_file(store, manifest, O_RDWR);
   if (!opened.is_open()) return false;
@@ -106,7 +106,7 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 
 }  // namespace
 
-std::string tidy(const fs::path& store) {
+std::string tidy(const Folder& store) {
   std::string hash;
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
   std::set<std::string> needed;
@@ -138,7 +138,7 @@ std::string tidy(const fs::path& store) {
   return remove_scratch(store);
 }
 
-std::string remove_scratch(const fs::path& store) {
+std::string remove_scratch(const Folder& store) {
   // The plan first: without it nothing of the rest is taken for a build in progress.
   remove_file(store, plan_file);
   for (const char* folder : {"scratch", "scratch/parts", "scratch/runs", "scratch/shards"}) {

@@ -13,9 +13,9 @@ namespace roam::store {
 
 /// Removes what no manifest in force names, and the scratch folder. The store must be locked. Returns what
 /// remove_scratch does.
-[[nodiscard]] std::string tidy(const std::filesystem::path& store);
+[[nodiscard]] std::string tidy(const Folder& store);
 
 /// Removes what builds keep to go on from. Returns a sentence for the user where that cannot be; else nothing.
-std::string remove_scratch(const std::filesystem::path& store);
+std::string remove_scratch(const Folder& store);
 
 }  // namespace roam::store

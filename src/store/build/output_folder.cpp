@@ -24,12 +24,12 @@ bool is_ours(const std::string& name) {
 }
 
 /// Whether there is anything that read_part, build_shard or merge has finished.
-bool holds_results(const fs::path& store) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(store / current_file, error)) || fs::exists(store / plan_file, error)) return true;
+bool holds_results(const Folder& store) {
+  const std::vector<std::string> names = names_in(store, "");
+  if (std::count(names.begin(), names.end(), current_file) > 0 || is_file(store, plan_file)) return true;
   for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
-    for (const auto& entry : fs::directory_iterator(store / folder, error)) {
-      if (!entry.path().filename().string().ends_with(files::temporary_suffix)) return true;
+    for (const std::string& name : names_in(store, folder)) {
+      if (!name.ends_with(files::temporary_suffix)) return true;
     }
   }
   return false;
@@ -37,7 +37,7 @@ bool holds_results(const fs::path& store) {
 
 }  // namespace
 
-std::unique_ptr<BuildLock> locked(const fs::path& store, const BuildProgress& progress) {
+std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds longest{1}, longest_remainder{5};
   constexpr std::chrono::milliseconds period{50};
@@ -62,38 +62,37 @@ std::string other_thing_in(const fs::path& folder) {
   return "";
 }
 
-OutputFolder::OutputFolder(fs::path store, const BuildProgress& progress) : store_(std::move(store)) {
+OutputFolder::OutputFolder(Folder& store, bool through_link, const BuildProgress& progress) : store_(store) {
   std::error_code error;
-  fs::path path = fs::absolute(store_, error).lexically_normal();
+  fs::path path = fs::absolute(store.path(), error).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   // A link that leads nowhere is there, too.
   while (!fs::exists(fs::symlink_status(path, error)) && path != path.parent_path()) {
     made_.insert(path);
     path = path.parent_path();
   }
-  const bool had_lock = fs::exists(store_ / lock_file, error);
   try {
-    make_folder(store_);
+    make_folder(store.path());
+    store = store_ = Folder::held(store.path(), through_link);
+    const bool had_lock = is_file(store_, lock_file);
     lock_ = locked(store_, progress);
+    for (const std::string& name : names_in(store_, "")) there_.insert(name);
+    if (!had_lock) there_.erase(lock_file);
   } catch (...) {
     remove_made_folders();
     throw;
   }
-  for (const auto& entry : fs::directory_iterator(store_, error)) there_.insert(entry.path().filename().string());
-  if (!had_lock) there_.erase(lock_file);
 }
 
 OutputFolder::~OutputFolder() {
-  if (keeps_ || holds_results(store_)) return;
-  // What cannot be removed stays: what went wrong before is what is told.
-  std::error_code error;
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(store_, error)) {
-    const std::string name = entry.path().filename().string();
-    if (is_ours(name) && !there_.contains(name)) ours.push_back(entry.path());
+  try {
+    if (keeps_ || holds_results(store_)) return;
+    for (const std::string& name : names_in(store_, "")) {
+      if (is_ours(name) && !there_.contains(name)) remove_all(store_, name);
+    }
+  } catch (const Error&) {  // what cannot be removed stays: what went wrong before is what is told
   }
-  for (const fs::path& path : ours) fs::remove_all(path, error);
-  remove_made_folders();
+  if (store_.is_in_place()) remove_made_folders();
 }
 
 /// As far as they are empty: others may have put things there.

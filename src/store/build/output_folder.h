@@ -19,14 +19,14 @@ using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 /// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
 /// has become the reader: that is waited for, up to 5 s, and 1 s for any other holder. While it waits it asks
 /// `progress` whether to go on. Throws roam::Error naming the holder, and roam::Cancelled.
-[[nodiscard]] std::unique_ptr<BuildLock> locked(const std::filesystem::path& store, const BuildProgress& progress);
+[[nodiscard]] std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress);
 
 /// The folder of a store, made where it is not there, and locked. What builds put there goes again with this, unless
 /// keep() was called, it was there before, or there is something that a later build goes on from.
 class OutputFolder {
  public:
-  /// Throws as `locked`.
-  OutputFolder(std::filesystem::path store, const BuildProgress& progress);
+  /// Holds `store` open from then on. Throws as `locked` and Folder::held.
+  OutputFolder(Folder& store, bool through_link, const BuildProgress& progress);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -35,7 +35,7 @@ class OutputFolder {
  private:
   void remove_made_folders() const;
 
-  std::filesystem::path store_;
+  Folder store_;
   std::set<std::filesystem::path> made_;  ///< folders that were not there before, the store's and those above it
   std::set<std::string> there_;           ///< what was in the store before
   std::unique_ptr<BuildLock> lock_;

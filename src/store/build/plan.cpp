@@ -104,7 +104,7 @@ void write_plan(const Work& work, const Plan& plan) {
 }
 
 Plan read_plan(const Work& work) {
-  const fs::path& store = work.store;
+  const Folder& store = work.store;
   const std::uint64_t memory = work.options.memory;
   if (!size_of(store, plan_file)) {
     throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
@@ -147,8 +147,8 @@ Plan read_plan(const Work& work) {
   }
 }
 
-std::optional<Manifest> manifest_in_force(const fs::path& store) {
-  if (!Store::is_store(store)) return {};
+std::optional<Manifest> manifest_in_force(const Folder& store) {
+  if (!is_file(store, current_file)) return {};
   return read_manifest(*files_of(store), store.string());
 }
 
@@ -164,7 +164,7 @@ std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
 }
 
 std::optional<ShardInfo> built_shard(const Work& work, const std::string& key) {
-  const fs::path& store = work.store;
+  const Folder& store = work.store;
   const std::string file = shard_file(key);
   const std::optional<std::string> text = read_coded(store, file, Store::usual_memory, work.options.key);
   if (!text) return {};

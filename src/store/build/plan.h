@@ -39,7 +39,7 @@ struct Plan {
 void write_plan(const Work& work, const Plan& plan);
 
 /// The manifest in force, if there is a store.
-[[nodiscard]] std::optional<Manifest> manifest_in_force(const std::filesystem::path& store);
+[[nodiscard]] std::optional<Manifest> manifest_in_force(const Folder& store);
 
 /// The notes of each part of a store, as PartRecord has them.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Manifests that are what they were when they were written, the newest first.
-std::vector<std::string> whole_manifests(const fs::path& store) {
+std::vector<std::string> whole_manifests(const Folder& store) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
   for (const char* folder : {"manifests", "spare"}) {
@@ -30,9 +30,9 @@ std::vector<std::string> whole_manifests(const fs::path& store) {
 }
 
 /// Whether there is, or was, a root at all. A build that was never published has none.
-bool has_root(const fs::path& store) {
+bool has_root(const Folder& store) {
   try {
-    if (!Store::is_store(store)) refuse_to_open(store);
+    if (!is_file(store, current_file)) refuse_to_open(store.path());
   } catch (const RootDamage&) {
     return true;
   } catch (const Error&) {
@@ -41,9 +41,9 @@ bool has_root(const fs::path& store) {
   return true;
 }
 
-std::string wrong_with_root(const fs::path& store) {
+std::string wrong_with_root(const Folder& store) {
   try {
-    if (!Store::is_store(store)) refuse_to_open(store);
+    if (!is_file(store, current_file)) refuse_to_open(store.path());
     static_cast<void>(read_manifest(*files_of(store), store.string()));
     return "";
   } catch (const RootDamage& damage) {
@@ -53,7 +53,7 @@ std::string wrong_with_root(const fs::path& store) {
 
 }  // namespace
 
-std::string keep_spare(const fs::path& store, const Manifest& manifest) {
+std::string keep_spare(const Folder& store, const Manifest& manifest) {
   const std::string text = to_text(manifest);
   const std::string hash = sha256(std::as_bytes(std::span(text)));
   const std::string file = spare_file(hash);
@@ -64,12 +64,12 @@ std::string keep_spare(const fs::path& store, const Manifest& manifest) {
   return hash;
 }
 
-RootMending mend_root(const fs::path& store) {
+RootMending mend_root(const Folder& store) {
   RootMending mending;
   if (!has_root(store)) return mending;
   mending.wrong = wrong_with_root(store);
   if (mending.wrong.empty()) return mending;
-  if (!holds_store(store)) {
+  if (!holds_store(store.path())) {
     throw Error(
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }

@@ -10,7 +10,7 @@
 namespace roam::store {
 
 /// Writes the manifest once more, as spare/<SHA-256>.json, where that is not there or damaged. Returns the hash.
-std::string keep_spare(const std::filesystem::path& store, const Manifest& manifest);
+std::string keep_spare(const Folder& store, const Manifest& manifest);
 
 /// What mend_root found.
 struct RootMending {
@@ -22,6 +22,6 @@ struct RootMending {
 /// Where CURRENT or the manifest cannot be used, puts that manifest in force again of which there is a whole copy. The
 /// store must be locked. Throws roam::Error for a store of a newer format, for a CURRENT that another program made, and
 /// where a file cannot be read or written.
-[[nodiscard]] RootMending mend_root(const std::filesystem::path& store);
+[[nodiscard]] RootMending mend_root(const Folder& store);
 
 }  // namespace roam::store

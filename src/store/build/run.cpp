@@ -133,8 +133,7 @@ std::vector<RunItem> sort_run(const RunContent& run) {
   return items;
 }
 
-void write_run(const std::filesystem::path& store, const std::string& name, const RunContent& run,
-               std::span<const RunItem> items) {
+void write_run(const Folder& store, const std::string& name, const RunContent& run, std::span<const RunItem> items) {
   NewFile out(store, name);
   const std::size_t blocks = (items.size() + block_triangles - 1) / block_triangles;
   std::vector<RunReader::Entry> index(blocks);
@@ -166,7 +165,7 @@ void write_run(const std::filesystem::path& store, const std::string& name, cons
   out.commit();
 }
 
-RunReader::RunReader(const std::filesystem::path& store, const std::string& name)
+RunReader::RunReader(const Folder& store, const std::string& name)
     : file_(store / name), descriptor_(open_file(store, name, O_RDONLY)) {
   if (!descriptor_.is_open()) {
     if (is_foreign(errno)) fail("read", store, name, errno);

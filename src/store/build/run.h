@@ -43,8 +43,7 @@ struct RunItem {
 [[nodiscard]] std::vector<RunItem> sort_run(const RunContent& run);
 
 /// Publishes the file of a store. `items`: of sort_run.
-void write_run(const std::filesystem::path& store, const std::string& name, const RunContent& run,
-               std::span<const RunItem> items);
+void write_run(const Folder& store, const std::string& name, const RunContent& run, std::span<const RunItem> items);
 
 /// Triangles of a block, and their numbers in the part.
 struct RunBlock {
@@ -58,7 +57,7 @@ struct RunBlock {
 /// written, with what to do.
 class RunReader {
  public:
-  RunReader(const std::filesystem::path& store, const std::string& name);
+  RunReader(const Folder& store, const std::string& name);
 
   struct Range {
     std::size_t begin = 0, end = 0;

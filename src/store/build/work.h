@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "roam/store_build.h"
+#include "store/folder.h"
 
 namespace roam::store {
 
@@ -34,7 +35,7 @@ class Work {
   explicit Work(const StoreBuildOptions& options);
 
   const StoreBuildOptions& options;
-  const std::filesystem::path store;
+  Folder store;  ///< held by whoever builds
   tbb::task_arena arena;
 
   /// How many parts of so many may be read at once.
