@@ -100,7 +100,6 @@ TEST(Locale, Refusals) {
       const Vec3 way[] = {{0.0, 0.0, 5.0}, {1.0, 0.0, 5.0}};
       static_cast<void>(follow(walker, way, {.speed = -1.5}));
     });
-    told += refusal([&] { static_cast<void>(world.object(1234567)); });
     return told;
   });
 }

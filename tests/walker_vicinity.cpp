@@ -28,7 +28,7 @@ class Counting final : public Space {
   explicit Counting(const World& world) : world_(world) {}
 
   [[nodiscard]] roam::SpaceFacts facts() const override { return world_.facts(); }
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override { return world_.object_name(triangle); }
+  [[nodiscard]] roam::Object object(TriangleId triangle) const override { return world_.object(triangle); }
 
  protected:
   [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, Vicinity* vicinity) const override {

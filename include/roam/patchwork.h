@@ -104,12 +104,13 @@ class Patchwork final : public LiveSpace {
 
   /// The largest error is error_limit.
   [[nodiscard]] SpaceFacts facts() const override;
-  /// Of what is unknown: why, where fail() said it, else "not loaded yet". A number whose patch has gone gives "".
+  /// For what is unknown the name is the reason: what fail() gave, else "not loaded yet". A number whose patch has gone
+  /// belongs to no object.
   ///
   /// The number of a triangle is that of its patch times 2^32, and its number in the patch's world: the same for as
   /// long as the patch is in use and never used again. The sides of an unknown box have numbers of their own. To
   /// Space::contacts() such a box is one contact: where it is nearest. Objects are numbered in each patch's world.
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  [[nodiscard]] Object object(TriangleId triangle) const override;
 
   /// The patch that a triangle, or the side of an unknown box, belongs to, and its number in the patch's world.
   [[nodiscard]] static PatchId patch(TriangleId triangle) { return PatchId{triangle >> 32}; }

@@ -16,6 +16,7 @@
 /// | how near the nearest comes, and which it is | clearance(), floor_clearance() |
 /// | how near the nearest comes, in less time | gap() |
 /// | whether the body has room | fits() |
+/// | what was met | object() |
 ///
 /// Space is *hit*, *free* or *unknown*. Free is only what is certified free: with `radius` and triangles as the caller
 /// passed them and distances measured in exact arithmetic,
@@ -38,6 +39,7 @@
 /// the answers are the same bits and raise no signal. Callbacks, and spaces of the host's own, run in the default one
 /// too.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -67,11 +69,33 @@ using ObjectId = std::uint32_t;
 /// The number of no object: of a miss, of what is unknown, and of every hit in a Pager, which has not read the objects.
 inline constexpr ObjectId no_object = ~ObjectId{0};
 
+/// What is known of the object that a triangle belongs to.
+struct Object {
+  ObjectId id = no_object;      ///< no_object: there is no such triangle, or its object is not numbered
+  std::string name;             ///< for people; may be empty
+  std::uint64_t user_data = 0;  ///< as the program gave it: Mesh::user_data
+};
+
+/// Objects that a query passes over. Filtered (roam/filtered.h) is a space without them, for a body that moves.
+struct ObjectFilter {
+  std::span<const ObjectId> objects;   ///< ascending
+  const ObjectFilter* also = nullptr;  ///< more of them
+
+  [[nodiscard]] bool ignores(ObjectId object) const {
+    for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
+      if (std::binary_search(f->objects.begin(), f->objects.end(), object)) return true;
+    }
+    return false;
+  }
+};
+
 /// A body and its straight way.
 struct Query {
   Body body;         ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};    ///< metres: where the centre is at time 0
   Vec3 motion{0.0};  ///< metres, each component at most Space::motion_limit: where the centre is at time 1, less `from`
+  /// Objects that are passed over, by the numbers that hits have; null: none. What is unknown is not passed over.
+  const ObjectFilter* ignored = nullptr;
 };
 
 /// The first impact of a sweep, or none (`hit` is false: then `distance` is 0, for Space::clearance says how free the
@@ -228,8 +252,9 @@ class Space {
   [[nodiscard]] virtual SpaceFacts facts() const = 0;
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }
-  /// The name of the object that a triangle belongs to; may be empty, and is for a number that no triangle here has.
-  [[nodiscard]] virtual std::string object_name(TriangleId triangle) const = 0;
+  /// The object that a triangle belongs to; Object{} for a number that no triangle here has. Allocates.
+  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;
+  [[nodiscard]] std::string object_name(TriangleId triangle) const { return object(triangle).name; }
 
  protected:
   // For authors of spaces: the two questions that all of the above come down to. That no body passes a wall rests on

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "roam/math.h"
+#include "roam/space.h"
 
 namespace roam {
 
@@ -23,6 +24,10 @@ struct Stance {
   bool unknown = false;         ///< what carries the body is not known yet (space.h); false in the air
   Vec3 ground{0.0, 0.0, 1.0};   ///< unit normal of the ground stood on now or last
   std::optional<double> level;  ///< z of the point stood on now or last, metres; none: not stood since it was placed
+  ObjectId object = no_object;  ///< that carries the body, or carried it last
+  /// Of the ground at the feet, metres per second, as roam::advance() moved it last; 0 where it does not move. In the
+  /// air: what the body has taken along from moving ground, horizontal, until it lands.
+  Vec3 velocity{0.0};
 
   /// Whether anything carries the body.
   [[nodiscard]] bool grounded() const { return footing != Footing::air && footing != Footing::falling; }

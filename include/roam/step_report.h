@@ -120,6 +120,7 @@ struct StepReport {
   double elapsed = 0.0;  ///< seconds that were simulated: dt, or less when throttled
   /// Metres per second, downward, at which it came to ground in this step, of several times the fastest; 0: it did not.
   double landing_speed = 0.0;
+  Vec3 ground_velocity{0.0};  ///< metres per second, of the ground that moves under the body: see Stance::velocity
   bool grounded = false;     ///< stands on something (walk mode)
   bool carried = false;      ///< stands on its foot over a crack: see WalkerSettings::support_radius
   bool blocked = false;      ///< could not go on in the wished direction in this step; contacts.back() is why

@@ -135,6 +135,7 @@ class Walker {
   class State;
   /// For the rooms of this library alone.
   [[nodiscard]] const State& state() const { return *state_; }
+  [[nodiscard]] State& state() { return *state_; }
 
  private:
   std::unique_ptr<State> state_;  ///< null when it was moved from

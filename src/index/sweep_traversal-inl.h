@@ -165,12 +165,14 @@ class SweepTraversal {
     sweep_leaf(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      take(double(met.time[i]), {tile_number, t.leaves + number, i});
+      const Place place{tile_number, t.leaves + number, i};
+      if (!index_.skips(place)) take(double(met.time[i]), place);
     }
     for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       if (double(met.time[i]) >= best_.time) continue;
-      decide(t, {tile_number, t.leaves + number, i}, double(met.time[i]));
+      const Place place{tile_number, t.leaves + number, i};
+      if (!index_.skips(place)) decide(t, place, double(met.time[i]));
     }
   }
 

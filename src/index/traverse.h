@@ -32,6 +32,19 @@ struct Absent {
   bool only = false;  ///< tiles that are in memory are passed over
 };
 
+/// Where a triangle is stored.
+struct Place {
+  std::uint32_t tile = 0;
+  std::uint32_t leaf = 0;  ///< block in the arena
+  std::uint32_t triangle = 0;
+};
+
+/// Which triangles are passed over.
+struct Skip {
+  bool (*skips)(const void* context, const Place& place);
+  const void* context;
+};
+
 /// A tree over tiles and the tiles, as one read-only view.
 struct Index {
   const Block* top = nullptr;     ///< top[0] is the root over all tiles; its leaves count in `tiles`
@@ -41,13 +54,9 @@ struct Index {
   const std::uint8_t* ids = nullptr;  ///< null: triangle i of a leaf of tile t is number t << 14 | leaf.ids + i
   Grid grid;                          ///< of the nodes over tiles
   const Absent* absent = nullptr;     ///< null where no tile is
-};
+  const Skip* skip = nullptr;         ///< null where every triangle counts
 
-/// Where a triangle is stored.
-struct Place {
-  std::uint32_t tile = 0;
-  std::uint32_t leaf = 0;  ///< block in the arena
-  std::uint32_t triangle = 0;
+  [[nodiscard]] bool skips(const Place& place) const { return skip != nullptr && skip->skips(skip->context, place); }
 };
 
 /// One straight piece of a motion, at most kLongestPiece long, from a start in reach of the index.

@@ -42,10 +42,14 @@ struct Gait : Stance {
   FootAnswer foot;  ///< where it was asked last
   DiscFound disc;   ///< where the foot last found room to fall
 
-  /// Nothing carries it from now on.
+  bool moved_along = false;  ///< advance() has moved it by its velocity for the next step
+
+  /// Nothing carries it from now on. It keeps the velocity of the ground.
   void leave_ground() {
     footing = Footing::air;
     unknown = false;
+    if (velocity.z != 0.0) rise_speed += velocity.z;
+    velocity.z = 0.0;
   }
 };
 

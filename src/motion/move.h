@@ -103,6 +103,8 @@ class Move : public Mover, public Whereabouts {
   void measure();
   /// Goes along `motion`, part of a way that a sweep has found free, and measures how free that part is.
   void go(const Vec3& motion);
+  /// Goes along a way whose certified clearance is given, metres.
+  void go(const Vec3& motion, double certified);
   /// Where a touch left less than half the skin, restores it as far as there is room.
   void ease_off(const Advance& touch);
   /// A new height about the same feet or head, and the radius that is set; the caller has seen to it that the body fits
@@ -121,7 +123,6 @@ class Move : public Mover, public Whereabouts {
   [[nodiscard]] bool has_room() const;
 
  private:
-  void go(const Vec3& motion, double certified);
   /// gap_over(), as far as it was looked.
   [[nodiscard]] double look_along(const Vec3& motion);
 

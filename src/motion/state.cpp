@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "math/finite.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/pace.h"
@@ -23,8 +24,6 @@ constexpr double least_skin = 1e-4;
 
 /// Pieces of one flight among regions: each half a radius.
 constexpr int flight_limit = 4096;
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Where a body that does not fit at `place` is freed to.
 std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& place, double skin) {
@@ -101,6 +100,7 @@ void Walker::State::finish() {
   report_.radius = settings_.radius;
   report_.grounded = gait_.grounded();
   report_.carried = gait_.footing == Footing::foot;
+  report_.ground_velocity = gait_.velocity;
   if (mode_ == Mode::ghost) {
     at_.known.forget_place();
   } else if (at_.known.measured == walking::Measured::nothing ||
@@ -225,7 +225,7 @@ void Walker::State::settle() {
 }
 
 const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
-  if (!finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
+  if (!is_finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
     throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
   }
@@ -271,6 +271,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     }
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
+  gait_.moved_along = false;
   was_blocked_ = report_.blocked;
   wished_ = input.velocity;
   in_the_end_ = change ? change->velocity(report_.elapsed) : wished_;
@@ -374,7 +375,7 @@ bool Walker::State::resize(double radius, double support_radius) {
 
 /// `lift`: how far the centre lies above `at`, part of the height.
 const StepReport& Walker::State::place(const Vec3& at, double lift) {
-  if (!finite(at)) throw Error("the place to put the walker to is not a finite point");
+  if (!is_finite(at)) throw Error("the place to put the walker to is not a finite point");
   begin();
   const double height = walking::sized(given_, outside_).height;
   at_.place = at + Vec3(0.0, 0.0, lift * height);

@@ -78,7 +78,8 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
 /// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
   if (gait.footing != Footing::foot) m.note(EventKind::carried);
-  stand_on(m, gait, {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown});
+  stand_on(m, gait,
+           {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown, gait.object});
   gait.footing = Footing::foot;
   gait.floor_seen = is_floor;
   gait.floor = plane;

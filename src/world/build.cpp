@@ -120,7 +120,10 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   const index::Soup soup(meshes);
   data->lossless = options.lossless;
   data->first = soup.first();
-  for (const Mesh& mesh : meshes) data->names.push_back(mesh.name);
+  for (const Mesh& mesh : meshes) {
+    data->names.push_back(mesh.name);
+    data->user_data.push_back(mesh.user_data);
+  }
   data->bounds = soup.bounds();
   data->stats.triangles = soup.size();
   data->stats.objects = meshes.size();
@@ -142,7 +145,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   }
   data->stats.tiles = data->tiles.size;
   data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +
-                      data->first.size() * sizeof(std::uint64_t);
+                      (data->first.size() + data->user_data.size()) * sizeof(std::uint64_t);
   data->index = data->view();
   World world;
   world.data_ = std::move(data);

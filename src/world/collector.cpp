@@ -4,6 +4,7 @@
 
 #include "sweep/seen_from.h"
 #include "world/floor_only.h"
+#include "world/frame.h"
 #include "world/query.h"
 
 namespace roam {
@@ -37,6 +38,7 @@ void Collector::demand(double tolerance) {
 }
 
 void Collector::offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object) {
+  if (query.ignored != nullptr && query.ignored->ignores(object)) return;
   const certified::LocalTriangle local = certified::seen_from(query.from, triangle);
   const auto measure = [&](const certified::LocalTriangle& part) {
     Contact c = query::contact_with(part, query.body, query.from, query.motion);
@@ -49,6 +51,11 @@ void Collector::offer(const Query& query, const Triangle& triangle, TriangleId i
 }
 
 void Collector::offer(const Contact& c, double doubt) {
+  if (frame_ == nullptr) return keep(c, doubt);
+  keep(frame_->in_scene(c), doubt + 2.0 * frame_->pad);
+}
+
+void Collector::keep(const Contact& c, double doubt) {
   if (only_ != nullptr) {
     if (c.triangle != only_->triangle || (count_ > 0 && !nearer(c, out_[0]))) return;
     out_[0] = c;

@@ -6,11 +6,10 @@
 #include <utility>
 #include <variant>
 
-#include "index/margin.h"
 #include "math/floating_point.h"
 #include "math/largest.h"
 #include "text/number.h"
-#include "world/box_tree.h"
+#include "world/many.h"
 #include "world/patches.h"
 #include "world/query.h"
 #include "world/unknown.h"
@@ -46,16 +45,6 @@ struct Failed {
 };
 using Message = std::variant<Expected, Delivered, Failed>;
 
-Sweep reached(const Query& query, double reach) {
-  const double around = query.body.radius + reach + Patchwork::margin;
-  return {query.from, query.motion, {around, around, around + query.body.half_height}};
-}
-
-/// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
-query::Part part(const Query& query, const Interval& when) {
-  return largest(query.motion) <= index::kLongestPiece ? query::Part{} : query::Part{when.begin, when.end};
-}
-
 /// What is met of a box of which nothing is known.
 FirstImpact met_unknown(const Box& box, const Query& query) {
   const Impact met = unknown::sweep(box, Patchwork::margin, query.body, query.from, query.motion);
@@ -66,13 +55,6 @@ FirstImpact met_unknown(const Box& box, const Query& query) {
   first.triangle = met.triangle;
   first.contact = Contact{{met.point, met.normal, met.feature, met.distance}, met.triangle, no_object, true};
   return first;
-}
-
-/// Whether `a` is met before `b`. At the start the deepest counts: that is what to get out of.
-bool earlier(const FirstImpact& a, const FirstImpact& b) {
-  if (a.time != b.time) return a.time < b.time;
-  if (a.time == 0.0 && a.contact->distance != b.contact->distance) return a.contact->distance < b.contact->distance;
-  return a.triangle < b.triangle;
 }
 
 }  // namespace
@@ -163,19 +145,19 @@ struct Patchwork::State {
   /// Offers the collector everything within its reach of the way.
   void collect(const Query& query, Collector& collector) const {
     // Which part of the way is looked at must not depend on what was found before, or the last bits would, too.
-    const Sweep whole = reached(query, collector.asked());
+    const Sweep whole = query::reached(query, collector.asked(), margin);
     Sweep look = whole;
     tree.near(look, [&](std::uint32_t index, const Interval&) {
       const Patch& patch = patches[index];
       if (patch.world) {
         const WorldData& data = *patch.world->data_;
-        query::collect(data, query, part(query, whole.meets(data.reach)), first_id(index), collector);
+        query::collect(data, query, query::part_of(query, whole.meets(data.reach)), first_id(index), collector);
       } else if (collector.takes_unknown(patch.where, query.body.radius, margin)) {
         Contact c = unknown::nearest(patch.where, margin, query.body, query.from, query.motion);
         c.triangle += first_id(index) + kFirstSide;
         collector.offer(c, margin);
       }
-      look = reached(query, collector.reach());
+      look = query::reached(query, collector.reach(), margin);
     });
     for (Contact& c : collector.kept()) {
       if (!c.unknown) c.object = world(c.triangle).object(triangle_in_patch(c.triangle));
@@ -239,12 +221,12 @@ FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) con
   const State& s = *state_;
   FirstImpact first;
   double until = 1.0;
-  s.tree.along(reached(query, 0.0), until, [&](std::uint32_t index, const Interval& when) {
+  s.tree.along(query::reached(query, 0.0, margin), until, [&](std::uint32_t index, const Interval& when) {
     const Patch& patch = s.patches[index];
-    FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, part(query, when))
+    FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, query::part_of(query, when))
                                   : met_unknown(patch.where, query);
     met.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
-    if (!met.hit || (first.hit && !earlier(met, first))) return;
+    if (!met.hit || (first.hit && !query::is_earlier(met, first))) return;
     first = met;
     until = first.time;
   });
@@ -264,15 +246,15 @@ SpaceFacts Patchwork::facts() const {
   return {.bounds = state_->tree.bounds(), .largest_error = error_limit, .revision = state_->revision};
 }
 
-std::string Patchwork::object_name(TriangleId triangle) const {
+Object Patchwork::object(TriangleId triangle) const {
   const Patches& patches = state_->patches;
   const auto number = static_cast<std::uint64_t>(patch(triangle));
-  if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return "";
+  if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return {};
   const Patch& it = patches[static_cast<std::uint32_t>(number - 1)];
   const TriangleId local = triangle_in_patch(triangle);
-  if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return "";
-  if (it.world) return local < it.world->stats().triangles ? it.world->object_name(local) : "";
-  return it.failed ? it.reason : "not loaded yet";
+  if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return {};
+  if (it.world) return it.world->object(local);
+  return {no_object, it.failed ? it.reason : "not loaded yet"};
 }
 
 PatchworkStats Patchwork::stats() const {

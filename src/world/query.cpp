@@ -33,11 +33,36 @@ std::span<const index::Root> all_of(const index::Roots& roots) {
   return {roots.root.data(), static_cast<std::size_t>(roots.count)};
 }
 
+/// A world's index without the objects that a filter names.
+class Remaining {
+ public:
+  Remaining(const WorldData& world, const ObjectFilter* ignored) : world_(world), ignored_(ignored) {
+    if (ignored == nullptr) return;
+    index_ = world.index;
+    index_->skip = &skip_;
+  }
+  Remaining(const Remaining&) = delete;
+  Remaining& operator=(const Remaining&) = delete;
+
+  [[nodiscard]] const index::Index& index() const { return index_ ? *index_ : world_.index; }
+
+ private:
+  static bool skips(const void* self, const index::Place& place) {
+    const Remaining& r = *static_cast<const Remaining*>(self);
+    return r.ignored_->ignores(r.world_.object(number_at(r.world_.index, place)));
+  }
+
+  const WorldData& world_;
+  const ObjectFilter* ignored_;
+  index::Skip skip_{&Remaining::skips, this};
+  std::optional<index::Index> index_;  ///< where something is passed over
+};
+
 /// One world, as first_of and collect_of ask it.
 class WorldScene {
  public:
-  WorldScene(const WorldData& world, TriangleId base, const index::Roots* roots)
-      : world_(world), index_(world.index), base_(base), roots_(roots) {}
+  WorldScene(const WorldData& world, const index::Index& index, TriangleId base, const index::Roots* roots)
+      : world_(world), index_(index), base_(base), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece) {
     if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
@@ -96,6 +121,7 @@ struct Visitor {
 
   static double visit(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
+    if (v.index.skips(place)) return v.collector.enough();
     const index::Tile& tile = v.index.tiles[place.tile];
     if (v.collector.bounds_only()) {
       const auto error = double(tile.error);
@@ -151,7 +177,8 @@ void visit_near(const index::Index& index, std::span<const index::Root> roots, c
 
 void collect(const WorldData& world, const Query& query, const Part& part, TriangleId base, Collector& collector,
              const index::Roots* roots) {
-  collect_of(WorldScene(world, base, roots), query, part, collector);
+  const Remaining remaining(world, query.ignored);
+  collect_of(WorldScene(world, remaining.index(), base, roots), query, part, collector);
 }
 
 void collect_one(const index::Index& index, const Query& query, Collector& collector) {
@@ -163,7 +190,8 @@ void collect_one(const index::Index& index, const Query& query, Collector& colle
 }
 
 FirstImpact first_impact(const WorldData& world, const Query& query, const Part& part, const index::Roots* roots) {
-  WorldScene scene(world, 0, roots);
+  const Remaining remaining(world, query.ignored);
+  WorldScene scene(world, remaining.index(), 0, roots);
   FirstImpact first = first_of(scene, query, part);
   if (!first.hit) return first;
   first.object = world.object(first.triangle);

@@ -277,8 +277,8 @@ SpaceFacts Pager::facts() const {
           .speed_limit = state_->governor.limit()};
 }
 
-std::string Pager::object_name(TriangleId triangle) const {
-  return triangle == no_triangle ? std::string() : state_->names.ask(triangle);
+Object Pager::object(TriangleId triangle) const {
+  return triangle == no_triangle ? Object{} : Object{no_object, state_->names.ask(triangle)};
 }
 
 const Store& Pager::store() const { return *state_->store; }
