@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
+#   install.sh moving  SOURCE PREFIX WORK CXX   builds examples/swinging_door and moving_platform and runs them
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
 #   install.sh training SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
@@ -36,6 +37,14 @@ case $what in
   example)
     build sweep_a_sphere
     expect 'stops at x = 19.' "$work/build/sweep_a_sphere"
+    ;;
+  moving)
+    build swinging_door
+    expect 'shut: the person is stopped by the door at x = -0.3' "$work/build/swinging_door"
+    expect 'shut again: the person was moved to x = -0.3' "$work/build/swinging_door"
+    rm -r "$work/example" "$work/build"
+    build moving_platform
+    expect 'carried to x = 18.' "$work/build/moving_platform"
     ;;
   import)
     build walk_a_path

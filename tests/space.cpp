@@ -116,8 +116,9 @@ TEST(Objects, OfAPatchworkAreThoseOfThePatch) {
   const auto judge = [&](const auto& answer) {
     ++(answer.unknown ? unknown : known);
     const auto patch = static_cast<std::size_t>(Patchwork::patch(answer.triangle)) - 1;
-    ASSERT_EQ(answer.object, answer.unknown ? roam::no_object
-                                            : worlds.at(patch).object(Patchwork::triangle_in_patch(answer.triangle)));
+    ASSERT_EQ(answer.object, answer.unknown
+                                 ? roam::no_object
+                                 : worlds.at(patch).object(Patchwork::triangle_in_patch(answer.triangle)).id);
   };
   for (const Query& q : queries(10, half, 1000)) {
     const Impact impact = patches.space.sweep(q);

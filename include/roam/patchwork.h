@@ -22,10 +22,10 @@
 /// An unknown box is kept away from by Patchwork::margin beyond its surface, so that whatever comes to light in it, and
 /// is stored as inexactly as World::build may, leaves a body beside it free.
 ///
-/// expect(), deliver(), fail() and stats() may be called from any thread at any time. Everything else belongs to the
-/// thread that moves the body: queries may run at the same time as each other, but not during update(). Queries never
-/// lock, never wait, never allocate. Their answers depend on which patches are in use and on nothing else: not on the
-/// order in which these came, nor on what was there before, to the last bit.
+/// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. Everything else belongs
+/// to the thread that moves the body: queries may run at the same time as each other, but not during update(). Queries
+/// never lock, never wait, never allocate. Their answers depend on which patches are in use and on nothing else: not on
+/// the order in which these came, nor on what was there before, to the last bit.
 
 #include <cstdint>
 #include <memory>
@@ -90,6 +90,12 @@ class Patchwork final : public LiveSpace {
   /// else its box stays solid. It may still be delivered later. Throws roam::Error for a number that was not expected
   /// or was delivered.
   void fail(PatchId patch, const std::string& reason);
+
+  /// Forgets what was delivered, to free its memory: its box is unknown again, and the same patch may be delivered
+  /// again. That waits while the body is in the box or within Patchwork::margin of it; an update() without a body does
+  /// not wait. Nothing happens where finer patches have replaced it. Throws roam::Error for a number that was not
+  /// expected, or that was not delivered or is forgotten already.
+  void forget(PatchId patch);
 
   /// Takes into use what has been delivered. `body` at `place` is where a finer patch must leave room. Returns whether
   /// any triangle or unknown box came or went. Holds the lock that deliver() takes only to swap lists. Costs next to

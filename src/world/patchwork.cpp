@@ -28,6 +28,8 @@ static_assert(kFirstSide + unknown::sides <= TriangleId{1} << 32);
 
 TriangleId first_id(std::uint32_t index) { return (TriangleId{index} + 1) << 32; }
 
+std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch) - 1; }
+
 std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
 
 /// What was said since the last update, in order.
@@ -43,7 +45,10 @@ struct Failed {
   PatchId patch;
   std::string reason;
 };
-using Message = std::variant<Expected, Delivered, Failed>;
+struct Forgotten {
+  PatchId patch;
+};
+using Message = std::variant<Expected, Delivered, Failed, Forgotten>;
 
 /// What is met of a box of which nothing is known.
 FirstImpact met_unknown(const Box& box, const Query& query) {
@@ -69,6 +74,7 @@ struct Patchwork::State {
 
   // Of the thread that moves the body.
   Patches patches;
+  std::vector<std::uint32_t> leaving;  ///< patches to be forgotten when the body is away
   BoxTree tree;
   std::uint64_t revision = 0;
 
@@ -77,10 +83,15 @@ struct Patchwork::State {
     inbox.push_back(std::move(message));
     return std::exchange(replaced, {});
   }
-  void check_open(PatchId patch, const char* what) const {
-    const auto index = static_cast<std::uint64_t>(patch) - 1;
-    if (index >= delivered.size()) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": not expected");
-    if (delivered[index]) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": delivered already");
+  /// Where `delivered` counts the patch. Throws for one that is not expected, or that has come or not as `is` says.
+  [[nodiscard]] std::size_t check(PatchId patch, const char* what, bool is) const {
+    const auto refuse = [&](const char* why) {
+      throw Error(std::string("cannot ") + what + ' ' + number(patch) + why);
+    };
+    const std::size_t index = static_cast<std::uint64_t>(patch) - 1;
+    if (index >= delivered.size()) refuse(": not expected");
+    if (delivered[index] != is) refuse(is ? ": not delivered" : ": delivered already");
+    return index;
   }
 
   void take(std::vector<Message> messages) {
@@ -88,11 +99,26 @@ struct Patchwork::State {
       if (auto* expected = std::get_if<Expected>(&m)) {
         patches.expect(expected->where, expected->refines);
       } else if (auto* come = std::get_if<Delivered>(&m)) {
+        if (std::erase(leaving, index_of(come->patch)) > 0) patches.forget(index_of(come->patch));
         patches.deliver(come->patch, std::move(come->world));
       } else if (auto* failed = std::get_if<Failed>(&m)) {
         patches.fail(failed->patch, std::move(failed->reason));
+      } else if (auto* forgotten = std::get_if<Forgotten>(&m)) {
+        leaving.push_back(index_of(forgotten->patch));
       }
     }
+  }
+
+  /// Forgets what is to be forgotten, but for boxes that the body, if any, is in.
+  void forget(const Body* body, const Vec3& place) {
+    std::erase_if(leaving, [&](std::uint32_t index) {
+      if (body != nullptr && !patches.is_replaced(index)) {
+        const double around = body->radius + 2.0 * margin;
+        if (patches[index].where.grown({around, around, around + body->half_height}).holds(place)) return false;
+      }
+      patches.forget(index);
+      return true;
+    });
   }
 
   /// Mends the tree where something came or went.
@@ -123,10 +149,11 @@ struct Patchwork::State {
       const std::lock_guard lock(mutex);
       messages.swap(inbox);
     }
-    if (messages.empty() && !patches.unsettled()) return false;
+    if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
     // A body that does not fit where it is has nothing to lose.
     const bool guarded = body && self.clearance(*body, place, kRoom).distance > 0.0;
     take(std::move(messages));
+    forget(body, place);
     Patches::Fits fits;
     if (guarded) {
       fits = [&](const World& world) { return world.clearance(*body, place, kRoom).distance >= kRoom; };
@@ -165,7 +192,7 @@ struct Patchwork::State {
   }
   /// The world of a patch in use that a triangle is of.
   [[nodiscard]] const WorldData& world(TriangleId triangle) const {
-    return *patches[static_cast<std::uint32_t>(static_cast<std::uint64_t>(patch(triangle)) - 1)].world->data_;
+    return *patches[index_of(patch(triangle))].world->data_;
   }
 };
 
@@ -200,8 +227,7 @@ void Patchwork::deliver(PatchId patch, World world) {
   State& s = *state_;
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
-  s.check_open(patch, "deliver");
-  s.delivered[static_cast<std::uint64_t>(patch) - 1] = true;
+  s.delivered[s.check(patch, "deliver", false)] = true;
   replaced = s.post(Delivered{patch, std::move(world)});
 }
 
@@ -209,8 +235,16 @@ void Patchwork::fail(PatchId patch, const std::string& reason) {
   State& s = *state_;
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
-  s.check_open(patch, "fail");
+  static_cast<void>(s.check(patch, "fail", false));
   replaced = s.post(Failed{patch, reason});
+}
+
+void Patchwork::forget(PatchId patch) {
+  State& s = *state_;
+  std::vector<World> replaced;  // freed when the lock is gone
+  const std::lock_guard lock(s.mutex);
+  s.delivered[s.check(patch, "forget", true)] = false;
+  replaced = s.post(Forgotten{patch});
 }
 
 bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }
