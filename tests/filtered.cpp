@@ -85,7 +85,7 @@ TEST(Filtered, OfAFilteredIgnoresBoth) {
   }
 }
 
-TEST(Filtered, IgnoresAndHeeds) {
+TEST(Filtered, IgnoresAndStopsIgnoring) {
   const World world = World::build(clutter_of(3));
   Filtered some(world);
   const auto revision = [&] { return *some.facts().revision; };
@@ -96,7 +96,7 @@ TEST(Filtered, IgnoresAndHeeds) {
   const std::uint64_t second = revision();
   some.ignore(2);
   EXPECT_EQ(revision(), second);
-  some.heed(2);
+  some.stop_ignoring(2);
   EXPECT_FALSE(some.ignores(2));
   EXPECT_NE(revision(), second);
   EXPECT_NE(revision(), first);
@@ -131,10 +131,10 @@ TEST(Filtered, LetsOneBodyThroughADoorThatStopsAnother) {
     shut.ignore(1);
     go(other, 4.0);
     EXPECT_GT(other.position().x, 2.0);
-    shut.heed(1);
+    shut.stop_ignoring(1);
     for (double t = 0.0; t < 4.0; t += 1.0 / 60.0) other.step({.velocity = {-1.4, 0.0, 0.0}}, 1.0 / 60.0);
     EXPECT_GT(other.position().x, 0.3);
-    shut.heed(1);
+    shut.stop_ignoring(1);
   }
 }
 
@@ -143,7 +143,7 @@ TEST(Filtered, FreesABodyOnWhichADoorIsShut) {
   Filtered space(world);
   space.ignore(1);
   roam::Walker walker(space, {}, roam::Mode::walk, {0.1, 0.0, 1.0});
-  space.heed(1);
+  space.stop_ignoring(1);
   walker.step({}, 1.0 / 60.0);
   EXPECT_TRUE(walker.report().has(roam::EventKind::freed));
   EXPECT_FALSE(walker.held());

@@ -1,5 +1,5 @@
 // A platform rises, crosses a pit and turns, with a person on it who walks about and jumps.
-#include <roam/advance.h>
+#include <roam/move_instances.h>
 #include <roam/instances.h>
 #include <roam/walker.h>
 #include <roam/world.h>
@@ -43,7 +43,7 @@ int main() {
   const auto run = [&](double seconds, const roam::Velocity& velocity, const roam::WalkerInput& input) {
     scene.set_velocity(platform, velocity);
     for (double t = 0.0; t < seconds; t += dt) {
-      roam::advance(scene, people, dt);
+      roam::move_instances(scene, people, dt);
       person.step(input, dt);
     }
   };

@@ -1,6 +1,6 @@
 // A person walks to a door that is shut. It swings open, away from the person, who goes through; then it shuts, pushes
 // whoever stands in its way, and stops where somebody has nowhere to go.
-#include <roam/advance.h>
+#include <roam/move_instances.h>
 #include <roam/instances.h>
 #include <roam/walker.h>
 #include <roam/world.h>
@@ -51,7 +51,7 @@ int main() {
     int stops = 0;
     for (double t = 0.0; t < seconds; t += dt) {
       scene.set_velocity(door, {.turning = turning});
-      stops += static_cast<int>(roam::advance(scene, people, dt).size());
+      stops += static_cast<int>(roam::move_instances(scene, people, dt).size());
       person.step({.velocity = wish}, dt);
     }
     return stops;

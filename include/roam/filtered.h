@@ -19,20 +19,24 @@ namespace roam {
 
 /// Bodies that ignore different objects of one space have a Filtered each; it holds no triangles. Queries may run at
 /// the same time, but not during a change of what is ignored.
-class Filtered final : public Space {
+class Filtered final : public LiveSpace {
  public:
   /// `space` must outlive it and stay where it is. Nothing is ignored yet.
   explicit Filtered(const Space& space) : space_(&space) {}
-  explicit Filtered(Space&& space) = delete;
+  /// The same, and update() updates it.
+  explicit Filtered(LiveSpace& space) : space_(&space), live_(&space) {}
 
   /// From now on queries pass over this object, or meet it again. A walker follows with its next step; one that stands
   /// inside a door that is met again is freed or held (Walker::place).
   void ignore(ObjectId object);
-  void heed(ObjectId object);
+  void stop_ignoring(ObjectId object);
   /// Ignores these objects and no others.
   void ignore_only(std::span<const ObjectId> objects);
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
+
+  /// That of the space which it was made of; false where that is no LiveSpace.
+  bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
 
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override { return space_->object(triangle); }
@@ -45,6 +49,7 @@ class Filtered final : public Space {
   [[nodiscard]] ObjectFilter filter(const Query& query) const { return {ignored_, query.ignored}; }
 
   const Space* space_;
+  LiveSpace* live_ = nullptr;
   std::vector<ObjectId> ignored_;  ///< ascending
   std::uint64_t changes_ = 0;
 };

@@ -6,15 +6,17 @@
 ///     roam::Instances scene(house);
 ///     const roam::ObjectId id = scene.add(door, {.position = hinge, .heading = 0.5 * pi}, {.name = "door"});
 ///     roam::Walker walker(scene, settings, roam::Mode::walk, start);
+///     roam::Walker* const walkers[] = {&walker};
 ///     for (;;) {
 ///       scene.set_velocity(id, {.turning = 1.0});
-///       roam::advance(scene, walkers, dt);  // roam/advance.h: the door opens, and pushes who is in its way
-///       walker.step(input, dt);
+///       roam::move_instances(scene, walkers, dt);  // roam/move_instances.h: the door opens, and pushes who is in its
+///       way walker.step(input, dt);
 ///     }
 ///
 /// An instance stays upright: it is moved, and turned about +z. Every instance is one object: Impact::object is the
-/// number that add() returned, whatever the objects of its world are. All promises of space.h hold for the poses as
-/// they are; where that says 2 mm, an instance keeps 1e-6 m more.
+/// number that add() returned, whatever the objects of its world are. Instances pass through each other and through the
+/// rest of the scene: only bodies stop them. All promises of space.h hold for the poses as
+/// they are; where that says 2 mm, a hit of an instance is within 2.001 mm.
 
 #include <cstdint>
 #include <memory>
@@ -52,15 +54,16 @@ struct InstanceLabel {
 
 /// A space and what moves in it. Queries may run at the same time, but not during a change. Changes allocate, queries
 /// do not. It must not be moved while a walker is in it.
-class Instances final : public Space {
+class Instances final : public LiveSpace {
  public:
-  /// Metres. A world whose triangles are stored less exactly than this, and less exactly than those of the space, is
-  /// refused: a body keeps its distance by the largest error of all.
+  /// Metres. A world is refused if its largest_error() exceeds both this and that of the space; a body keeps its
+  /// distance by the largest of all. Small worlds are within it; build large ones with BuildOptions::lossless.
   static constexpr double usual_error = 1e-4;
 
   /// `space` is what does not move: a World, a Pager, a Patchwork. It must outlive this and stay where it is. Its
-  /// objects keep their numbers, and its triangles theirs.
+  /// objects keep their numbers, and its triangles theirs. A LiveSpace is updated by update() here.
   explicit Instances(const Space& space);
+  explicit Instances(LiveSpace& space);
   explicit Instances(Space&& space) = delete;
   ~Instances() override;
   Instances(const Instances&) = delete;
@@ -72,17 +75,20 @@ class Instances final : public Space {
   ObjectId add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label = {});
   /// All of these throw roam::Error for a number of no instance.
   void remove(ObjectId instance);
-  /// Puts the instance there at once. A body that it comes upon is freed or held by its next step, as one that is put
-  /// where it does not fit (Walker::place); advance() moves bodies along instead.
+  /// Puts the instance there at once. If it overlaps a body then, that body's next step frees or holds it (see
+  /// Walker::place); move_instances() moves bodies along instead.
   void set_pose(ObjectId instance, const Pose& pose);
   [[nodiscard]] const Pose& pose(ObjectId instance) const;
-  /// What advance() moves it by. Throws roam::Error for a velocity that is not finite.
+  /// What move_instances() moves it by. Throws roam::Error for a velocity that is not finite.
   void set_velocity(ObjectId instance, const Velocity& velocity);
   [[nodiscard]] const Velocity& velocity(ObjectId instance) const;
   [[nodiscard]] const World& world(ObjectId instance) const;
   /// In the order in which they were added.
   [[nodiscard]] std::vector<ObjectId> instances() const;
   [[nodiscard]] bool has(ObjectId instance) const;
+
+  /// That of the space which does not move; false where that is no LiveSpace.
+  bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
 
   [[nodiscard]] SpaceFacts facts() const override;
   /// Of a triangle of an instance its number, and its label's name and user data.

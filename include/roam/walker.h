@@ -112,12 +112,13 @@ class Walker {
   [[nodiscard]] bool held() const;
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
   [[nodiscard]] double rise_speed() const;
-  /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put.
+  /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put. Of
+  /// a step: with what move_instances() moved the body before it.
   /// What LiveSpace::update wants to know.
   [[nodiscard]] Vec3 velocity() const;
   /// Metres per second, at the end of the last step, horizontal in walk mode: where the next wish goes on from that has
-  /// limits of acceleration. What the last wish had become by then, along what the body slid, and 0 where it was
-  /// stopped, held or put.
+  /// limits of acceleration, and relative to ground that moves. What the last wish had become by then, along what the
+  /// body slid, and 0 where it was stopped, held or put.
   [[nodiscard]] Vec3 pace() const;
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const;

@@ -35,21 +35,19 @@ struct FootAnswer {
 };
 
 struct Gait : Stance {
-  double rise_speed = 0.0;  ///< upward, m/s; 0 on the ground
+  double rise_speed = 0.0;  ///< upward, relative to `ground_velocity`, m/s; 0 on the ground
   /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
   FloorPlane floor;
   bool floor_seen = false;
   FootAnswer foot;  ///< where it was asked last
   DiscFound disc;   ///< where the foot last found room to fall
 
-  bool moved_along = false;  ///< advance() has moved it by its velocity for the next step
+  bool moved_along = false;  ///< move_instances() has moved it by that of the ground for the next step
 
   /// Nothing carries it from now on. It keeps the velocity of the ground.
   void leave_ground() {
     footing = Footing::air;
     unknown = false;
-    if (velocity.z != 0.0) rise_speed += velocity.z;
-    velocity.z = 0.0;
   }
 };
 

@@ -130,7 +130,7 @@ void stand_on(Move& move, Gait& gait, const Ground& ground) {
   gait.unknown = ground.unknown;
   if (gait.object == ground.object) return;
   gait.object = ground.object;
-  gait.velocity = Vec3(0.0);
+  gait.ground_velocity = Vec3(0.0);
 }
 
 namespace {

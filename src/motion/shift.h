@@ -11,7 +11,7 @@ struct Shift {
   ObjectId instance = no_object;
   const World* world = nullptr;
   Pose from, to;
-  double begin = 0.0, seconds = 0.0;  ///< since advance() began, and how long it takes
+  double begin = 0.0, seconds = 0.0;  ///< since move_instances() began, and how long it takes
 
   /// Where the instance takes a point with it.
   [[nodiscard]] Vec3 carried(const Vec3& point) const { return to.to_scene(from.to_instance(point)); }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "math/finite.h"
 #include "motion/crouch.h"
@@ -45,18 +46,21 @@ Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.he
 
 Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
 
-Vec3 Walker::State::velocity() const {
+Vec3 Walker::State::moved() const {
   Vec3 way(0.0), at = report_.from;
   for (const Corner& c : report_.corners) {
     if (!c.teleport) way += c.position - at;
     at = c.position;
   }
-  return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
+  return way;
 }
+
+Vec3 Walker::State::velocity() const { return report_.elapsed > 0.0 ? (moved() + rode_) / report_.elapsed : Vec3(0.0); }
 
 Vec3 Walker::State::pace() const {
   if (held() || report_.put_back) return Vec3(0.0);
-  Vec3 pace = in_the_end_, moved = velocity();
+  Vec3 pace = in_the_end_;
+  Vec3 moved = report_.elapsed > 0.0 ? this->moved() / report_.elapsed : Vec3(0.0);
   if (mode_ == Mode::walk) pace.z = moved.z = 0.0;
   if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
   const double speed = glm::length(moved), most = glm::length(wished_);
@@ -84,6 +88,7 @@ void Walker::State::begin() {
   at_.known.touching = !report_.contacts.empty();
   at_.known.fit = walking::Fit::known;
   known_at_ = revision.value_or(0);
+  rode_ = Vec3(0.0);
   report_.corners.clear();
   report_.contacts.clear();
   report_.events.clear();
@@ -100,7 +105,7 @@ void Walker::State::finish() {
   report_.radius = settings_.radius;
   report_.grounded = gait_.grounded();
   report_.carried = gait_.footing == Footing::foot;
-  report_.ground_velocity = gait_.velocity;
+  report_.ground_velocity = gait_.ground_velocity;
   if (mode_ == Mode::ghost) {
     at_.known.forget_place();
   } else if (at_.known.measured == walking::Measured::nothing ||
@@ -241,6 +246,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     if (dt > 0.0) input.velocity = change->mean(dt);
   }
   begin();
+  rode_ = std::exchange(ridden_, Vec3(0.0));
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
     at_.place += motion;
@@ -381,6 +387,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   at_.place = at + Vec3(0.0, 0.0, lift * height);
   take_size_here();
   gait_ = {};
+  ridden_ = Vec3(0.0);
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;

@@ -43,7 +43,7 @@ class Walker::State {
   [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
   [[nodiscard]] const Space& space() const { return *space_; }
 
-  // What advance() does to a body, in this order (advance.cpp).
+  // What move_instances() does to a body, in this order (move_instances.cpp).
 
   /// Begins a report of what moves the body from outside.
   void begin_shifts();
@@ -53,8 +53,8 @@ class Walker::State {
   /// instance.
   [[nodiscard]] std::optional<walking::Shifted> shifted(const Space& rest, const walking::Shift& shift);
   void take(const walking::Shift& shift, const walking::Shifted& to);
-  /// `velocity`: of the ground at its feet, for a body that stands.
-  void end_shifts(const Vec3& velocity);
+  /// `ground_velocity`: at its feet, for a body that stands.
+  void end_shifts(const Vec3& ground_velocity);
 
   /// The plane that a body goes by which is carried by its foot.
   [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
@@ -69,6 +69,8 @@ class Walker::State {
   void set_regions(std::span<const SizeRegion> regions);
   bool resize(double radius, double support_radius);
 
+  /// The way of the last call, metres.
+  [[nodiscard]] Vec3 moved() const;
   /// Of the space; 0 where it has none.
   [[nodiscard]] std::uint64_t revision() const { return space_->facts().revision.value_or(0); }
   [[nodiscard]] walking::Move under_way();
@@ -114,8 +116,10 @@ class Walker::State {
   walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
   walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode
   walking::Hold hold_ = walking::Hold::none;
-  bool was_blocked_ = false;     ///< at the end of the last step, and has not been put elsewhere since
-  bool was_put_back_ = false;    ///< and has not been put elsewhere since
+  bool was_blocked_ = false;   ///< at the end of the last step, and has not been put elsewhere since
+  bool was_put_back_ = false;  ///< and has not been put elsewhere since
+  Vec3 ridden_{0.0};           ///< metres that move_instances() has moved it since the last step
+  Vec3 rode_{0.0};             ///< the same before the last call, where that was a step
   /// Certified of the rest since the last corner of a shift, of the instance alone, metres; infinite: there was none.
   double rested_ = std::numeric_limits<double>::infinity();
   bool shifted_ = false;         ///< something has moved it since begin_shifts()

@@ -23,16 +23,12 @@ void jump(Move& move, Gait& gait) {
   const double lift = move.settings.gravity * move.settings.jump_height;
   if (!gait.grounded() || !(lift > 0.0)) return;
   gait.rise_speed = std::sqrt(2.0 * lift);
-  gait.leave_ground();  // a lift that rises throws it higher
+  gait.leave_ground();
   move.note(EventKind::jumped);
 }
 
 Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& last, const Sizes& sizes) {
   const double end = move.time + dt;
-  // What the body has taken along from moving ground, where advance() has not moved it by that.
-  const auto in_the_air = [&] {
-    return gait.moved_along || gait.velocity == Vec3(0.0) ? velocity : velocity + gait.velocity;
-  };
   double left = dt, careful = 0.0;  // seconds, the second: for which strides are fine
   for (int count = 0; left > 0.0; ++count) {
     if (count >= stride_limit || !move.has_room()) return Ending::throttled;
@@ -40,7 +36,12 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
     const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
     const bool striding = gait.grounded();
-    const double most = !striding ? flight_seconds(move, gait, in_the_air()) : (careful > 0.0 ? finest : longest);
+    // What the body has taken along from moving ground, where move_instances() has not moved it by that.
+    const Vec3 drift = striding || gait.moved_along ? Vec3(0.0) : gait.ground_velocity;
+    const bool drifts = drift != Vec3(0.0);
+    const Vec3 in_the_air = drifts ? velocity + Vec3(drift.x, drift.y, 0.0) : velocity;
+    if (drifts) gait.rise_speed += drift.z;
+    const double most = !striding ? flight_seconds(move, gait, in_the_air) : (careful > 0.0 ? finest : longest);
     const double seconds = std::min(left, most);
     const bool whole = seconds == left;
     if (striding) {
@@ -59,8 +60,10 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
       careful -= seconds;
       // What stops it here would stop it again.
       if (move.report.blocked && gait.grounded() && at_same_place(move, was)) break;
-    } else if (!fly_on(move, gait, in_the_air(), seconds)) {
-      return Ending::embedded;
+    } else {
+      const bool flown = fly_on(move, gait, in_the_air, seconds);
+      if (drifts && !gait.grounded()) gait.rise_speed -= drift.z;
+      if (!flown) return Ending::embedded;
     }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
     if (gait.footing == Footing::ground) {

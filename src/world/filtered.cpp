@@ -13,7 +13,7 @@ void Filtered::ignore(ObjectId object) {
   ++changes_;
 }
 
-void Filtered::heed(ObjectId object) {
+void Filtered::stop_ignoring(ObjectId object) {
   const auto at = std::lower_bound(ignored_.begin(), ignored_.end(), object);
   if (at == ignored_.end() || *at != object) return;
   ignored_.erase(at);
@@ -30,6 +30,10 @@ void Filtered::ignore_only(std::span<const ObjectId> objects) {
 }
 
 bool Filtered::ignores(ObjectId object) const { return ObjectFilter{ignored_, nullptr}.ignores(object); }
+
+bool Filtered::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  return live_ != nullptr && live_->update(body, place, velocity);
+}
 
 SpaceFacts Filtered::facts() const {
   SpaceFacts facts = space_->facts();

@@ -72,6 +72,7 @@ struct Instances::State {
   explicit State(const Space& unmoved) : space(unmoved), error(std::max(unmoved.largest_error(), usual_error)) {}
 
   const Space& space;               ///< what does not move
+  LiveSpace* live = nullptr;        ///< the same, where it is to be updated
   std::vector<Instance> instances;  ///< the first one is number first_instance
   BoxTree tree;
   std::uint64_t changes = 0;
@@ -134,6 +135,7 @@ struct Instances::State {
 };
 
 Instances::Instances(const Space& space) : state_(std::make_unique<State>(space)) {}
+Instances::Instances(LiveSpace& space) : Instances(static_cast<const Space&>(space)) { state_->live = &space; }
 Instances::~Instances() = default;
 
 ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label) {
@@ -195,6 +197,10 @@ std::vector<ObjectId> Instances::instances() const {
 bool Instances::has(ObjectId instance) const {
   const std::uint32_t i = instance - first_instance;
   return instance >= first_instance && i < state_->instances.size() && state_->instances[i].world;
+}
+
+bool Instances::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  return state_->live != nullptr && state_->live->update(body, place, velocity);
 }
 
 SpaceFacts Instances::facts() const {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
-#include <variant>
 
 #include "math/floating_point.h"
 #include "math/largest.h"
@@ -33,22 +33,15 @@ std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch)
 std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
 
 /// What was said since the last update, in order.
-struct Expected {
-  Box where;
-  PatchId refines;
+struct Message {
+  enum class Kind : std::uint8_t { expected, delivered, failed, forgotten };
+
+  Kind kind;
+  PatchId patch;  ///< of Kind::expected: what it refines
+  Box where = {};
+  std::optional<World> world = {};
+  std::string reason = {};
 };
-struct Delivered {
-  PatchId patch;
-  World world;
-};
-struct Failed {
-  PatchId patch;
-  std::string reason;
-};
-struct Forgotten {
-  PatchId patch;
-};
-using Message = std::variant<Expected, Delivered, Failed, Forgotten>;
 
 /// What is met of a box of which nothing is known.
 FirstImpact met_unknown(const Box& box, const Query& query) {
@@ -96,15 +89,20 @@ struct Patchwork::State {
 
   void take(std::vector<Message> messages) {
     for (Message& m : messages) {
-      if (auto* expected = std::get_if<Expected>(&m)) {
-        patches.expect(expected->where, expected->refines);
-      } else if (auto* come = std::get_if<Delivered>(&m)) {
-        if (std::erase(leaving, index_of(come->patch)) > 0) patches.forget(index_of(come->patch));
-        patches.deliver(come->patch, std::move(come->world));
-      } else if (auto* failed = std::get_if<Failed>(&m)) {
-        patches.fail(failed->patch, std::move(failed->reason));
-      } else if (auto* forgotten = std::get_if<Forgotten>(&m)) {
-        leaving.push_back(index_of(forgotten->patch));
+      switch (m.kind) {
+        case Message::Kind::expected:
+          patches.expect(m.where, m.patch);
+          break;
+        case Message::Kind::delivered:
+          if (std::erase(leaving, index_of(m.patch)) > 0) patches.forget(index_of(m.patch));
+          patches.deliver(m.patch, std::move(*m.world));
+          break;
+        case Message::Kind::failed:
+          patches.fail(m.patch, std::move(m.reason));
+          break;
+        case Message::Kind::forgotten:
+          leaving.push_back(index_of(m.patch));
+          break;
       }
     }
   }
@@ -212,7 +210,7 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
     throw Error("cannot expect a patch that refines " + number(refines) + ": that one is not expected");
   }
   s.delivered.push_back(false);
-  replaced = s.post(Expected{where, refines});
+  replaced = s.post({Message::Kind::expected, refines, where});
   return PatchId{s.delivered.size()};
 }
 
@@ -228,7 +226,7 @@ void Patchwork::deliver(PatchId patch, World world) {
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
   s.delivered[s.check(patch, "deliver", false)] = true;
-  replaced = s.post(Delivered{patch, std::move(world)});
+  replaced = s.post({Message::Kind::delivered, patch, {}, std::move(world)});
 }
 
 void Patchwork::fail(PatchId patch, const std::string& reason) {
@@ -236,7 +234,7 @@ void Patchwork::fail(PatchId patch, const std::string& reason) {
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
   static_cast<void>(s.check(patch, "fail", false));
-  replaced = s.post(Failed{patch, reason});
+  replaced = s.post({Message::Kind::failed, patch, {}, {}, reason});
 }
 
 void Patchwork::forget(PatchId patch) {
@@ -244,7 +242,7 @@ void Patchwork::forget(PatchId patch) {
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
   s.delivered[s.check(patch, "forget", true)] = false;
-  replaced = s.post(Forgotten{patch});
+  replaced = s.post({Message::Kind::forgotten, patch});
 }
 
 bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }

@@ -1,4 +1,4 @@
-#include "roam/advance.h"
+#include "roam/move_instances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ void Walker::State::begin_shifts() {
 
 bool Walker::State::is_concerned(const walking::Shift& shift) const {
   if (mode_ == Mode::ghost || held()) return false;
-  if (gait_.object == shift.instance && (gait_.grounded() || gait_.velocity != Vec3(0.0))) return true;
+  if (gait_.object == shift.instance && (gait_.grounded() || gait_.ground_velocity != Vec3(0.0))) return true;
   return !walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), 0.0);
 }
 
@@ -77,7 +77,7 @@ std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const 
   const bool stands = gait_.object == shift.instance && gait_.grounded();
   const bool drifts = gait_.object == shift.instance && !gait_.grounded();
   const Vec3 carried = shift.carried(at_.place) - at_.place;
-  const Vec3 own = stands ? carried : drifts ? gait_.velocity * shift.seconds : Vec3(0.0);
+  const Vec3 own = stands ? carried : drifts ? gait_.ground_velocity * shift.seconds : Vec3(0.0);
   // As far as the rest of the scene lets it, a skin away, and along what is in the way.
   walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
   for (const Vec3& wish : {own, carried}) {
@@ -105,6 +105,7 @@ void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to
     }
     move.time = shift.begin + shift.seconds;
     move.go(to.way, to.clearance);
+    ridden_ += to.way;
     at_ = move;
   }
   // What was known is of the scene as it was.
@@ -119,8 +120,8 @@ void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to
   gait_.foot.lasts = gait_.disc.found = false;
 }
 
-void Walker::State::end_shifts(const Vec3& velocity) {
-  if (gait_.grounded()) gait_.velocity = velocity;
+void Walker::State::end_shifts(const Vec3& ground_velocity) {
+  if (gait_.grounded()) gait_.ground_velocity = ground_velocity;
   if (fitted_) looked_at_ = revision();
   if (!shifted_) return;
   report_.elapsed = 0.0;
@@ -240,7 +241,7 @@ class Movement {
 
 }  // namespace
 
-std::vector<Stopped> advance(Instances& instances, std::span<Walker* const> walkers, double dt) {
+std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* const> walkers, double dt) {
   const DefaultFloatingPoint guard;
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
     throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
