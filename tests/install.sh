@@ -7,6 +7,7 @@
 #   install.sh training SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
 #   install.sh profile SOURCE PREFIX WORK CXX   builds a program that only keeps and applies a profile: it links the core
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
+#   install.sh osg_paged_scene SOURCE PREFIX WORK CXX   builds that example outside the tree and looks at a paged scene
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh package SOURCE PREFIX WORK CXX   asks find_package for versions and components that are there and that are not
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
@@ -31,6 +32,18 @@ expect() {
   said=$("$@") || { echo "failed with status $?: $*"; exit 1; }
   echo "$said"
   [[ $said == *"$text"* ]] || { echo "expected: $text"; exit 1; }
+}
+
+# start_screen: a display for the programs that follow.
+start_screen() {
+  mkfifo "$work/ready"
+  exec {ready}<> "$work/ready"
+  # -noreset: else the server starts anew, and refuses the next client, when the first has looked and left.
+  Xvfb -noreset -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
+  screen=$!
+  trap 'kill "$screen"' EXIT
+  read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
+  export DISPLAY=":$display" LIBGL_ALWAYS_SOFTWARE=1 OSG_WINDOW="20 20 400 300"
 }
 
 case $what in
@@ -109,14 +122,7 @@ END
     build osg_one_line
     # A wall of 2 m at y = 0: OpenSceneGraph turns OBJ to z up. Home is 5 m before it, and W with Shift flies at 7 m/s.
     printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' > "$work/wall.obj"
-    mkfifo "$work/ready"
-    exec {ready}<> "$work/ready"
-    # -noreset: else the server starts anew, and refuses the next client, when the first has looked and left.
-    Xvfb -noreset -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
-    screen=$!
-    trap 'kill "$screen"' EXIT
-    read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
-    export DISPLAY=":$display" LIBGL_ALWAYS_SOFTWARE=1 OSG_WINDOW="20 20 400 300"
+    start_screen
     "$work/build/osg_one_line" "$work/wall.obj" > "$work/said" 2>&1 &
     viewer=$!
     timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
@@ -128,6 +134,21 @@ END
     xdotool key Escape
     wait "$viewer" || { cat "$work/said"; exit 1; }
     expect 'the camera was last at 0.00 -0.30 ' cat "$work/said"
+    ;;
+  osg_paged_scene)
+    build osg_paged_scene
+    [[ -d ${ROAM_TEST_DATA-}/pit_osgb ]] || { echo "there is no ROAM_TEST_DATA/pit_osgb: not run"; exit 0; }
+    start_screen
+    root=("$ROAM_TEST_DATA"/pit_osgb/Data/*/Tile_+000_+000.osgb)
+    "$work/build/osg_paged_scene" "${root[0]}" > "$work/said" 2>&1 &
+    viewer=$!
+    timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
+    sleep 5
+    xdotool key Escape
+    wait "$viewer" || { cat "$work/said"; exit 1; }
+    cat "$work/said"
+    # More than the root: the pager read on, and what it read is in use.
+    (($(sed -n 's/^\([0-9]*\) files.*/\1/p' "$work/said") > 1)) || exit 1
     ;;
   osg_intersector)
     build osg_intersector

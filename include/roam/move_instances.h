@@ -22,12 +22,13 @@ struct Stopped {
 /// were added. Call it before the walkers' steps of the same `dt`. An instance that is to stop at a place gets a
 /// smaller velocity for the last call.
 ///
-/// | a body | |
+/// | a body that | |
 /// |---|---|
-/// | stands on an instance (Stance::object) | goes along, up, down and sideways, as far as the rest of the scene lets
-/// it | | is in the way of an instance | is pushed along; it does not crouch | | has nowhere to go | stops the
-/// instance, and is named in the list that is returned | | has left a moving instance and is in the air | keeps the
-/// horizontal velocity of that ground until it lands | | is a ghost, or held | is not moved, and stops nothing |
+/// | stands on it (Stance::object) | goes along in every direction, as far as the rest of the scene lets it |
+/// | is in its way | is pushed along; it does not crouch |
+/// | has nowhere to go | stops the instance, and is named in the list that is returned |
+/// | has left it and is in the air | keeps the velocity of that ground until it lands |
+/// | is a ghost, or is held | is not moved, and stops nothing |
 ///
 /// An instance that was stopped keeps its velocity and tries again at the next call. Bodies do not meet each other.
 ///
