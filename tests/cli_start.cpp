@@ -57,6 +57,15 @@ TEST(Start, IsRefusedInAnEmptyScene) {
   }
 }
 
+TEST(Start, IsFoundInASceneThatIsHigherThanARayIsLong) {
+  roam::Mesh mesh;
+  add_square(mesh, Vec3(0.0), 100.0, true);
+  add_square(mesh, Vec3(5000.0, 0.0, 1.2e6), 1.0, true);
+  const roam::World world = roam::World::build({&mesh, 1});
+  const Vec3 place = roam::app::wander_start(world, person, roam::Mode::walk, {});
+  EXPECT_NEAR(place.z, 0.95, 0.1);
+}
+
 TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   // The gallery is 3 m wide in a landscape of kilometres: a grid of columns over it meets only the landscape.
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 200'000}));

@@ -49,7 +49,7 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
     for (std::size_t i = 0; i < modes.size(); ++i) recorder.add(static_cast<double>(i), {1.0 * i, 0, 0}, {}, modes[i]);
     recorder.close();
     EXPECT_EQ(load_path(file).size(), modes.size());
-    return recorded_body(file).value();
+    return load_recorded_path(file).body.value();
   };
   const RecordedBody walked = record({Mode::walk, Mode::walk});
   EXPECT_EQ(walked.mode, Mode::walk);
@@ -67,15 +67,15 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
 
 TEST(RecordedBody, IsSaidByNoOtherComment) {
   const TestFolder folder;
-  EXPECT_FALSE(recorded_body(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")));
+  EXPECT_FALSE(load_recorded_path(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")).body);
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius wide\n4 5 6\n");
-  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(recorded_body(bad)); }), "bad.path:2"));
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad)); }), "bad.path:2"));
 }
 
 TEST(RecordedBody, ThatCannotBeIsNamedWithItsLine) {
   const TestFolder folder;
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius -1\n4 5 6\n");
-  const std::string what = error_of([&] { static_cast<void>(recorded_body(bad)); });
+  const std::string what = error_of([&] { static_cast<void>(load_recorded_path(bad)); });
   EXPECT_TRUE(contains(what, "bad.path:2: the walker's radius is -1 m")) << what;
 }
 

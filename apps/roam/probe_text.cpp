@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "exit_status.h"
+#include "text/printable.h"
 #include "words/measures.h"
 #include "words/probe.h"
 
@@ -37,7 +38,9 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
     bool good = is_number(item.substr(0, cross), size.radius);
     size.height = 2.0 * size.radius;
     if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
-    if (!good) throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where, item));
+    if (!good)
+      throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where,
+                                   printable(item, longest_excerpt)));
     sizes.push_back(size);
     i = end;
   }

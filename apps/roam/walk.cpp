@@ -176,7 +176,8 @@ ExitStatus walk(WalkOptions options) {
     options.against.ignore = std::exchange(scene.ignore, {});
     check_against(options.against);
   }
-  if (!options.path.empty()) options.recorded = recorded_body(options.path);
+  const RecordedPath recorded = load_recorded_path(options.path);
+  options.recorded = recorded.body;
   take_profile(options);
   options.settings = walker_settings(options);
   check_outputs(options);
@@ -188,8 +189,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
   }
-  std::vector<Vec3> path;
-  if (!options.path.empty()) path = positions(load_path(options.path));
+  const std::vector<Vec3> path = positions(recorded.waypoints);
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
     if (!other.empty()) tell("note: " + other);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "roam/error.h"
 
@@ -117,6 +118,16 @@ Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, co
   return start;
 }
 
+/// Metres from a place down to what lies below it, if that is within `depth`. A ray reaches no farther than a motion.
+std::optional<double> drop_from(const Space& space, const Vec3& place, double depth) {
+  for (double begin = 0.0; begin < depth; begin += Space::motion_limit) {
+    const double part = std::min(depth - begin, Space::motion_limit);
+    const Impact down = space.ray(place - Vec3(0, 0, begin), {0, 0, -part});
+    if (down.hit) return begin + down.time * part;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
@@ -136,10 +147,9 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
       Vec3 top{box.lower.x + size.x * (i + 0.5) / columns_a_side, box.lower.y + size.y * (j + 0.5) / columns_a_side,
                box.upper.z + 1.0};
       for (int level_below = 0; level_below < most_floors; ++level_below) {
-        const double depth = top.z - box.lower.z + 1.0;
-        const Impact down = depth > 0.0 ? space.ray(top, {0, 0, -depth}) : Impact{};
-        if (!down.hit) break;
-        top.z -= down.time * depth;
+        const std::optional<double> drop = drop_from(space, top, top.z - box.lower.z + 1.0);
+        if (!drop) break;
+        top.z -= *drop;
         consider(top);
         top.z -= floor_gap;
       }

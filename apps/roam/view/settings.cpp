@@ -4,16 +4,18 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
+#include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 /// An object of the file, whose entries are taken out one by one; what is left at the end is unknown.
 class Section {
@@ -27,7 +29,7 @@ class Section {
   [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
     const std::string path = where_.empty() || entry.empty() ? where_ + entry : where_ + "." + entry;
     throw Error(path.empty() ? fmt::format("{}: {}", file_.string(), what)
-                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), path, what));
+                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), printable(path), what));
   }
 
   [[nodiscard]] std::optional<json> take(const std::string& entry) {
@@ -124,16 +126,12 @@ std::filesystem::path settings_folder() {
 }
 
 ViewSettings read_settings(const std::filesystem::path& file) {
-  std::error_code none;
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file, none)) {
-    throw Error(file.string() + ": cannot be opened; is the path right, and may you read it?");
-  }
+  const std::string text = files::read_named(file, files::longest_json);
   json document;
   try {
-    document = json::parse(in, nullptr, true, true);
-  } catch (const json::exception& error) {
-    throw Error(fmt::format("{}: is no JSON: {}", file.string(), error.what()));
+    document = files::parse_json(text);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }
   // Far wider than anything sensible: what they bound exactly is for those who use them to say.
   constexpr double metres = 1000.0;
