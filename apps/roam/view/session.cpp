@@ -84,7 +84,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   set_up_cameras();
   stage_->hud().set_help(key_lines(roamer_->controls()));
   // Both read the same files, at the same time: each in a process of its own that can only fail alone.
-  collision_.emplace(what_, wish_of(options_, plan_, path_));
+  collision_.emplace(what_, wish_of(options_, plan_, path_, what_.store_memory));
   auto display = what_.store_only ? std::make_unique<DisplayLoader>(what_.store, collision_->place())
                                   : std::make_unique<DisplayLoader>(what_.scene, stage_->texture_quality());
   scene_.emplace(stage_->viewer(), *stage_->frame().space(), std::move(display),
