@@ -5,12 +5,12 @@
 #include <cstdlib>
 
 #include "exit_status.h"
+#include "histogram.h"
 #include "messages.h"
 #include "program.h"
 #include "roam/error.h"
 #include "view/bookmarks.h"
 #include "view/commands.h"
-#include "view/histogram.h"
 #include "view/options.h"
 #include "view/settings.h"
 #include "view/status.h"

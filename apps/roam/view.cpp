@@ -12,6 +12,7 @@
 #include "roam/error.h"
 #include "tell.h"
 #include "verbs.h"
+#include "verify_stored.h"
 #include "view/notices.h"
 #include "view/session.h"
 
@@ -53,10 +54,7 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
 Verification verified(const ViewReport& report, const ViewOptions& options,
                       const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
-  SceneOptions store;
-  store.scenes = {report.store};
-  store.memory = options.scene.memory;
-  return OpenScene(store, Source::release).verified(report.pieces, progress);
+  return verify(*Store::open(report.store, options.scene.store_memory()), report.pieces, progress);
 }
 
 ExitStatus view(const ViewOptions& options) {

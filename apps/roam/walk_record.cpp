@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
 #include "roam/error.h"
@@ -63,26 +62,16 @@ void TraceFile::close() {
   if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
 }
 
-void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report) {
+void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report) {
   Vec3 from = report.from;
   for (const Corner& corner : report.corners) {
     if (step == 0) break;
     if (corner.teleport) from = corner.position;
-    pieces.push_back({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
+    pieces.add({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
     from = corner.position;
   }
   if (report.held && !(report.clearance > 0.0)) return;
-  pieces.push_back({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
-}
-
-StepTimes summarize(std::vector<std::uint32_t> nanoseconds) {
-  if (nanoseconds.empty()) return {};
-  std::sort(nanoseconds.begin(), nanoseconds.end());
-  const std::size_t last = nanoseconds.size() - 1;
-  const auto at = [&](double fraction) {
-    return static_cast<double>(nanoseconds[static_cast<std::size_t>(fraction * static_cast<double>(last))]);
-  };
-  return {at(0.5), at(0.99), at(1.0)};
+  pieces.add({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
 }
 
 }  // namespace roam::app

@@ -79,11 +79,6 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
   }
 }
 
-struct Start {
-  Vec3 place{0.0};
-  double room = -1.0;
-};
-
 /// A place on the floor at `floor`, or in the air above it, and how much room there is.
 Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
   const Body body = Body::capsule(settings.radius, settings.height);
@@ -130,10 +125,9 @@ std::optional<double> drop_from(const Space& space, const Vec3& place, double de
 
 }  // namespace
 
-Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
-                  const std::function<bool()>& goes_on) {
+Start best_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+                 int columns, const std::function<bool()>& goes_on) {
   const Box& box = space.bounds();
-  if (box.empty()) throw Error("found no place to start from: the scene is empty");
   const Vec3 size = box.size();
   Start best;
   const auto consider = [&](const Vec3& floor) {
@@ -142,9 +136,9 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
     if (start.room > best.room) best = start;
   };
   for (const Vec3& floor : floors) consider(floor);
-  for (int i = 0; i < columns_a_side; ++i) {
-    for (int j = 0; j < columns_a_side; ++j) {
-      Vec3 top{box.lower.x + size.x * (i + 0.5) / columns_a_side, box.lower.y + size.y * (j + 0.5) / columns_a_side,
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      Vec3 top{box.lower.x + size.x * (i + 0.5) / columns, box.lower.y + size.y * (j + 0.5) / columns,
                box.upper.z + 1.0};
       for (int level_below = 0; level_below < most_floors; ++level_below) {
         const std::optional<double> drop = drop_from(space, top, top.z - box.lower.z + 1.0);
@@ -155,12 +149,21 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
       }
     }
   }
-  if (best.room < 0.0) {
-    throw Error(
-        fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
-                    "Else take a smaller body, or lead it with --path",
-                    settings.radius, settings.height));
-  }
+  return best;
+}
+
+void fail_to_start(const WalkerSettings& settings) {
+  throw Error(
+      fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
+                  "Else take a smaller body, or lead it with --path",
+                  settings.radius, settings.height));
+}
+
+Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+                  const std::function<bool()>& goes_on) {
+  if (space.bounds().empty()) throw Error("found no place to start from: the scene is empty");
+  const Start best = best_start(space, settings, mode, floors, columns_a_side, goes_on);
+  if (best.room < 0.0) fail_to_start(settings);
   return best.place;
 }
 

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <vector>
 
-#include "import/reader/file_names.h"
+#include "files/unnamed_file.h"
 #include "import/reader/sandbox/sandbox.h"
 
 #ifdef __linux__
@@ -115,7 +115,7 @@ bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
 
 /// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
 bool enter_empty_folder() {
-  std::string folder = temporary_folder() + "/roam-empty-XXXXXX";
+  std::string folder = files::temporary_folder() + "/roam-empty-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr) return false;
   const bool inside = chdir(folder.c_str()) == 0;
   // A folder that is gone takes no new file.
