@@ -133,3 +133,7 @@ class TestFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Keys of stores are made in a folder of the tests, not of whoever runs them. Also in the programs that are run.
+inline const TestFolder user_data;
+inline const bool has_user_data = ::setenv("XDG_DATA_HOME", user_data.file("").c_str(), 1) == 0;

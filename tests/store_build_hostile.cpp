@@ -62,16 +62,17 @@ TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) 
   const auto o = options({scene}, store);
   roam::StoreBuildReport report;
   ASSERT_EQ(roam::plan_store(o, report), 1U);
-  const roam::store::Plan good = roam::store::read_plan(store, o.memory);
+  const roam::store::Work work(o);
+  const roam::store::Plan good = roam::store::read_plan(work);
   roam::store::Plan plan = good;
   plan.shards[0].stretch.triangles = 1ULL << 34;
   plan.shards[0].key = roam::store::key_of(plan.shards[0].stretch, plan);
-  roam::store::write_plan(store, plan);
+  roam::store::write_plan(work, plan);
   const Cost cost = cost_of([&] { roam::build_shard(o, 0, report); });
   EXPECT_NE(cost.said.find("too large"), std::string::npos) << cost.said;
   EXPECT_LT(cost.mebibytes, 16U);
   // The part of a published store, which is what the builder takes for the scene's.
-  roam::store::write_plan(store, good);
+  roam::store::write_plan(work, good);
   roam::build_store(o);
   roam::store::PartFile part;
   part.triangles = 1ULL << 40;

@@ -108,7 +108,9 @@ TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
   write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
   write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}));
   const auto build = [&](const std::string& output) {
-    roam::build_store(options({folder.file("a.ply"), folder.file("b.ply")}, output));
+    auto o = options({folder.file("a.ply"), folder.file("b.ply")}, output);
+    o.key.emplace();
+    roam::build_store(o);
   };
   const int count = calls_of(folder.file("count"), [&] { build(folder.file("whole")); });
   ASSERT_GT(count, 20);

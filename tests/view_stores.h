@@ -9,6 +9,7 @@
 #include "roam/store_build.h"
 #include "store/tile_reader.h"
 #include "store_builds.h"
+#include "user_key.h"
 #include "view_driven.h"
 
 namespace view_stores {
@@ -31,6 +32,7 @@ inline StoreBuildOptions build_of(const std::string& scene, const std::string& s
   build.output = store;
   build.memory = StoreBuildOptions::least_memory;
   build.threads = 1;
+  build.key = app::made_user_key().key;
   return build;
 }
 

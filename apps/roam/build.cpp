@@ -16,6 +16,7 @@
 #include "scene_options.h"
 #include "store_name.h"
 #include "tell.h"
+#include "user_key.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -42,7 +43,7 @@ namespace {
 struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
-  bool plan = false, merge = false, json = false;
+  bool plan = false, merge = false, adopt = false, json = false;
   std::optional<std::uint64_t> shard;
   std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
 };
@@ -93,8 +94,23 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.memory = verb.scene.memory.value_or(options.memory);
   options.threads = verb.scene.threads;
   options.lossless = verb.scene.lossless;
+  options.adopt = verb.adopt;
   options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
   return options;
+}
+
+/// The user's key, made where there is none yet. Without one a store is built all the same.
+StoreKey build_key(const BuildVerb& verb) {
+  UserKey user = made_user_key();
+  if (user.key) return *user.key;
+  if (verb.plan || verb.shard || verb.merge) {
+    throw Error(fmt::format("a build in steps needs your key, by which the steps know each other: {}", user.problem));
+  }
+  tell(
+      fmt::format("note: no key of yours can be used: {}; without it a build begins anew, and `roam view` uses its "
+                  "store only where you name it",
+                  user.problem));
+  return key_of_this_run();
 }
 
 Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
@@ -160,7 +176,8 @@ ExitStatus run_steps(const BuildVerb& verb) {
   StoreBuildReport report;
   {
     Steps steps(verb.output.string());
-    const StoreBuildOptions options = build_options(verb, steps);
+    StoreBuildOptions options = build_options(verb, steps);
+    options.key = build_key(verb);
     if (verb.plan) {
       const std::uint64_t count = plan_store(options, report);
       if (!report.unchanged) {
@@ -241,6 +258,8 @@ constexpr const char* help =
     "again goes on, and the result is the same to the last byte. When the scene has changed only what changed is "
     "built\n"
     "again.\n\n"
+    "A store that is there already is built upon where you built it yourself: a key in $XDG_DATA_HOME/roam or\n"
+    "~/.local/share/roam tells. Any other may lack a wall, and is refused unless --adopt says that you trust it.\n\n"
     "Many machines that see one folder build one store: --plan first, then each --shard, in any order, then "
     "--merge.\n\n"
     "Examples:\n"
@@ -268,6 +287,7 @@ void add_build(CLI::App& program, Run& run) {
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
+  verb->add_flag("--adopt", options->adopt, "Build upon the store that is there, whoever built it: it is yours then");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, verb, &run] {
     for (const char* name : reading_options) {

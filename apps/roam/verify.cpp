@@ -9,6 +9,7 @@
 #include "roam/store.h"
 #include "roam/store_build.h"
 #include "tell.h"
+#include "user_key.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -21,10 +22,27 @@ struct VerifyOptions {
   bool json = false;
 };
 
+/// What is known of who built the store.
+struct Origin {
+  bool yours = false;
+  std::string why_not;  ///< a clause
+};
+
+Origin origin_of(const std::filesystem::path& store) {
+  const UserKey user = user_key();
+  if (!user.key) return {false, "no key of yours can be used: " + user.problem};
+  try {
+    if (Store::open(store)->is_authentic(*user.key)) return {true, ""};
+  } catch (const Error&) {  // what is damaged was told
+  }
+  return {false, "it was not built with your key"};
+}
+
 /// Lines of damage that are told in text; JSON tells all.
 constexpr std::size_t most_lines = 20;
 
-Json json_report(const VerifyOptions& options, const StoreVerification& found, std::uint64_t repaired) {
+Json json_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin,
+                 std::uint64_t repaired) {
   Json damage = Json::array();
   for (const StoreDamage& d : found.damage) {
     damage.push_back({{"what", d.what}, {"why", d.why}, {"where", nullptr}});
@@ -32,10 +50,10 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, s
   }
   return {{"store", options.store.string()}, {"bytes", found.bytes},       {"tiles", found.tiles},
           {"whole", found.whole()},          {"complete", found.complete}, {"damage", damage},
-          {"shards_repaired", repaired}};
+          {"shards_repaired", repaired},     {"yours", origin.yours}};
 }
 
-std::string text_report(const VerifyOptions& options, const StoreVerification& found) {
+std::string text_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin) {
   const std::string store = printable_part(options.store.string());
   if (!found.complete) {
     return fmt::format(
@@ -51,8 +69,9 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
     text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
   }
   if (found.damage.empty()) {
-    return fmt::format("{}: whole; {}B and {} tiles are what was written\n", store,
-                       short_count(static_cast<double>(found.bytes)), found.tiles);
+    return fmt::format("{}: whole; {}B and {} tiles are what was written{}\n", store,
+                       short_count(static_cast<double>(found.bytes)), found.tiles,
+                       origin.yours ? " by you" : "; by whom is not known: " + printable_part(origin.why_not));
   }
   return text +
          fmt::format("{0}: {1} damaged; tiles that are, are solid; `roam verify {0} --repair SCENE` mends it\n", store,
@@ -70,6 +89,7 @@ std::uint64_t repair(const VerifyOptions& options) {
   build.scene = options.scene;
   build.output = options.store;
   build.threads = options.threads;
+  build.key = user_key().key.value_or(key_of_this_run());
   StoreBuildReport report;
   {
     Progress progress("repairing " + options.store.string(), "triangles");
@@ -86,14 +106,15 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
   StoreVerification found = look(options);
   std::uint64_t repaired = 0;
   if (!found.whole() && !options.scene.empty()) {
-    if (!options.json) print(text_report(options, found));
+    if (!options.json) print(text_report(options, found, {}));
     repaired = repair(options);
     found = look(options);
   }
+  const Origin origin = origin_of(options.store);
   if (options.json) {
-    print(json_report(options, found, repaired));
+    print(json_report(options, found, origin, repaired));
   } else {
-    print(text_report(options, found));
+    print(text_report(options, found, origin));
   }
   return found.whole() ? done : answer_no;
 }
@@ -105,6 +126,7 @@ constexpr const char* help =
     "store\n"
     "is solid, everywhere else it can be walked. With --repair just the shards with damage are built again, from the\n"
     "scene that the store was made of, read as it was then: the store knows --up, --unit, --ignore and --lossless.\n"
+    "A store that is whole is what was written, by you or by somebody else: it says which.\n"
     "Exit status 0 when the store is whole, 3 when not, or when its build has not ended.\n\n"
     "Examples:\n"
     "  roam verify dam.roam\n"

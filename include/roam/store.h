@@ -32,6 +32,14 @@
 
 namespace roam {
 
+/// A secret of the user, by which the stores that were built with it are told from all others: a store whose manifest
+/// has an authentication code of the key was built, or adopted, by somebody who holds the key. The program keeps its
+/// user's key in a file; a program of your own keeps 32 bytes of a cryptographic generator where only its user can read
+/// them.
+struct StoreKey {
+  std::array<std::byte, 32> bytes{};
+};
+
 /// What a store holds and what it costs.
 struct StoreInfo {
   std::uint32_t format = 0;  ///< version of the format that it is written in
@@ -90,6 +98,9 @@ class Store {
   [[nodiscard]] const StoreInfo& info() const;
   /// The folder as it was passed, for people.
   [[nodiscard]] const std::string& name() const;
+  /// Whether the manifest has an authentication code of this key. All else in the store has its SHA-256 in the
+  /// manifest; only verify_store compares it. Reads a small file; false where that is damaged or cannot be read.
+  [[nodiscard]] bool is_authentic(const StoreKey& key) const;
 
   // What follows reads from disk and allocates: for reports, not for a thread that moves a body.
 

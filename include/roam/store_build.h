@@ -26,6 +26,7 @@
 #include "roam/error.h"
 #include "roam/import.h"
 #include "roam/math.h"
+#include "roam/store.h"
 
 namespace roam {
 
@@ -45,6 +46,13 @@ struct StoreBuildOptions {
   std::uint64_t memory = 1ull << 30;              ///< bytes, >= least_memory: of this process and its readers together
   int threads = 0;                                ///< 0: one per core
   bool lossless = false;                          ///< as BuildOptions::lossless
+  /// With a key the store gets an authentication code (Store::is_authentic), and nothing in the output is built upon
+  /// that has none of the same key: a store there is refused (NotAuthentic), what an ended build left is made again.
+  /// All steps of a build need the same key. Without a key everything in the output is built upon: do so only where
+  /// nobody else can have put anything there.
+  std::optional<StoreKey> key{};
+  /// With a key: the store that is there gets a code of it, whoever built it, and is built upon.
+  bool adopt = false;
   /// Shards whose boxes are nearest to this place are built first; does not change the result.
   std::optional<Vec3> nearest_first{};
   /// Called from one thread at a time, several times a second. Returning false ends the build: roam::Cancelled.
@@ -65,14 +73,20 @@ struct StoreBuildReport {
   std::vector<std::string> notes;  ///< whole sentences for the user; those of the import among them
 };
 
+/// There is a store in the output that has no authentication code of the key.
+class NotAuthentic : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Plans, builds and merges. Throws what the three throw.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
 /// Reads what has changed and decides the shards. Returns how many shards the store that is in force does not have; 0
 /// with `unchanged` when it is up to date. Planning again gives the same plan with the same numbers; shards that are
 /// built by then stay, and building them again is done at once. Throws roam::Error for a scene that cannot be read, a
-/// folder that is no store and not empty, another build at work on it (naming its process), too little memory or disk;
-/// roam::Cancelled.
+/// folder that is no store and not empty, a store there that is not authentic (NotAuthentic), another build at work on
+/// it (naming its process), too little memory or disk; roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds shard `i` of the plan in `options.output`, 0 <= i < what plan_store returned. Of the other options only
@@ -88,7 +102,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report);
 /// publishes. The scene is read as it was for the store, which knows that: `lossless`, and up, unit and ignore of
 /// `import`, are not used. A damaged manifest is taken from its spare. Throws roam::Error when the scene is not the one
 /// that the store was made of, where the build of it has not ended, and where no copy of the manifest is whole: then
-/// nothing tells what the store was.
+/// nothing tells what the store was. A store that is not authentic is repaired, too, and stays so.
 StoreBuildReport repair_store(const StoreBuildOptions& options);
 
 }  // namespace roam

@@ -71,8 +71,8 @@ std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uin
 
 }  // namespace
 
-WholeFile::WholeFile(const fs::path& file)
-    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string()) {
+WholeFile::WholeFile(const fs::path& file, unsigned rights)
+    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights) {
   // Renaming would replace a device, and fail on a folder after all the work.
   struct stat status {};
   if (::fstatat(folder_.number(), name_.c_str(), &status, 0) != 0) {
@@ -84,8 +84,8 @@ WholeFile::WholeFile(const fs::path& file)
   throw FileError(fmt::format("cannot write {}: it is a pipe or a device; name a file", file.string()), ESPIPE);
 }
 
-WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name)
-    : folder_(std::move(folder)), folder_path_(std::move(folder_path)), name_(std::move(name)) {
+WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights)
+    : folder_(std::move(folder)), folder_path_(std::move(folder_path)), rights_(rights), name_(std::move(name)) {
   static std::atomic<std::uint64_t> number{0};
   if (name_.empty()) fail_to_write(EISDIR);
   while (!begin(number++)) {
@@ -95,7 +95,7 @@ WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name)
 bool WholeFile::begin(std::uint64_t number) {
   temporary_ = fmt::format("{}.{}.{}{}", name_.substr(0, longest_stem), ::getpid(), number, temporary_suffix);
   const int file = again([&] {
-    return ::openat(folder_.number(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    return ::openat(folder_.number(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights_);
   });
   if (file < 0) {
     const int error = errno;

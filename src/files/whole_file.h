@@ -15,15 +15,16 @@
 
 namespace roam::files {
 
-/// A file in the making, beside its final place. It has the rights of any new file. Unless commit() succeeds it is
-/// removed with this object, and when the program is interrupted. All functions throw FileError, and go on with
+/// A file in the making, beside its final place. It has the rights of any new file, or less. Unless commit() succeeds
+/// it is removed with this object, and when the program is interrupted. All functions throw FileError, and go on with
 /// interrupted and short writes.
 class WholeFile {
  public:
   /// Throws also when the final place holds anything but a file, such as a folder or a device.
-  explicit WholeFile(const std::filesystem::path& file);
+  /// `rights`: as of open(2), from which those of umask are taken.
+  explicit WholeFile(const std::filesystem::path& file, unsigned rights = usual_rights);
   /// The file `name` in an open folder, whose path is for messages.
-  WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name);
+  WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name, unsigned rights = usual_rights);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -43,8 +44,11 @@ class WholeFile {
   bool begin(std::uint64_t number);
   [[noreturn]] void fail_to_write(int error) const;
 
+  static constexpr unsigned usual_rights = 0666;
+
   Descriptor folder_;
   std::filesystem::path folder_path_;
+  unsigned rights_;
   std::string name_, temporary_;  ///< in the folder
   Descriptor file_;
   Unfinished listed_;

@@ -1,4 +1,6 @@
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 #include <xxhash.h>
 
 #include <array>
@@ -8,6 +10,19 @@
 #include "store/sha256.h"
 
 namespace roam::store {
+namespace {
+
+std::string digits_of(std::span<const unsigned char> bytes) {
+  static constexpr char hexadecimal[] = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += hexadecimal[byte >> 4];
+    text += hexadecimal[byte & 15U];
+  }
+  return text;
+}
+
+}  // namespace
 
 struct Sha256::Context {
   EVP_MD_CTX* it = EVP_MD_CTX_new();
@@ -32,13 +47,21 @@ std::string Sha256::digits() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
   if (EVP_DigestFinal_ex(context_->it, digest.data(), &size) != 1) throw Error("cannot compute SHA-256");
-  static constexpr char hexadecimal[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned i = 0; i < size; ++i) {
-    text += hexadecimal[digest[i] >> 4];
-    text += hexadecimal[digest[i] & 15U];
+  return digits_of(std::span(digest).first(size));
+}
+
+std::string hmac_sha256(std::span<const std::byte> key, std::span<const std::byte> text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), reinterpret_cast<const unsigned char*>(text.data()),
+           text.size(), digest.data(), &size) == nullptr) {
+    throw Error("cannot compute HMAC-SHA256: the cryptographic library refuses to");
   }
-  return text;
+  return digits_of(std::span(digest).first(size));
+}
+
+bool same_digits(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
 std::string sha256(std::span<const std::byte> bytes) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace roam::store {
 
@@ -21,5 +22,10 @@ class Sha256 {
   struct Context;
   std::unique_ptr<Context> context_;
 };
+
+/// HMAC-SHA256, 64 hexadecimal digits.
+[[nodiscard]] std::string hmac_sha256(std::span<const std::byte> key, std::span<const std::byte> text);
+/// Whether two texts are the same, in a time that does not tell where they differ.
+[[nodiscard]] bool same_digits(std::string_view a, std::string_view b);
 
 }  // namespace roam::store

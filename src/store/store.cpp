@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "math/floating_point.h"
+#include "store/authentic.h"
 #include "store/files.h"
 #include "store/recent.h"
 #include "store/tile_reader.h"
@@ -82,6 +83,7 @@ bool Store::is_store(const std::filesystem::path& folder) {
 
 const StoreInfo& Store::info() const { return state_->info; }
 const std::string& Store::name() const { return state_->name; }
+bool Store::is_authentic(const StoreKey& key) const { return store::has_code(*state_->bytes, state_->info.hash, key); }
 
 void Store::for_each_triangle(
     const Box& box, const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +10,7 @@
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "text/printable.h"
+#include "user_folder.h"
 
 namespace roam::app {
 namespace {
@@ -114,16 +114,7 @@ std::optional<HudMode> parse_hud_mode(const std::string& text) {
   return std::nullopt;
 }
 
-std::filesystem::path settings_folder() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  // The standard of the XDG folders: a path that is not absolute is to be ignored.
-  if (const auto config = folder("XDG_CONFIG_HOME"); config.is_absolute()) return config / "roam";
-  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".config" / "roam";
-  return {};
-}
+std::filesystem::path settings_folder() { return user_folder("XDG_CONFIG_HOME", ".config"); }
 
 ViewSettings read_settings(const std::filesystem::path& file) {
   const std::string text = files::read_named(file, files::longest_json);

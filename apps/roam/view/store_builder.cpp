@@ -9,6 +9,7 @@
 
 #include "build_notes.h"
 #include "store_name.h"
+#include "user_key.h"
 #include "view/collision_loader.h"
 
 namespace roam::app {
@@ -67,6 +68,8 @@ void StoreBuilder::build() {
   options.output = output_;
   options.import = what_.scene.import_options();
   options.lossless = what_.scene.lossless;
+  const UserKey user = made_user_key();
+  options.key = user.key ? *user.key : key_of_this_run();
   options.threads = work_threads(what_.scene.threads);
   options.nearest_first = place();
   options.progress = [this](const StoreBuildProgress& p) { return goes_on(p); };

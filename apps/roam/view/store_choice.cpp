@@ -10,6 +10,7 @@
 #include "store/build/same_scene.h"
 #include "store/opened.h"
 #include "store_name.h"
+#include "user_key.h"
 
 namespace roam::app {
 namespace {
@@ -29,16 +30,24 @@ std::filesystem::path scene_beside(const std::filesystem::path& store) {
 }
 
 /// In what the store differs from the scene; empty when in nothing.
-std::string compare(const Store& store, const SceneOptions& scene, const std::function<bool()>& goes_on) {
+std::string compare(const Store& store, const SceneOptions& scene, const std::optional<StoreKey>& key,
+                    const std::function<bool()>& goes_on) {
   ImportOptions reading = scene.import_options();
   reading.progress = [&](const ImportProgress&) { return goes_on(); };
   try {
-    return store::difference(store, scene.scenes, reading, scene.lossless, [&] {
+    return store::difference(store, scene.scenes, reading, scene.lossless, key, [&] {
       if (!goes_on()) throw Cancelled();
     });
   } catch (const Error& error) {
     return error.what();
   }
+}
+
+/// Why nobody knows that the user built it, as a clause for people; empty where it is certain.
+std::string not_yours(const Store& store, const UserKey& user) {
+  if (!user.key) return "it is not known whether you built it, for no key of yours can be used: " + user.problem;
+  if (store.is_authentic(*user.key)) return "";
+  return "it was not built with your key, and one that comes with a scene may lack a wall";
 }
 
 }  // namespace
@@ -77,10 +86,12 @@ std::filesystem::path store_place(const SceneAndStore& what) {
 
 StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>& goes_on) {
   StoreChoice choice;
+  const UserKey user = user_key();
   const std::filesystem::path place = store_place(what);
   if (!what.store.empty()) {
     choice.store = Store::open(what.store);
-    const std::string difference = what.store_only ? std::string() : compare(*choice.store, what.scene, goes_on);
+    const std::string difference =
+        what.store_only ? std::string() : compare(*choice.store, what.scene, user.key, goes_on);
     choice.stale = !difference.empty();
     if (choice.stale) {
       choice.note = fmt::format("what is collided with, {}, is not of what is seen: {}", place.string(), difference);
@@ -94,18 +105,24 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
     return choice;
   }
   if (!Store::is_store(place)) return choice;
-  std::string problem;
+  std::string problem, remedy = "`roam build` brings it up to date";
   try {
     std::shared_ptr<const Store> store = Store::open(place);
-    problem = compare(*store, what.scene, goes_on);
+    problem = not_yours(*store, user);
+    if (!problem.empty()) {
+      remedy =
+          "where you trust whoever did, name it with --store, or make it yours with `roam build --adopt`; else "
+          "remove it";
+    } else {
+      problem = compare(*store, what.scene, user.key, goes_on);
+    }
     if (problem.empty()) choice.store = std::move(store);
   } catch (const Error& error) {
     problem = error.what();
   }
   choice.stale = !problem.empty();
   if (choice.stale) {
-    choice.note =
-        fmt::format("the store {} is not used: {}; `roam build` brings it up to date", place.string(), problem);
+    choice.note = fmt::format("the store {} is not used: {}; {}", place.string(), problem, remedy);
   }
   return choice;
 }

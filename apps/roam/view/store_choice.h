@@ -31,13 +31,14 @@ struct SceneAndStore {
 
 struct StoreChoice {
   std::shared_ptr<const Store> store;  ///< null: there is none, or none that can be used
-  bool stale = false;                  ///< there is one, but it is not of this very scene
+  bool stale = false;                  ///< there is one, but it is not of this very scene, or not the user's
   std::string note;                    ///< a sentence for the user when something is not as it should be
 };
 
-/// A store that was named is opened, whatever scene it is of; one that lies beside the scene only where it is of this
-/// very scene. That reads the scene's files where their times tell nothing: `goes_on` is asked now and then, and ends
-/// it by false (roam::Cancelled). Throws roam::Error when a store that was named cannot be opened.
+/// A store that was named is opened, whatever scene it is of; one that lies beside the scene only where the
+/// user built it, with the user's key, and it is of this very scene. That reads the scene's files where their times
+/// tell nothing: `goes_on` is asked now and then, and ends it by false (roam::Cancelled). Throws roam::Error when a
+/// store that was named cannot be opened.
 [[nodiscard]] StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>& goes_on);
 
 /// Whether loading a scene whole takes so long, or so much memory, that a store is worth building.

@@ -8,6 +8,7 @@
 
 #include "math/floating_point.h"
 #include "roam/store_build.h"
+#include "store/authentic.h"
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
@@ -84,6 +85,21 @@ std::string mend_or_remove_root(const fs::path& store) {
   return sentence + "no copy of its manifest was whole, so all of it is built again";
 }
 
+/// A store that is there may have come with the scene: only one with a code of the key is built upon.
+void demand_authentic(const Work& work) {
+  if (!work.options.key || !Store::is_store(work.store)) return;
+  const auto there = Store::open(work.store);
+  if (there->is_authentic(*work.options.key)) return;
+  if (!work.options.adopt) {
+    throw NotAuthentic(
+        fmt::format("{} was not built with your key: it may have come with the scene, and lack a wall, or be a "
+                    "colleague's; if you trust whoever built it, --adopt makes it yours; else remove it, or choose "
+                    "another output",
+                    work.store.string()));
+  }
+  add_code(work.store, there->info().hash, *work.options.key);
+}
+
 /// Nothing when the store is up to date.
 std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
   std::string mended = mend_or_remove_root(work.store);
@@ -91,9 +107,10 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   std::optional<Plan> plan;
   {
     const Timer timer(report.plan_seconds);
+    demand_authentic(work);
     make_folders(work.store);
     plan = make_plan(work, damaged, report);
-    if (plan) write_plan(work.store, *plan);
+    if (plan) write_plan(work, *plan);
   }
   report.plan_seconds -= report.read_seconds - read_before;
   if (plan) {
@@ -165,7 +182,7 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
   try {
     for (const std::size_t i : numbers) {
       const PlannedShard& shard = plan.shards[i];
-      if (built_shard(work.store, shard.key)) {
+      if (built_shard(work, shard.key)) {
         work.add_triangles(shard.stretch.triangles);
         work.tick();
         continue;
@@ -202,7 +219,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
-  const Plan plan = read_plan(work.store, options.memory);
+  const Plan plan = read_plan(work);
   describe(plan, report);
   const std::vector<std::size_t> numbers = plan.to_build();
   if (i >= numbers.size()) {
@@ -221,7 +238,8 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
                             error ? error.message() : ""));
   }
   const auto lock = locked(work.store, options.progress);
-  const Plan plan = read_plan(work.store, options.memory);
+  demand_authentic(work);
+  const Plan plan = read_plan(work);
   describe(plan, report);
   merge_locked(work, plan, report);
 }
@@ -257,6 +275,11 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   StoreBuildOptions as_built = options;
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
+  if (options.key && !Store::open(options.output)->is_authentic(*options.key)) {
+    // It gets no code by being repaired, and nothing that its builder left is gone on from.
+    as_built.key.reset();
+    remove_scratch(options.output);
+  }
   Work work(as_built);
   std::set<std::string> damaged;
   const auto check = [&](const std::string& hash, const std::string& file) {

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "roam/error.h"
+#include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/files.h"
 #include "store/json_reader.h"
@@ -96,17 +97,17 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
-Sources::Sources(fs::path store) : store_(std::move(store)) {
+Sources::Sources(fs::path store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
   if (!size_of(store_, sources_file)) return;
   if (*size_of(store_, sources_file) > kSourcesMemory / 4) return;
-  const std::vector<std::byte> bytes = read_file(store_, sources_file, kSourcesMemory / 4);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::optional<std::string> text = read_coded(store_, sources_file, kSourcesMemory / 4, key_);
+  if (!text) return;
   try {
-    check_json(text, sources_file, kSourcesMemory);
+    check_json(*text, sources_file, kSourcesMemory);
   } catch (const Error&) {
     return;
   }
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, item] : json.items()) {
     if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
@@ -181,7 +182,7 @@ void Sources::save() const {
   Json json = Json::object();
   for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
   // A path that is no UTF-8 is not found again, and its file read again.
-  write_file(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_coded(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", key_);
 }
 
 }  // namespace roam::store

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "roam/import.h"
+#include "roam/store.h"
 
 namespace roam::store {
 
@@ -23,8 +25,9 @@ void read_as(const std::string& text, ImportOptions& options);
 /// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same.
 class Sources {
  public:
-  /// It is remembered in the folder of a store. What is damaged there is forgotten.
-  explicit Sources(std::filesystem::path store);
+  /// It is remembered in the folder of a store. What is damaged there, or was not remembered with the key, is
+  /// forgotten.
+  Sources(std::filesystem::path store, const std::optional<StoreKey>& key);
 
   /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw.
   void look(const std::vector<ScenePart>& parts, const std::function<void()>& tick);
@@ -45,6 +48,7 @@ class Sources {
   static Seen status(const std::filesystem::path& file);
 
   std::filesystem::path store_;
+  std::optional<StoreKey> key_;
   std::map<std::string, Seen> known_, seen_;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "store/authentic.h"
 #include "store/build/histogram.h"
 #include "store/build/layout.h"
 #include "store/build/run.h"
@@ -147,16 +148,16 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
   return sha256(std::as_bytes(std::span(text))).substr(0, record_digits);
 }
 
-std::optional<PartRecord> find_record(const fs::path& store, const std::string& id) {
+std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
+  const fs::path& store = work.store;
   const std::string file = record_file(id);
-  if (!size_of(store, file)) return {};
-  const std::vector<std::byte> bytes = read_file(store, file, record_memory);
+  const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
+  if (!text) return {};
   PartRecord record;
   record.id = id;
   try {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    check_json(text, file, record_memory);
-    const Json json = Json::parse(text);
+    check_json(*text, file, record_memory);
+    const Json json = Json::parse(*text);
     if (json.at("scratch_version").get<int>() != scratch_version) return {};
     record.info.name = json.at("name").get<std::string>();
     record.info.fingerprint = json.at("fingerprint").get<std::string>();
@@ -212,7 +213,7 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   record.info.bytes = bytes.size();
   record.info.triangles = file.triangles;
   record.info.objects = file.objects.size();
-  write_file(work.store, record_file(record.id), to_text(record));
+  write_coded(work.store, record_file(record.id), to_text(record), work.options.key);
   work.add_bytes(std::max(told, part.bytes) - told);
   work.tick();
   return record;

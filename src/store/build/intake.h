@@ -27,8 +27,8 @@ struct PartRecord {
 /// How PartRecord::id follows from the part.
 [[nodiscard]] std::string record_id(const std::string& name, const std::string& fingerprint);
 
-/// The record that read_part left in the scratch folder, when all that it tells of is there.
-[[nodiscard]] std::optional<PartRecord> find_record(const std::filesystem::path& store, const std::string& id);
+/// The record that read_part left in the scratch folder, with the same key, when all that it tells of is there.
+[[nodiscard]] std::optional<PartRecord> find_record(const Work& work, const std::string& id);
 
 /// Reads the part, as one of so many `readers` at once, publishes its runs, its part file and, last, its record.
 PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers);

@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "roam/error.h"
+#include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/build/root.h"
 #include "store/files.h"
@@ -45,7 +46,7 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   work.arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t b) {
       const PlannedShard& planned = plan.shards[built[b]];
-      const auto shard = built_shard(work.store, planned.key);
+      const auto shard = built_shard(work, planned.key);
       if (!shard) {
         wrong[b] = "missing";
       } else if (sha256_of_file(work.store, pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) !=
@@ -113,12 +114,14 @@ std::string tidy(const fs::path& store) {
   for (const std::string& file : files_in(store, "manifests")) {
     if (is_temporary(file, [](auto name) { return name == manifest_file("new"); })) remove_file(store, file);
     if (!is_named_by_hash(file, ".json") || file == manifest_file(hash) || remove_unless_read(store, file)) continue;
+    needed.insert(codes_file(fs::path(file).stem().string()));
     const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
     keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file), needed);
   }
   needed.insert(spare_file(keep_spare(store, manifest)));
-  constexpr std::array<std::pair<const char*, const char*>, 3> kinds{
-      {{"packs", ".pack"}, {"parts", ".part"}, {"spare", ".json"}}};
+  needed.insert(codes_file(hash));
+  constexpr std::array<std::pair<const char*, const char*>, 4> kinds{
+      {{"packs", ".pack"}, {"parts", ".part"}, {"spare", ".json"}, {"codes", ".hmac"}}};
   for (const auto& [folder, extension] : kinds) {
     const std::string unnamed = std::string(folder) + "/new" + extension;
     const auto is_final = [&, end = extension](std::string_view name) {
@@ -165,7 +168,8 @@ std::string merge(Work& work, const Plan& plan) {
     manifest.bounds.include(shard.bounds);
     manifest.geometry_hash += shard.geometry_hash;
   }
-  keep_spare(work.store, manifest);
+  const std::string hash = keep_spare(work.store, manifest);
+  if (work.options.key) add_code(work.store, hash, *work.options.key);
   publish(work.store, manifest);
   return tidy(work.store);
 }

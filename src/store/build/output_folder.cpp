@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 /// Whether a build puts something of this name into the folder of a store.
 bool is_ours(const std::string& name) {
-  static const std::set<std::string> ours{current_file, lock_file, "manifests",  "packs",
-                                          "parts",      "scratch", sources_file, "spare"};
+  static const std::set<std::string> ours{current_file, lock_file,    "manifests", "packs", "parts",
+                                          "scratch",    sources_file, "spare",     "codes"};
   return ours.contains(name) || is_temporary_of_root(name);
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "roam/error.h"
+#include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/files.h"
 #include "store/json_reader.h"
@@ -84,7 +85,7 @@ std::string key_of(const Stretch& stretch, const Plan& plan) {
   return sha256(std::as_bytes(std::span(text)));
 }
 
-void write_plan(const fs::path& store, const Plan& plan) {
+void write_plan(const Work& work, const Plan& plan) {
   Json parts = Json::array(), shards = Json::array();
   for (const PartRecord& record : plan.parts) parts.push_back(json_of(record));
   for (const PlannedShard& shard : plan.shards) {
@@ -99,18 +100,25 @@ void write_plan(const fs::path& store, const Plan& plan) {
                      {"lossless", plan.lossless},
                      {"parts", std::move(parts)},
                      {"shards", std::move(shards)}};
-  write_file(store, plan_file, json.dump(1) + "\n");
+  write_coded(work.store, plan_file, json.dump(1) + "\n", work.options.key);
 }
 
-Plan read_plan(const fs::path& store, std::uint64_t memory) {
+Plan read_plan(const Work& work) {
+  const fs::path& store = work.store;
+  const std::uint64_t memory = work.options.memory;
   if (!size_of(store, plan_file)) {
     throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
   }
-  const std::vector<std::byte> bytes = read_file(store, plan_file, memory / 4);
+  const std::optional<std::string> text = read_coded(store, plan_file, memory / 4, work.options.key);
+  if (!text) {
+    throw Error(
+        fmt::format("the plan in {} was not made with your key: all who build the store need the same key file; "
+                    "copy it, or plan again",
+                    store.string()));
+  }
   try {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    check_json(text, plan_file, memory / 2);
-    const Json json = Json::parse(text);
+    check_json(*text, plan_file, memory / 2);
+    const Json json = Json::parse(*text);
     if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
     Plan plan;
     plan.options = json.at("options").get<std::string>();
@@ -155,12 +163,12 @@ std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {
   return notes;
 }
 
-std::optional<ShardInfo> built_shard(const fs::path& store, const std::string& key) {
+std::optional<ShardInfo> built_shard(const Work& work, const std::string& key) {
+  const fs::path& store = work.store;
   const std::string file = shard_file(key);
-  if (!size_of(store, file)) return {};
-  const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
-  ShardInfo shard =
-      parse_shard(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), (store / file).string());
+  const std::optional<std::string> text = read_coded(store, file, Store::usual_memory, work.options.key);
+  if (!text) return {};
+  ShardInfo shard = parse_shard(*text, (store / file).string());
   if (shard.key != key || size_of(store, pack_file(shard.pack)) != shard.bytes) return {};
   return shard;
 }

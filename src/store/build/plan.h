@@ -33,10 +33,10 @@ struct Plan {
 /// scene is read, and of which stretch of which parts.
 [[nodiscard]] std::string key_of(const Stretch& stretch, const Plan& plan);
 
-/// The plan in the scratch folder. Throws roam::Error when there is none that can be used, or it takes more than half
-/// of the memory.
-[[nodiscard]] Plan read_plan(const std::filesystem::path& store, std::uint64_t memory);
-void write_plan(const std::filesystem::path& store, const Plan& plan);
+/// The plan in the scratch folder. Throws roam::Error when there is none that can be used, it was made with another
+/// key, or it takes more than half of the memory.
+[[nodiscard]] Plan read_plan(const Work& work);
+void write_plan(const Work& work, const Plan& plan);
 
 /// The manifest in force, if there is a store.
 [[nodiscard]] std::optional<Manifest> manifest_in_force(const std::filesystem::path& store);
@@ -51,7 +51,7 @@ void check_output(const StoreBuildOptions& options);
 /// `damaged` count as missing. The store must be locked.
 [[nodiscard]] std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report);
 
-/// Whether a shard of the plan was built and waits to be merged.
-[[nodiscard]] std::optional<ShardInfo> built_shard(const std::filesystem::path& store, const std::string& key);
+/// Whether a shard of the plan was built, with the same key, and waits to be merged.
+[[nodiscard]] std::optional<ShardInfo> built_shard(const Work& work, const std::string& key);
 
 }  // namespace roam::store

@@ -38,7 +38,7 @@ bool is_inside(const fs::path& inner, const fs::path& outer) {
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
-      : work_(work), damaged_(damaged), report_(report), sources_(work.store) {}
+      : work_(work), damaged_(damaged), report_(report), sources_(work.store, work.options.key) {}
 
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
@@ -74,7 +74,7 @@ class Planner {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const std::string fingerprint = sources_.fingerprint(parts_[i], plan_.options);
       const std::string id = record_id(parts_[i].name, fingerprint);
-      std::optional<PartRecord> record = find_record(work_.store, id);
+      std::optional<PartRecord> record = find_record(work_, id);
       const auto old = before.find(parts_[i].name);
       if (!record && old != before.end()) {
         const PartInfo& info = in_force_->parts[old->second];
@@ -272,7 +272,7 @@ class Planner {
   [[nodiscard]] std::vector<std::size_t> needed() const {
     std::set<std::size_t> parts(missing_.begin(), missing_.end());
     for (const PlannedShard& shard : plan_.shards) {
-      if (shard.there || built_shard(work_.store, shard.key)) continue;
+      if (shard.there || built_shard(work_, shard.key)) continue;
       for (const std::uint32_t p : shard.stretch.parts) {
         if (!plan_.parts[p].has_runs) parts.insert(p);
       }

@@ -9,7 +9,7 @@
 namespace roam::store {
 
 std::string difference(const Store& store, std::span<const std::filesystem::path> scene, const ImportOptions& import,
-                       bool lossless, const std::function<void()>& tick) {
+                       bool lossless, const std::optional<StoreKey>& key, const std::function<void()>& tick) {
   const Manifest& manifest = store.state().manifest;
   const std::string options = text_of(import);
   if (manifest.options != options) return "it was built with other options (--up, --unit, --ignore)";
@@ -20,7 +20,7 @@ std::string difference(const Store& store, std::span<const std::filesystem::path
   }
   if (parts.size() > manifest.parts.size()) return parts[manifest.parts.size()].name + " is new";
   if (parts.size() < manifest.parts.size()) return manifest.parts[parts.size()].name + " is gone";
-  Sources sources(store.name());
+  Sources sources(store.name(), key);
   sources.look(parts, tick);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (sources.fingerprint(parts[i], options) != manifest.parts[i].fingerprint) {

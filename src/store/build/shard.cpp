@@ -10,6 +10,7 @@
 
 #include "index/cutter.h"
 #include "index/tile_builder.h"
+#include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/build/mask.h"
 #include "store/build/shard_triangles.h"
@@ -215,9 +216,9 @@ std::function<void()> make_shard(Work& work, const Plan& plan, const PlannedShar
   write_pages(*pack, entries, info);
   info.bytes = pack->size();
   work.add_written(info.bytes);
-  return [pack, info, store = work.store]() mutable {
+  return [pack, info, &work]() mutable {
     info.pack = pack->commit();
-    write_file(store, shard_file(info.key), to_text(info));
+    write_coded(work.store, shard_file(info.key), to_text(info), work.options.key);
   };
 }
 

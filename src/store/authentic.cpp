@@ -1,0 +1,93 @@
+#include "store/authentic.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "roam/error.h"
+#include "store/files.h"
+
+namespace roam::store {
+namespace {
+
+/// Of a file of codes. Some 1000 of them: more have not built the same store.
+constexpr std::uint64_t kCodesLimit = 64 * 1024;
+constexpr std::size_t kDigits = 64;
+/// A code, and the line feed.
+constexpr std::size_t kLine = kDigits + 1;
+/// The last line of a file that has a code begins with this.
+constexpr std::string_view kStart = "hmac ";
+
+/// `purpose` and `name` say what the code is of: no code stands for anything else.
+std::string code(const StoreKey& key, std::string_view purpose, const std::string& name, std::string_view text = {}) {
+  std::string all(purpose);
+  all.append("\n").append(name).append("\n").append(text);
+  return hmac_sha256(key.bytes, std::as_bytes(std::span(all)));
+}
+
+std::string code_of_manifest(const StoreKey& key, const std::string& manifest) {
+  return code(key, "roam manifest 1", manifest);
+}
+
+/// The codes in a file of them: each a line.
+std::vector<std::string> codes_in(const std::vector<std::byte>& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::vector<std::string> codes;
+  for (std::size_t at = 0; at + kLine <= text.size(); at += kLine) {
+    const std::string_view digits = text.substr(at, kDigits);
+    if (!is_digits(digits, kDigits) || text[at + kDigits] != '\n') break;
+    codes.emplace_back(digits);
+  }
+  return codes;
+}
+
+}  // namespace
+
+std::string codes_file(const std::string& manifest) { return "codes/" + manifest + ".hmac"; }
+
+bool has_code(StoreBytes& bytes, const std::string& manifest, const StoreKey& key) {
+  try {
+    const std::string right = code_of_manifest(key, manifest);
+    const auto codes = codes_in(bytes.whole(codes_file(manifest), kCodesLimit));
+    return std::any_of(codes.begin(), codes.end(), [&](const std::string& code) { return same_digits(code, right); });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void add_code(const std::filesystem::path& store, const std::string& manifest, const StoreKey& key) {
+  if (has_code(*files_of(store), manifest, key)) return;
+  make_folder_in(store, "codes");
+  const std::string file = codes_file(manifest);
+  std::string text;
+  // What is damaged, or more than there can be, is written anew.
+  if (size_of(store, file).value_or(kCodesLimit) < kCodesLimit - kLine) {
+    for (const std::string& other : codes_in(read_file(store, file, kCodesLimit))) text += other + "\n";
+  }
+  write_file(store, file, text + code_of_manifest(key, manifest) + "\n");
+}
+
+void write_coded(const std::filesystem::path& store, const std::string& name, std::string text,
+                 const std::optional<StoreKey>& key) {
+  if (key) {
+    const std::string digits = code(*key, "roam file 1", name, text);
+    text.append(kStart).append(digits).append("\n");
+  }
+  write_file(store, name, text);
+}
+
+std::optional<std::string> read_coded(const std::filesystem::path& store, const std::string& name, std::uint64_t limit,
+                                      const std::optional<StoreKey>& key) {
+  if (!size_of(store, name)) return std::nullopt;
+  const std::vector<std::byte> bytes = read_file(store, name, limit);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  constexpr std::size_t line = kStart.size() + kLine;
+  const std::size_t end = text.size() - std::min(text.size(), line);
+  const bool has_line = std::string_view(text).substr(end).starts_with(kStart);
+  const std::string found = has_line ? text.substr(end + kStart.size(), kDigits) : std::string();
+  if (has_line) text.resize(end);
+  if (key && !same_digits(found, code(*key, "roam file 1", name, text))) return std::nullopt;
+  return text;
+}
+
+}  // namespace roam::store
