@@ -44,7 +44,7 @@ TEST(Filtered, IsTheSpaceWithoutThoseObjects) {
         scenes::add_triangle(left, c[0], c[1], c[2]);
       }
     }
-    const double farthest = lossless ? judged::kFarthestLossless : judged::kFarthest;
+    const double farthest = lossless ? judged::farthest_lossless : judged::farthest_off;
     judged::NearJudge judge(left);
     std::array<roam::Contact, 64> contacts;
     long other = 0;

@@ -168,7 +168,7 @@ TEST(ImportSandboxReport, SaysWhichWallsHold) {
     ImportOptions options;
     options.reader = folder.write_script(
         "reader.sh", "exec '" ROAM_READER_PROGRAM "' --highest-landlock " + std::to_string(highest) + " \"$@\"\n");
-    const Scene read = import_scene(scene, options);
+    const ImportedScene read = import_scene(scene, options);
     ASSERT_TRUE(read.report.confinement);
     EXPECT_EQ(read.report.confinement->landlock, std::min(here.landlock, highest));
     EXPECT_EQ(read.report.confinement->system_calls, here.system_calls);

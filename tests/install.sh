@@ -169,7 +169,7 @@ END
       said=$(tr -s ' \n' ' ' <<< "$said")
       [[ $said == *"$1"* ]] || { echo "$said"; echo "expected: $1"; exit 1; }
     }
-    for component in roam files process import generate store ways profile training osg; do
+    for component in roam files process import generate store ways profile training osgRoam; do
       request=REQUIRED
       [[ $component == roam ]] || request="REQUIRED COMPONENTS $component"
       expect "Generating done" configure "$request" "get_target_property(kind roam::$component TYPE)

@@ -28,7 +28,7 @@ using roam::Query;
 using roam::Vec3;
 using roam::World;
 
-constexpr double farthest = judged::kFarthestLossless + 1e-6;
+constexpr double farthest = judged::farthest_lossless + 1e-6;
 
 TEST(Instances, AnswerWhatBruteForceSaysOfThePosedTriangles) {
   for (const Vec3 centre : {Vec3(0.0), Vec3(6e5, -5.9e6, 800.0)}) {

@@ -114,7 +114,7 @@ TEST(Locale, Files) {
     std::string told;
     ImportOptions options;
     options.unit = LengthUnit::ft;
-    const Scene scene = import_scene(folder.file("scene.obj"), options);
+    const ImportedScene scene = import_scene(folder.file("scene.obj"), options);
     for (const Vec3& v : scene.meshes.at(0).vertices) {
       told +=
           std::to_string(std::bit_cast<std::uint64_t>(v.x)) + " " + std::to_string(std::bit_cast<std::uint64_t>(v.y));

@@ -35,7 +35,7 @@ struct At {
 At at_time(const roam::StepReport& r, double time) {
   At at{r.from, r.height, r.radius};
   double begin = 0.0;
-  for (const roam::Corner& c : r.corners) {
+  for (const roam::Segment& c : r.segments) {
     at.height = c.height;
     at.radius = c.radius;
     if (c.time >= time) {

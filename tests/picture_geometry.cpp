@@ -282,7 +282,7 @@ TEST(PictureWay, IsKeptOfAnyLengthInFewPlaces) {
     report.to = place(i);
     report.clearance = i == nearest ? 0.31 : 0.5;
     report.corners.clear();
-    roam::Corner corner;
+    roam::Segment corner;
     corner.position = report.to;
     corner.height = 1.8;
     corner.clearance = report.clearance;

@@ -168,7 +168,7 @@ TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
     }
     EXPECT_FALSE(drawn.all<Text>("title").empty());
     EXPECT_FALSE(drawn.all<Text>("legend").empty());
-    EXPECT_TRUE(drawn.says(std::string(name(drawn.report.result.outcome)) + ":"));
+    EXPECT_TRUE(drawn.says(std::string(to_string(drawn.report.result.outcome)) + ":"));
   }
 }
 

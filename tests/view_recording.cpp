@@ -134,7 +134,7 @@ TEST(UnusedName, NeverNamesWhatIsThere) {
 TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   const auto step = [](double x, double clearance) {
     StepReport report;
-    report.corners.push({Vec3(x, 0.0, 0.0), 1.8, 0.3, 0.01, clearance, false});
+    report.segments.push({Vec3(x, 0.0, 0.0), 1.8, 0.3, 0.01, clearance, false});
     report.from = {x - 1.0, 0.0, 0.0};
     report.to = {x, 0.0, 0.0};
     report.height = 1.8;

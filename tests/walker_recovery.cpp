@@ -98,7 +98,7 @@ TEST(Recovery, WhereNothingIsBelowItIsPutBackToTheLastSafePlaceAndSaysSo) {
     EXPECT_FALSE(r.held || r.has(EventKind::held));
     back = r.put_back;
     EXPECT_EQ(back, r.has(EventKind::put_back));
-    EXPECT_TRUE(!back || !r.corners.empty());
+    EXPECT_TRUE(!back || !r.segments.empty());
   }
   EXPECT_TRUE(back);
   EXPECT_EQ(w.count(EventKind::fell), 1);

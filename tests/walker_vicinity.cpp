@@ -85,11 +85,11 @@ void expect_same(const Walker& a, const Walker& b) {
   const StepReport &r = a.report(), &s = b.report();
   ASSERT_EQ(r.clearance, s.clearance);
   ASSERT_EQ(r.least_gap, s.least_gap);
-  ASSERT_EQ(r.corners.total(), s.corners.total());
-  for (std::size_t i = 0; i < r.corners.size(); ++i) {
-    ASSERT_EQ(r.corners[i].position, s.corners[i].position);
-    ASSERT_EQ(r.corners[i].clearance, s.corners[i].clearance);
-    ASSERT_EQ(r.corners[i].time, s.corners[i].time);
+  ASSERT_EQ(r.segments.total(), s.segments.total());
+  for (std::size_t i = 0; i < r.segments.size(); ++i) {
+    ASSERT_EQ(r.segments[i].position, s.segments[i].position);
+    ASSERT_EQ(r.segments[i].clearance, s.segments[i].clearance);
+    ASSERT_EQ(r.segments[i].time, s.segments[i].time);
   }
   ASSERT_EQ(r.contacts.total(), s.contacts.total());
   for (std::size_t i = 0; i < r.contacts.size(); ++i) {

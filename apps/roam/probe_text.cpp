@@ -62,7 +62,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   if (answer.limit) {
     const ProbeLimit& limit = *answer.limit;
     Json& opening = json["opening"];
-    opening = {{"kind", name(limit.kind)}, {"point", to_json(limit.point)}};
+    opening = {{"kind", to_string(limit.kind)}, {"point", to_json(limit.point)}};
     if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
     const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
                              : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
@@ -80,7 +80,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   json["complete"] = p.complete;
   json["places"] = p.places;
   json["walked"] = nullptr;
-  if (answer.walk) json["walked"] = {{"outcome", name(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
+  if (answer.walk) json["walked"] = {{"outcome", to_string(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
   return json;
 }
 
@@ -96,7 +96,7 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
     if (is_unknown(answer))
       what = "the search ended";
     else if (answer.walk && !answer.passable)
-      what = fmt::format("walker {} at {}", name(answer.walk->outcome), at(answer.walk->at));
+      what = fmt::format("walker {} at {}", to_string(answer.walk->outcome), at(answer.walk->at));
     else if (answer.limit)
       what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
     else if (!p.found)

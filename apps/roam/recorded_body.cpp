@@ -17,7 +17,7 @@ constexpr const char* mark = "# roam: mode ";
 
 std::optional<Mode> parse_mode(const std::string& text) {
   for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
-    if (text == name(mode)) return mode;
+    if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
 }
@@ -83,7 +83,7 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
 
 }  // namespace
 
-std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode)); }
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
 
 RecordedPath load_recorded_path(const std::filesystem::path& file) {
   if (file.empty()) return {};
@@ -112,7 +112,7 @@ std::string compare(const RecordedBody& recorded, const WalkerSettings& settings
                        recorded.support_radius, settings.support_radius);
   }
   if (recorded.mode == mode) return {};
-  return fmt::format("the path was recorded in mode {}; this is mode {}", name(recorded.mode), name(mode));
+  return fmt::format("the path was recorded in mode {}; this is mode {}", to_string(recorded.mode), to_string(mode));
 }
 
 }  // namespace roam::app

@@ -97,7 +97,7 @@ void append_answer(std::string& rows, const Impact& answer) {
   fmt::format_to(out, FMT_COMPILE("1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g}\n"),
                  answer.time, answer.point.x, answer.point.y, answer.point.z, answer.normal.x, answer.normal.y,
                  answer.normal.z, static_cast<std::int64_t>(answer.unknown ? no_triangle : answer.triangle),
-                 answer.unknown ? "unknown" : name(answer.feature), answer.distance);
+                 answer.unknown ? "unknown" : to_string(answer.feature), answer.distance);
 }
 
 }  // namespace roam::app

@@ -42,7 +42,7 @@ std::string keys_of(const ViewSettings& settings) {
 /// The scene's profile, where the radius is left out.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
   if (options.no_profile || options.radius) return std::nullopt;
-  const std::string mode = options.mode.value_or(name(recorded ? recorded->mode : Mode::walk));
+  const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   return find_scene_profile(options.scene,
                             mode == "ghost" ? Mode::ghost
                             : mode == "fly" ? Mode::fly

@@ -35,7 +35,7 @@ class Recorder {
   Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
       : options_(options),
         scene_(scene),
-        progress_(std::in_place, name(options.walker_mode()) + std::string("ing"), "steps"),
+        progress_(std::in_place, to_string(options.walker_mode()) + std::string("ing"), "steps"),
         expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
     if (!options.trace.empty()) trace_.emplace(options.trace);
   }

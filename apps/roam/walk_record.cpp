@@ -16,7 +16,7 @@ std::string joined_events(const StepReport& report) {
   std::string text;
   for (const Event& event : report.events) {
     if (!text.empty()) text += '+';
-    text += name(event.kind);
+    text += to_string(event.kind);
   }
   return text;
 }
@@ -40,12 +40,12 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
     row(step_start, report.to, report.radius, report.height, report.clearance, report.contacts.total(), events, true);
     return;
   }
-  for (const Corner& corner : report.corners) {
-    const bool last = &corner == &report.corners.back();
+  for (const Segment& corner : report.segments) {
+    const bool last = &corner == &report.segments.back();
     row(step_start + corner.time, corner.position, corner.radius, corner.height, corner.clearance,
         last ? report.contacts.total() : 0, last ? events : std::string(), corner.teleport);
   }
-  if (report.corners.empty()) {
+  if (report.segments.empty()) {
     row(step_start + report.elapsed, report.to, report.radius, report.height, report.clearance, report.contacts.total(),
         events, false);
   }
@@ -64,7 +64,7 @@ void TraceFile::close() {
 
 void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report) {
   Vec3 from = report.from;
-  for (const Corner& corner : report.corners) {
+  for (const Segment& corner : report.segments) {
     if (step == 0) break;
     if (corner.teleport) from = corner.position;
     pieces.add({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a Walker tells of one step: the way it went, corner by corner, what it touched and what happened.
+/// What a Walker tells of one step: the way it went, segment by segment, what it touched and what happened.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ enum class EventKind : std::uint8_t {
   put_back,  ///< fell below everything, and was put back to where it last had ground below; `held` follows where it has
              ///< nothing below there either, or falls from there again
   returned,  ///< left ghost mode inside a wall and was put to the nearest safe place
-  throttled,    ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
+  throttled,    ///< the step needed more segments than fit in a report and ended early; see StepReport::elapsed
   met_unknown,  ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
                 ///< known
   slowed,       ///< the wish was faster than SpaceFacts::speed_limit and was followed at that speed
@@ -40,7 +40,7 @@ enum class EventKind : std::uint8_t {
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
-[[nodiscard]] const char* name(EventKind kind);
+[[nodiscard]] const char* to_string(EventKind kind);
 
 /// Something that happened, and where.
 struct Event {
@@ -76,19 +76,19 @@ class InlineList {
   std::size_t total_ = 0;
 };
 
-/// The end of one straight piece of a move.
-struct Corner {
-  Vec3 position{0.0};  ///< of the centre, metres
-  /// The body's whole height, metres, all along the piece that ends here. A change of height shows as a piece of its
+/// One straight piece of a move, from where the one before ends.
+struct Segment {
+  Vec3 position{0.0};  ///< of the centre at its end, metres
+  /// The body's whole height, metres, all along it. A change of height shows as a piece of its
   /// own: crouching lowers the centre with the new, lower body (inside the old one); standing up raises the centre with
-  /// the old body and then has a corner at the same position with the new one.
+  /// the old body and then has a segment that ends at the same position with the new one.
   double height = 0.0;
-  /// The body's radius, metres, all along the piece that ends here. A change of radius shows likewise: a smaller body
+  /// The body's radius, metres, all along it. A change of radius shows likewise: a smaller body
   /// goes from the old centre to its own, inside the old body; a larger one has the old body go to its centre, and then
-  /// a corner at the same position with the new one.
+  /// a segment that ends at the same position with the new one.
   double radius = 0.0;
   double time = 0.0;  ///< seconds since the step began
-  /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
+  /// Certified lower bound of the clearance all along it, metres; 0 where none is known (ghost,
   /// and a body that is being freed). Never less than radius - 1e-6 otherwise. On a free way it is too low by at most a
   /// quarter of the gap, two skins and 2 mm: Space::clearance measures more closely. A merged piece has the least of
   /// its parts.
@@ -100,14 +100,14 @@ struct Corner {
 struct StepReport {
   /// Of the move, in order; empty when the body did not move. Pieces in one direction are merged. A step that would
   /// need more ends early: see `elapsed`.
-  InlineList<Corner, 64> corners;
+  InlineList<Segment, 64> segments;
   /// What was touched on the way, each feature of a triangle once, the last touched last. If more than 8: the
   /// first 7 and the last. `distance` is the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
   /// What happened, in order. Of a very long step some slides and steps may be left out; what ends a step never is.
   InlineList<Event, 24> events;
   Vec3 from{0.0};       ///< the centre before, metres
-  Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
+  Vec3 to{0.0};         ///< the centre now, metres: the end of the last segment, if there is one
   double height = 0.0;  ///< the body's whole height now, metres
   double radius = 0.0;  ///< the body's radius now, metres
   /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the way which

@@ -9,7 +9,7 @@
 /// What is promised, for any speed and any time step, in fly and walk mode:
 ///   - the body only moves along straight pieces that the space has certified free: in this step or, in a space that
 ///     has a revision, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
-///     triangle. The report has the corners between the pieces, each with its own certified bound;
+///     triangle. The report has the segments of the way, each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
 ///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
 ///     was put and not moved are marked as teleports;

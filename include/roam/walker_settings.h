@@ -18,7 +18,7 @@ namespace roam {
 enum class Mode : std::uint8_t { fly, walk, ghost };
 
 /// "fly", "walk" or "ghost".
-[[nodiscard]] const char* name(Mode mode);
+[[nodiscard]] const char* to_string(Mode mode);
 
 /// What the body is and what it can do. The defaults are a grown person on foot.
 struct WalkerSettings {

@@ -19,7 +19,7 @@
 namespace roam::index {
 
 /// Of the number of a triangle of an index without id streams: those that count in its tile.
-inline constexpr int kTileTriangleBits = 14;
+inline constexpr int tile_triangle_bits = 14;
 
 /// Answers for tiles that are not in memory, in the place of their triangles.
 struct Absent {
@@ -59,7 +59,7 @@ struct Index {
   [[nodiscard]] bool skips(const Place& place) const { return skip != nullptr && skip->skips(skip->context, place); }
 };
 
-/// One straight piece of a motion, at most kLongestPiece long, from a start in reach of the index.
+/// One straight piece of a motion, at most longest_piece long, from a start in reach of the index.
 struct Piece {
   Body body;
   Vec3 start;
@@ -76,7 +76,7 @@ struct Impact {
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
 /// Spheres so thin are asked about as rays are.
-[[nodiscard]] inline bool is_thin(const Body& body) { return body.half_height == 0.0 && body.radius < kThinBody; }
+[[nodiscard]] inline bool is_thin(const Body& body) { return body.half_height == 0.0 && body.radius < thin_body; }
 
 /// Adds what of an index, which its caller calls by the number `owner`, meets a box of a few tens of metres at most, so
 /// that first_impact() and visit_near() of what stays in the box begin there. False where there are too many tiles or
@@ -84,7 +84,7 @@ struct Impact {
 [[nodiscard]] bool gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out);
 
 /// The first impact as above, beginning at the roots of this index that were gathered for a box in which the body stays
-/// with all errors of tiles. The piece is at most kShortMotion long, the body not thin.
+/// with all errors of tiles. The piece is at most short_motion long, the body not thin.
 [[nodiscard]] Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece,
                                   double until = 1.0);
 

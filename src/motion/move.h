@@ -67,8 +67,8 @@ class Move : public Mover, public Whereabouts {
     double time;
     Vec3 direction;
     int merged;
-    Corner corner;
-    std::size_t corners, events;
+    Segment segment;
+    std::size_t segments, events;
     InlineList<Contact, 8> contacts;
     bool blocked, met_unknown;
   };
@@ -119,7 +119,7 @@ class Move : public Mover, public Whereabouts {
   [[nodiscard]] Mark mark() const;
   /// As if nothing had happened since the mark.
   void undo(const Mark& mark);
-  /// Whether another part of a step, which may add a handful of corners, still fits into the report.
+  /// Whether another part of a step, which may add a handful of segments, still fits into the report.
   [[nodiscard]] bool has_room() const;
 
  private:

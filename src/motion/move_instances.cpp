@@ -62,7 +62,7 @@ bool Walker::State::is_concerned(const walking::Shift& shift) const {
 
 std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const walking::Shift& shift) {
   // Each part of a way may need a corner of its own.
-  const bool has_room = !shifted_ || !report_.corners.full();
+  const bool has_room = !shifted_ || !report_.segments.full();
   const double reach = settings_.clearance_reach;
   const auto along = [&](const Vec3& way) -> std::optional<walking::Shifted> {
     const auto to_instance = walking::gap_to_instance(shift, body(), at_.place, way, reach);
@@ -100,7 +100,7 @@ void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to
   } else {
     walking::Move move = under_way();
     if (rested_ < std::numeric_limits<double>::infinity()) {
-      report_.corners.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
+      report_.segments.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
       rested_ = std::numeric_limits<double>::infinity();
     }
     move.time = shift.begin + shift.seconds;
@@ -125,7 +125,7 @@ void Walker::State::end_shifts(const Vec3& ground_velocity) {
   if (fitted_) looked_at_ = revision();
   if (!shifted_) return;
   report_.elapsed = 0.0;
-  for (const Corner& corner : report_.corners) report_.elapsed = std::max(report_.elapsed, corner.time);
+  for (const Segment& corner : report_.segments) report_.elapsed = std::max(report_.elapsed, corner.time);
   finish();
 }
 

@@ -81,7 +81,7 @@ Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool f
   return direction * (length > 1.0 ? speed / length : speed);
 }
 
-const char* name(Mode mode) {
+const char* to_string(Mode mode) {
   switch (mode) {
     case Mode::fly:
       return "fly";
@@ -93,7 +93,7 @@ const char* name(Mode mode) {
   return "unknown";
 }
 
-const char* name(EventKind kind) {
+const char* to_string(EventKind kind) {
   switch (kind) {
     case EventKind::slid:
       return "slid";

@@ -48,7 +48,7 @@ Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.h
 
 Vec3 Walker::State::moved() const {
   Vec3 way(0.0), at = report_.from;
-  for (const Corner& c : report_.corners) {
+  for (const Segment& c : report_.segments) {
     if (!c.teleport) way += c.position - at;
     at = c.position;
   }
@@ -89,7 +89,7 @@ void Walker::State::begin() {
   at_.known.fit = walking::Fit::known;
   known_at_ = revision.value_or(0);
   rode_ = Vec3(0.0);
-  report_.corners.clear();
+  report_.segments.clear();
   report_.contacts.clear();
   report_.events.clear();
   report_.from = at_.place;
@@ -120,7 +120,7 @@ void Walker::State::finish() {
   report_.least_gap = at_.known.clearance - settings_.radius;
   report_.met_unknown |= hold_ == walking::Hold::waits || gait_.unknown;
   if (report_.met_unknown) report_.events.push({EventKind::met_unknown, at_.place});
-  for (const Corner& c : report_.corners) {
+  for (const Segment& c : report_.segments) {
     if (c.teleport) continue;
     report_.least_clearance = std::min(report_.least_clearance, c.clearance);
     report_.least_gap = std::min(report_.least_gap, c.clearance - c.radius);
@@ -136,12 +136,12 @@ void Walker::State::remember_safe() { safe_ = here(); }
 void Walker::State::put(const Vec3& place, double time) {
   at_.place = place;
   at_.known.forget();
-  const Corner corner{at_.place, at_.height, settings_.radius, time, 0.0, true};
+  const Segment corner{at_.place, at_.height, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
-  if (!report_.corners.empty() && report_.corners.back().teleport) {
-    report_.corners.back() = corner;
+  if (!report_.segments.empty() && report_.segments.back().teleport) {
+    report_.segments.back() = corner;
   } else {
-    report_.corners.push(corner);
+    report_.segments.push(corner);
   }
 }
 
@@ -251,7 +251,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     const Vec3 motion = input.velocity * dt;
     at_.place += motion;
     at_.known.forget();
-    if (motion != Vec3(0.0)) report_.corners.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
+    if (motion != Vec3(0.0)) report_.segments.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
     if (space_->fits(body(), at_.place)) {
       remember_safe();
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;

@@ -152,7 +152,7 @@ Json json_of(const Profile& p) {
             {"geometry_hash", text_or_null(p.scene.geometry_hash)},
             {"triangles", p.scene.triangles},
             {"bounds", json_of(p.scene.bounds)}}},
-          {"mode", name(p.mode)},
+          {"mode", to_string(p.mode)},
           {"radius", p.radius},
           {"height", p.height},
           {"support_radius", p.support_radius},
@@ -177,7 +177,7 @@ Profile parsed(const Json& json) {
   p.scene = {scene.text_or_null("hash"), scene.text_or_null("geometry_hash"), scene.count("triangles"),
              scene.box("bounds")};
   const std::string mode = all.text("mode");
-  const auto is_mode = [&](Mode m) { return mode == name(m); };
+  const auto is_mode = [&](Mode m) { return mode == to_string(m); };
   const auto found = std::find_if(modes.begin(), modes.end(), is_mode);
   if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", printable(mode)));
   p.mode = *found;
@@ -231,7 +231,7 @@ void check(const Profile& p) {
   }
   demand_box("scene.bounds", p.scene.bounds);
   if (std::find(modes.begin(), modes.end(), p.mode) == modes.end()) {
-    refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", name(p.mode)));
+    refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", to_string(p.mode)));
   }
   demand_body("radius, height, step or slope", p, p.radius);
   demand_foot("support_radius", p.support_radius);

@@ -44,7 +44,7 @@ class Progress {
 };
 
 /// Of the whole build, by time: sorting the triangles along the curve; the tiles are the rest.
-constexpr double kPartitionShare = 0.2;
+constexpr double partition_share = 0.2;
 
 /// The box of both the source triangles and the stored ones.
 Box grown(const BuiltTile& tile) {
@@ -61,7 +61,7 @@ std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partiti
     std::sort(ids.begin(), ids.end());
     tiles[i] = build_tile(soup, ids, lossless);
     const std::uint64_t sum = done.fetch_add(ids.size()) + ids.size();
-    progress.tick(kPartitionShare + (1.0 - kPartitionShare) * double(sum) / double(soup.size()));
+    progress.tick(partition_share + (1.0 - partition_share) * double(sum) / double(soup.size()));
   });
   return tiles;
 }
@@ -134,7 +134,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
     arena.execute([&] {
       auto built = [&] {
         const auto parts =
-            index::partition(soup, options.lossless, [&](double done) { progress.tick(kPartitionShare * done); });
+            index::partition(soup, options.lossless, [&](double done) { progress.tick(partition_share * done); });
         return build_tiles(soup, parts, options.lossless, progress);
       }();
       assemble(*data, built);

@@ -17,7 +17,7 @@ namespace roam::query {
 
 /// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
 [[nodiscard]] inline Part part_of(const Query& query, const Interval& when) {
-  return largest(query.motion) <= index::kLongestPiece ? Part{} : Part{when.begin, when.end};
+  return largest(query.motion) <= index::longest_piece ? Part{} : Part{when.begin, when.end};
 }
 
 /// Whether the hit `a` is met before the hit `b`. At the start the deepest counts: that is what to get out of.

@@ -20,11 +20,11 @@ namespace {
 /// Metres that a finer patch must leave between the body and its triangles. Two storings of one floor differ by less
 /// than 2 * error_limit; a Walker stands its skin above the one, which is 0.1 mm more, and so half of that above the
 /// other. More room would let nobody who stands still see the floor become exact.
-constexpr double kRoom = 5e-5;
+constexpr double room_kept = 5e-5;
 
 /// Numbers of the sides of an unknown box, where a triangle's number in its world would be.
-constexpr TriangleId kFirstSide = 0xFFFFFFF0;
-static_assert(kFirstSide + unknown::sides <= TriangleId{1} << 32);
+constexpr TriangleId first_side = 0xFFFFFFF0;
+static_assert(first_side + unknown::sides <= TriangleId{1} << 32);
 
 TriangleId first_id(std::uint32_t index) { return (TriangleId{index} + 1) << 32; }
 
@@ -149,12 +149,12 @@ struct Patchwork::State {
     }
     if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
     // A body that does not fit where it is has nothing to lose.
-    const bool guarded = body && self.clearance(*body, place, kRoom).distance > 0.0;
+    const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
     take(std::move(messages));
     forget(body, place);
     Patches::Fits fits;
     if (guarded) {
-      fits = [&](const World& world) { return world.clearance(*body, place, kRoom).distance >= kRoom; };
+      fits = [&](const World& world) { return world.clearance(*body, place, room_kept).distance >= room_kept; };
     }
     const std::vector<std::uint32_t> changed = patches.settle(fits);
     if (!changed.empty()) mend(changed);
@@ -179,7 +179,7 @@ struct Patchwork::State {
         query::collect(data, query, query::part_of(query, whole.meets(data.reach)), first_id(index), collector);
       } else if (collector.takes_unknown(patch.where, query.body.radius, margin)) {
         Contact c = unknown::nearest(patch.where, margin, query.body, query.from, query.motion);
-        c.triangle += first_id(index) + kFirstSide;
+        c.triangle += first_id(index) + first_side;
         collector.offer(c, margin);
       }
       look = query::reached(query, collector.reach(), margin);
@@ -219,7 +219,7 @@ void Patchwork::deliver(PatchId patch, World world) {
     throw Error("cannot deliver " + number(patch) + ": its world is stored to " + number_text(world.largest_error()) +
                 " m, which is more than 1 mm; build it in smaller parts");
   }
-  if (world.stats().triangles > kFirstSide) {
+  if (world.stats().triangles > first_side) {
     throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");
   }
   State& s = *state_;
@@ -257,7 +257,7 @@ FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) con
     const Patch& patch = s.patches[index];
     FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, query::part_of(query, when))
                                   : met_unknown(patch.where, query);
-    met.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
+    met.triangle += first_id(index) + (patch.world ? 0 : first_side);
     if (!met.hit || (first.hit && !query::is_earlier(met, first))) return;
     first = met;
     until = first.time;
@@ -284,7 +284,7 @@ Object Patchwork::object(TriangleId triangle) const {
   if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return {};
   const Patch& it = patches[static_cast<std::uint32_t>(number - 1)];
   const TriangleId local = triangle_in_patch(triangle);
-  if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return {};
+  if (it.role != Patch::Role::shown || it.world.has_value() != (local < first_side)) return {};
   if (it.world) return it.world->object(local);
   return {no_object, it.failed ? it.reason : "not loaded yet"};
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
 /// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
-constexpr float kTight = 2.5e-4F;
+constexpr float tight_bound = 2.5e-4F;
 
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
 /// whole steps of the grids would not fit an integer.
@@ -127,7 +127,7 @@ struct Visitor {
       const auto error = double(tile.error);
       const double least = double(near.least) - v.piece.body.radius - error;
       const double most = double(near.most) - v.piece.body.radius + error;
-      const bool tight = !tile.fine && near.most - near.least <= kTight;
+      const bool tight = !tile.fine && near.most - near.least <= tight_bound;
       // A loose bound must not tell of what is beyond the reach that was asked for.
       if (tight || (most <= v.collector.asked() && least >= most * (1.0 - gap_part))) {
         Contact bound;

@@ -64,7 +64,7 @@ class Surveyor {
   [[nodiscard]] Station station(const WayPoint& a, const WayPoint& b, double t) const {
     Station s;
     s.centre = a.position + t * (b.position - a.position);
-    s.height = b.height;  // which a piece has all along, see Corner
+    s.height = b.height;  // which a piece has all along, see Segment
     s.along = a.along + t * (b.along - a.along);
     if (arrive_) arrive_(s.centre, std::max(reach() + settings_.radius, height_reach * s.height) + s.height);
     const Vec3 way(b.position.x - a.position.x, b.position.y - a.position.y, 0.0);

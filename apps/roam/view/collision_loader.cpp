@@ -96,7 +96,7 @@ void CollisionLoader::load_scene() {
     if (is_large(p.bytes_total, p.triangles)) wants_store_ = true;
     return loading_.wanted();
   };
-  Scene scene = import_scene(options.scenes, reading);
+  ImportedScene scene = import_scene(options.scenes, reading);
   BuildOptions build;
   build.threads = work_threads(options.threads);
   build.lossless = options.lossless;

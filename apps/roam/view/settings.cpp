@@ -95,7 +95,7 @@ std::map<std::string, std::vector<std::string>> keys_of(const Section& section) 
 
 }  // namespace
 
-const char* name(HudMode mode) {
+const char* to_string(HudMode mode) {
   switch (mode) {
     case HudMode::full:
       return "full";
@@ -109,7 +109,7 @@ const char* name(HudMode mode) {
 
 std::optional<HudMode> parse_hud_mode(const std::string& text) {
   for (const HudMode mode : {HudMode::full, HudMode::minimal, HudMode::off}) {
-    if (text == name(mode)) return mode;
+    if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
 }

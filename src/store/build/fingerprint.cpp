@@ -27,9 +27,9 @@ using Json = nlohmann::ordered_json;
 
 /// Nanoseconds. A file that is changed twice within what the file system's clock can tell apart (2 s on FAT) has the
 /// same time, but not the same content.
-constexpr std::int64_t kClockSteps = 3'000'000'000;
+constexpr std::int64_t clock_steps = 3'000'000'000;
 /// Of what is remembered of files: some 100,000 of them. More is forgotten.
-constexpr std::uint64_t kSourcesMemory = 128u << 20;
+constexpr std::uint64_t sources_memory = 128u << 20;
 
 std::uint64_t hash_of_file(const fs::path& file, const std::function<void()>& tick) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -99,11 +99,11 @@ void read_as(const std::string& text, ImportOptions& options) {
 
 Sources::Sources(fs::path store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
   if (!size_of(store_, sources_file)) return;
-  if (*size_of(store_, sources_file) > kSourcesMemory / 4) return;
-  const std::optional<std::string> text = read_coded(store_, sources_file, kSourcesMemory / 4, key_);
+  if (*size_of(store_, sources_file) > sources_memory / 4) return;
+  const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
   if (!text) return;
   try {
-    check_json(*text, sources_file, kSourcesMemory);
+    check_json(*text, sources_file, sources_memory);
   } catch (const Error&) {
     return;
   }
@@ -127,7 +127,7 @@ Sources::Seen Sources::status(const fs::path& file) {
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   return {static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim), 0,
-          ns(now) - ns(status.st_mtim) > kClockSteps};
+          ns(now) - ns(status.st_mtim) > clock_steps};
 }
 
 void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {
