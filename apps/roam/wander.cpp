@@ -33,9 +33,9 @@ constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
 constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
 
-bool contains(const Box& box, const Vec3& p) {
-  return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z &&
-         p.z <= box.upper.z;
+/// What a body flies in: the scene, and the air around it that takes the body over a roof and round an object.
+Box airspace(const Space& space, const WalkerSettings& settings) {
+  return space.bounds().grown(fly_height + settings.height + stride);
 }
 
 Vec3 level(int i, int count) {
@@ -70,7 +70,7 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
       const Impact ground = space.sweep(body, next, {0, 0, -down});
       if (!ground.hit) return;
       next.z -= ground.time * down;
-    } else if (!contains(space.bounds(), next)) {
+    } else if (!airspace(space, settings).holds(next)) {
       return;
     }
     visit(next, along.time * stride);
@@ -272,7 +272,8 @@ void Wander::note(const StepReport& report) {
     result_.outcome = Outcome::held;
     done_ = true;
   }
-  const Box& scene = walker_->space().bounds();
+  const bool flies = walker_->mode() == Mode::fly;
+  const Box scene = flies ? airspace(walker_->space(), walker_->settings()) : walker_->space().bounds();
   const Vec3 reach(walker_->settings().radius, walker_->settings().radius, 0.5 * report.height);
   const Vec3 low = report.to - reach;
   const Vec3 high = report.to + reach;

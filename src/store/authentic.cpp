@@ -12,11 +12,11 @@ namespace {
 
 /// Of a file of codes. Some 1000 of them: more have not built the same store.
 constexpr std::uint64_t codes_limit = 64 * 1024;
-constexpr std::size_t digits = 64;
+constexpr std::size_t code_digits = 64;
 /// A code, and the line feed.
-constexpr std::size_t line = digits + 1;
+constexpr std::size_t code_line = code_digits + 1;
 /// The last line of a file that has a code begins with this.
-constexpr std::string_view start = "hmac ";
+constexpr std::string_view code_start = "hmac ";
 
 /// `purpose` and `name` say what the code is of: no code stands for anything else.
 std::string code(const StoreKey& key, std::string_view purpose, const std::string& name, std::string_view text = {}) {
@@ -33,9 +33,9 @@ std::string code_of_manifest(const StoreKey& key, const std::string& manifest) {
 std::vector<std::string> codes_in(const std::vector<std::byte>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::vector<std::string> codes;
-  for (std::size_t at = 0; at + line <= text.size(); at += line) {
-    const std::string_view digits = text.substr(at, digits);
-    if (!is_digits(digits, digits) || text[at + digits] != '\n') break;
+  for (std::size_t at = 0; at + code_line <= text.size(); at += code_line) {
+    const std::string_view digits = text.substr(at, code_digits);
+    if (!is_digits(digits, code_digits) || text[at + code_digits] != '\n') break;
     codes.emplace_back(digits);
   }
   return codes;
@@ -61,7 +61,7 @@ void add_code(const std::filesystem::path& store, const std::string& manifest, c
   const std::string file = codes_file(manifest);
   std::string text;
   // What is damaged, or more than there can be, is written anew.
-  if (size_of(store, file).value_or(codes_limit) < codes_limit - line) {
+  if (size_of(store, file).value_or(codes_limit) < codes_limit - code_line) {
     for (const std::string& other : codes_in(read_file(store, file, codes_limit))) text += other + "\n";
   }
   write_file(store, file, text + code_of_manifest(key, manifest) + "\n");
@@ -71,7 +71,7 @@ void write_coded(const std::filesystem::path& store, const std::string& name, st
                  const std::optional<StoreKey>& key) {
   if (key) {
     const std::string digits = code(*key, "roam file 1", name, text);
-    text.append(start).append(digits).append("\n");
+    text.append(code_start).append(digits).append("\n");
   }
   write_file(store, name, text);
 }
@@ -81,10 +81,10 @@ std::optional<std::string> read_coded(const std::filesystem::path& store, const 
   if (!size_of(store, name)) return std::nullopt;
   const std::vector<std::byte> bytes = read_file(store, name, limit);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  constexpr std::size_t line = start.size() + line;
+  constexpr std::size_t line = code_start.size() + code_line;
   const std::size_t end = text.size() - std::min(text.size(), line);
-  const bool has_line = std::string_view(text).substr(end).starts_with(start);
-  const std::string found = has_line ? text.substr(end + start.size(), digits) : std::string();
+  const bool has_line = std::string_view(text).substr(end).starts_with(code_start);
+  const std::string found = has_line ? text.substr(end + code_start.size(), code_digits) : std::string();
   if (has_line) text.resize(end);
   if (key && !same_digits(found, code(*key, "roam file 1", name, text))) return std::nullopt;
   return text;
