@@ -104,6 +104,17 @@ TEST(Filtered, IgnoresAndStopsIgnoring) {
   EXPECT_TRUE(some.ignores(0) && !some.ignores(1) && some.ignores(2));
 }
 
+TEST(Filtered, HasAnotherRevisionWhenAnotherIsAssigned) {
+  const World world = World::build(clutter_of(3));
+  Filtered a(world), b(world);
+  a.ignore(1);
+  b.ignore(2);
+  const std::uint64_t before = *a.facts().revision;
+  a = b;
+  EXPECT_NE(*a.facts().revision, before);
+  EXPECT_TRUE(a.ignores(2) && !a.ignores(1));
+}
+
 /// A room of 10 m, and a wall across it that is an object of its own.
 std::vector<Mesh> room_with_door() {
   std::vector<Mesh> meshes(2);
@@ -157,6 +168,7 @@ TEST(Filtered, IgnoresNothingThatIsUnknown) {
   Filtered some(patchwork);
   some.ignore(0);
   some.ignore(roam::no_object);
+  EXPECT_FALSE(some.ignores(roam::no_object));
   EXPECT_TRUE(some.sweep({.radius = 0.1}, Vec3(0.0), {3.0, 0.0, 0.0}).unknown);
 }
 

@@ -14,6 +14,7 @@
 #include "judged_queries.h"
 #include "posed_scenes.h"
 #include "roam/filtered.h"
+#include "roam/patchwork.h"
 
 namespace {
 
@@ -214,6 +215,23 @@ TEST(Instances, RefuseWhatCannotBe) {
   clutter::Random random(17);
   const Mesh wide = clutter::make(random, {.count = 300, .half = 2e4, .small = 10.0, .large = 2e4});
   EXPECT_THROW(scene.space.add(posed::shared(wide, false), {}), roam::Error);
+}
+
+TEST(Instances, StandInWhatIsNotKnownYet) {
+  roam::Patchwork patchwork;
+  const roam::PatchId patch = patchwork.expect({{5.0, -1.0, -1.0}, {6.0, 1.0, 1.0}});
+  Instances space(patchwork);
+  const ObjectId id = space.add(posed::shared(door()), {{2.0, -0.5, -1.0}}, {"door"});
+  EXPECT_TRUE(space.update({.radius = 0.1}, Vec3(0.0), Vec3(0.0)));
+  EXPECT_EQ(space.ray(Vec3(0.0), {9.0, 0.0, 0.0}).object, id);
+  const Impact unknown = space.ray({3.0, 0.0, 0.0}, {9.0, 0.0, 0.0});
+  EXPECT_TRUE(unknown.unknown);
+  EXPECT_EQ(space.object_name(unknown.triangle), "not loaded yet");
+  patchwork.fail(patch, "lost");
+  space.update({.radius = 0.1}, Vec3(0.0), Vec3(0.0));
+  EXPECT_EQ(space.object_name(unknown.triangle), "lost");
+  roam::Filtered some(space);
+  EXPECT_THROW(Instances{static_cast<const roam::Space&>(some)}, roam::Error);
 }
 
 TEST(Instances, AllocateNothingInQueries) {

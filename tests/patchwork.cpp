@@ -234,4 +234,20 @@ TEST(Patchwork, ForgetsAFinerPatchThatWaitsAndNoneThatIsReplaced) {
   EXPECT_EQ(space.stats().coming, 0u);
 }
 
+TEST(Patchwork, CountsAFailureThatComesBeforeThePatchIsForgotten) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  space.deliver(patch, board(0.25));
+  space.update();
+  space.forget(patch);
+  space.fail(patch, "lost");
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 0.6}));
+  EXPECT_EQ(space.stats().coming, 0u);
+  EXPECT_EQ(space.stats().failed, 0u);
+  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 5.0}));
+  EXPECT_EQ(space.stats().coming, 0u);
+  EXPECT_EQ(space.stats().failed, 1u);
+  EXPECT_EQ(space.stats().unknown, 1u);
+}
+
 }  // namespace

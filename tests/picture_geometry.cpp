@@ -281,12 +281,12 @@ TEST(PictureWay, IsKeptOfAnyLengthInFewPlaces) {
     report.from = place(std::max(i - 1, 0));
     report.to = place(i);
     report.clearance = i == nearest ? 0.31 : 0.5;
-    report.corners.clear();
+    report.segments.clear();
     roam::Segment corner;
     corner.position = report.to;
     corner.height = 1.8;
     corner.clearance = report.clearance;
-    if (i > 0) report.corners.push(corner);
+    if (i > 0) report.segments.push(corner);
     append(record, report, i == 0);
     ASSERT_LE(record.places.size(), Record::most);
   }

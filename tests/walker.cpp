@@ -128,7 +128,7 @@ TEST(Walker, AStepOfNoTimeDoesNothing) {
   const Mesh m = floor_mesh();
   Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
   const Vec3 before = w.walker.position();
-  EXPECT_EQ(w.step({1.4, 0.0, 0.0}, 0.0).corners.size(), 0u);
+  EXPECT_EQ(w.step({1.4, 0.0, 0.0}, 0.0).segments.size(), 0u);
   EXPECT_EQ(w.walker.position(), before);
 }
 

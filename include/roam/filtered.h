@@ -22,12 +22,15 @@ namespace roam {
 class Filtered final : public LiveSpace {
  public:
   /// `space` must outlive it and stay where it is. Nothing is ignored yet.
-  explicit Filtered(const Space& space) : space_(&space) {}
+  explicit Filtered(const Space& space);
   /// The same, and update() updates it.
-  explicit Filtered(LiveSpace& space) : space_(&space), live_(&space) {}
+  explicit Filtered(LiveSpace& space);
+  explicit Filtered(Space&& space) = delete;
+  // A copy is of the same space and ignores the same: so is a Filtered that is made of a Filtered.
 
   /// From now on queries pass over this object, or meet it again. A walker follows with its next step; one that stands
-  /// inside a door that is met again is freed or held (Walker::place).
+  /// inside a door that is met again is freed or held (Walker::place). no_object is never ignored. A Patchwork numbers
+  /// the objects of each patch: there the same number is passed over in every patch.
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
   /// Ignores these objects and no others.
@@ -51,7 +54,7 @@ class Filtered final : public LiveSpace {
   const Space* space_;
   LiveSpace* live_ = nullptr;
   std::vector<ObjectId> ignored_;  ///< ascending
-  std::uint64_t changes_ = 0;
+  std::uint64_t state_;            ///< another number after each change, in all of the program
 };
 
 }  // namespace roam

@@ -9,14 +9,15 @@
 ///     roam::Walker* const walkers[] = {&walker};
 ///     for (;;) {
 ///       scene.set_velocity(id, {.turning = 1.0});
-///       roam::move_instances(scene, walkers, dt);  // roam/move_instances.h: the door opens, and pushes who is in its
-///       way walker.step(input, dt);
+///       // The door opens, and pushes who is in its way (roam/move_instances.h).
+///       roam::move_instances(scene, walkers, dt);
+///       walker.step(input, dt);
 ///     }
 ///
 /// An instance stays upright: it is moved, and turned about +z. Every instance is one object: Impact::object is the
 /// number that add() returned, whatever the objects of its world are. Instances pass through each other and through the
 /// rest of the scene: only bodies stop them. All promises of space.h hold for the poses as
-/// they are; where that says 2 mm, a hit of an instance is within 2.001 mm.
+/// they are; where that says 2 mm, a hit of an instance is within 2.001 mm, up to 1e8 m from the instance.
 
 #include <cstdint>
 #include <memory>
@@ -53,7 +54,7 @@ struct InstanceLabel {
 };
 
 /// A space and what moves in it. Queries may run at the same time, but not during a change. Changes allocate, queries
-/// do not. It must not be moved while a walker is in it.
+/// do not. It is neither copied nor moved.
 class Instances final : public LiveSpace {
  public:
   /// Metres. A world is refused if its largest_error() exceeds both this and that of the space; a body keeps its
@@ -62,6 +63,7 @@ class Instances final : public LiveSpace {
 
   /// `space` is what does not move: a World, a Pager, a Patchwork. It must outlive this and stay where it is. Its
   /// objects keep their numbers, and its triangles theirs. A LiveSpace is updated by update() here.
+  /// Throws roam::Error for a space of instances.
   explicit Instances(const Space& space);
   explicit Instances(LiveSpace& space);
   explicit Instances(Space&& space) = delete;

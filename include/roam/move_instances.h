@@ -37,8 +37,8 @@ struct Stopped {
 /// report(): read it before the next step() overwrites it. Any other keeps its old report. `walkers` must move in
 /// `instances`, or in a Filtered of them; null is passed over.
 ///
-/// A turn is made in small straight parts, at most 0.02 mm off the arc. Throws roam::Error for a `dt` that is not
-/// finite or negative; then nothing has moved.
+/// A turn is made in small straight parts, mostly 0.02 mm off the arc at most (docs/walking.md, "What moves"). Throws
+/// roam::Error for a `dt` that is not finite or negative; then nothing has moved.
 std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* const> walkers, double dt);
 
 }  // namespace roam

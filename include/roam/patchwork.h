@@ -95,6 +95,8 @@ class Patchwork final : public LiveSpace {
   /// again. That waits while the body is in the box or within Patchwork::margin of it; an update() without a body does
   /// not wait. Nothing happens where finer patches have replaced it. Throws roam::Error for a number that was not
   /// expected, or that was not delivered or is forgotten already.
+  /// What is delivered again while that waits takes its place at once: what
+  /// sticks out may come upon the body, as if it had been put there.
   void forget(PatchId patch);
 
   /// Takes into use what has been delivered. `body` at `place` is where a finer patch must leave room. Returns whether
@@ -114,8 +116,9 @@ class Patchwork final : public LiveSpace {
   /// belongs to no object.
   ///
   /// The number of a triangle is that of its patch times 2^32, and its number in the patch's world: the same for as
-  /// long as the patch is in use and never used again. The sides of an unknown box have numbers of their own. To
-  /// Space::contacts() such a box is one contact: where it is nearest. Objects are numbered in each patch's world.
+  /// long as the patch is in use; another patch never has it, the same one again after forget(). The sides of an
+  /// unknown box have numbers of their own. To Space::contacts() such a box is one contact: where it is nearest.
+  /// Objects are numbered in each patch's world.
   [[nodiscard]] Object object(TriangleId triangle) const override;
 
   /// The patch that a triangle, or the side of an unknown box, belongs to, and its number in the patch's world.

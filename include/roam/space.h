@@ -22,10 +22,10 @@
 /// passed them and distances measured in exact arithmetic,
 ///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle. A body that starts
 ///     nearer is answered a hit at time 0;
-///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. A body that starts with
-///   a
-///     gap of less than 2 mm may be answered a hit at time 0, even when it moves away. Keep a body that is to move on
-///     at least 2 * largest_error() from what it touches, as Walker does;
+///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. A body that
+///     starts with a gap of less than 2 mm may be answered a hit at time 0, even when it moves away.
+///     Keep a body that is to move on at least 2 * largest_error() from what it touches, as Walker
+///     does;
 ///   - a gap() that is more than 0 certifies the same of its whole way;
 ///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
 ///     `unknown`.
@@ -267,8 +267,8 @@ class Space {
   /// What comes near: offers the collector (roam/collector.h) all that comes within its reach of the body on its way.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
-  // A space that is made of others asks them by these. Pass the vicinity on only if you forward one space's answer
-  // unchanged, else pass null.
+  // A space that is made of others asks them by these. Pass the vicinity on to one of them at most, with the same body
+  // and way, else pass null.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);
   }

@@ -11,8 +11,8 @@
 ///     has a revision, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
 ///     triangle. The report has the segments of the way, each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
-///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
-///     was put and not moved are marked as teleports;
+///     such a way can be (see Walker::place), or held where it is, and the report says which. Segments by which
+///     a body was put and not moved are marked as teleports;
 ///   - the same space, settings and calls give the same bits on every run.
 ///
 /// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap

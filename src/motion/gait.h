@@ -39,8 +39,9 @@ struct Gait : Stance {
   /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
   FloorPlane floor;
   bool floor_seen = false;
-  FootAnswer foot;  ///< where it was asked last
-  DiscFound disc;   ///< where the foot last found room to fall
+  ObjectId floor_object = no_object;  ///< that of `floor`
+  FootAnswer foot;                    ///< where it was asked last
+  DiscFound disc;                     ///< where the foot last found room to fall
 
   bool moved_along = false;  ///< move_instances() has moved it by that of the ground for the next step
 

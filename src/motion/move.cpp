@@ -34,7 +34,7 @@ constexpr double way_weight = gap_part / (gap_part - told_part);                
 /// 6.4e6 m: this many stay far below world_tolerance.
 constexpr int merge_limit = 64;
 
-/// Corners that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
+/// Segments that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
 constexpr std::size_t segments_at_once = 24;
 
 /// Frequent events that are noted in one step; the rest of the list is kept for a fall and for what ends a step.

@@ -88,7 +88,7 @@ class Move : public Mover, public Whereabouts {
   /// that is nearer than the skin already does not advance towards that plane; along it and away it does.
   [[nodiscard]] Advance probe(const Vec3& motion) const;
 
-  /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
+  /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its segment. Does not note the
   /// contact.
   Advance advance(const Vec3& motion, double seconds);
   /// Certified lower bound of the gap over `motion`, metres, at most as far as clearances are told. Not positive where

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "math/floating_point.h"
+#include "math/largest.h"
 #include "motion/state.h"
 #include "roam/filtered.h"
 #include "text/number.h"
@@ -28,8 +29,12 @@ double Shift::bulge(const Vec3& point, const Vec3& way) const {
 
 namespace {
 
-/// The gap over a way, metres, at most `reach`; none where it may not be free.
+/// Rounding of a place and a way that are turned, of their lengths: as in a query of Instances.
+constexpr double turn_rounding = 0x1p-48;
+
+/// The gap over a way, metres, at most `reach`; none where it may not be free, or is too far for a query.
 std::optional<double> gap_over(const Space& space, const Query& way, double reach) {
+  if (way.body.radius > Space::reach_limit || largest(way.motion) > Space::motion_limit) return std::nullopt;
   const double gap = space.gap(way, reach);
   if (gap >= 0.0) return gap;
   // In touch, a clearance is more exact than a gap.
@@ -41,8 +46,19 @@ std::optional<double> gap_over(const Space& space, const Query& way, double reac
 std::optional<double> gap_to_instance(const Shift& shift, const Body& body, const Vec3& place, const Vec3& way,
                                       double reach) {
   const Vec3 from = shift.from.to_instance(place), to = shift.to.to_instance(place + way);
-  const Body grown{body.radius + shift.bulge(place, way), body.half_height};
+  const double rounding = turn_rounding * (largest(from) + largest(to));
+  const Body grown{body.radius + shift.bulge(place, way) + rounding, body.half_height};
   return gap_over(*shift.world, {grown, from, to - from}, reach);
+}
+
+/// Whether the instance stays out of the body's reach: it stays in a ball about its origin that goes along.
+bool is_far(const Shift& shift, const Body& body, const Vec3& place) {
+  const Box bounds = shift.world->bounds();
+  if (bounds.empty()) return true;
+  const double ball = glm::length(glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper)));
+  const double gone = glm::length(shift.to.position - shift.from.position);
+  // A metre is far more than rounding and what storing moves.
+  return glm::length(place - shift.from.position) > ball + gone + body.radius + body.half_height + 1.0;
 }
 
 }  // namespace
@@ -51,18 +67,19 @@ std::optional<double> gap_to_instance(const Shift& shift, const Body& body, cons
 void Walker::State::begin_shifts() {
   shifted_ = false;
   rested_ = std::numeric_limits<double>::infinity();
-  fitted_ = looked_at_ == revision();
+  fitted_ = !held() && looked_at_ == revision();
 }
 
 bool Walker::State::is_concerned(const walking::Shift& shift) const {
   if (mode_ == Mode::ghost || held()) return false;
   if (gait_.object == shift.instance && (gait_.grounded() || gait_.ground_velocity != Vec3(0.0))) return true;
+  if (walking::is_far(shift, body(), at_.place)) return false;
   return !walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), 0.0);
 }
 
 std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const walking::Shift& shift) {
-  // Each part of a way may need a corner of its own.
-  const bool has_room = !shifted_ || !report_.segments.full();
+  // A part may need two segments: a rest and the way.
+  const bool has_room = !shifted_ || report_.segments.size() + 2 <= decltype(report_.segments)::capacity;
   const double reach = settings_.clearance_reach;
   const auto along = [&](const Vec3& way) -> std::optional<walking::Shifted> {
     const auto to_instance = walking::gap_to_instance(shift, body(), at_.place, way, reach);
@@ -80,39 +97,41 @@ std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const 
   const Vec3 own = stands ? carried : drifts ? gait_.ground_velocity * shift.seconds : Vec3(0.0);
   // As far as the rest of the scene lets it, a skin away, and along what is in the way.
   walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
-  for (const Vec3& wish : {own, carried}) {
+  const auto towards = [&](const Vec3& wish) -> std::optional<walking::Shifted> {
+    if (largest(wish) > walking::longest_way) return std::nullopt;
     const walking::Advance part = move.probe(wish);
     const Vec3 first = part.embedded ? Vec3(0.0) : wish * part.fraction;
     if (const auto to = along(first)) return to;
-    if (!part.touched) continue;
+    if (!part.touched) return std::nullopt;
     const Vec3 left = wish - first, &normal = part.contact.normal;
-    if (const auto to = along(first + left - normal * glm::dot(left, normal))) return to;
-  }
+    return along(first + left - normal * glm::dot(left, normal));
+  };
+  if (const auto to = towards(own)) return to;
+  if (!stands) return towards(carried);
   return std::nullopt;
 }
 
 void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to) {
-  const bool rides = gait_.object == shift.instance;
-  if (!shifted_) begin();
-  shifted_ = true;
   if (to.way == Vec3(0.0)) {
     rested_ = std::min(rested_, to.clearance);
   } else {
-    walking::Move move = under_way();
-    if (rested_ < std::numeric_limits<double>::infinity()) {
-      report_.segments.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
-      rested_ = std::numeric_limits<double>::infinity();
+    if (!shifted_) {
+      in_the_end_ = pace();
+      begin();
+      shifted_ = true;
     }
-    move.time = shift.begin + shift.seconds;
-    move.go(to.way, to.clearance);
+    append(shift, to);
+    at_.place += to.way;
     ridden_ += to.way;
-    at_ = move;
   }
   // What was known is of the scene as it was.
   at_.known.forget();
-  if (!rides) return;
+  if (gait_.object != shift.instance) return;
   gait_.moved_along = true;
-  if (!gait_.grounded()) return;
+  if (!gait_.grounded()) {
+    if (gait_.level) *gait_.level += gait_.ground_velocity.z * shift.seconds;
+    return;
+  }
   if (gait_.level) *gait_.level += shift.to.position.z - shift.from.position.z;
   gait_.ground = shift.turned(gait_.ground);
   gait_.floor.normal = shift.turned(gait_.floor.normal);
@@ -120,12 +139,33 @@ void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to
   gait_.foot.lasts = gait_.disc.found = false;
 }
 
-void Walker::State::end_shifts(const Vec3& ground_velocity) {
+void Walker::State::append(const walking::Shift& shift, const walking::Shifted& to) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  auto& segments = report_.segments;
+  if (rested_ < infinity) {
+    segments.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
+    rested_ = infinity;
+  } else if (!segments.empty()) {
+    // Straight on: a millionth of a millionth of the way is no bend.
+    Segment& last = segments.back();
+    const Vec3 before = segments.size() > 1 ? segments[segments.size() - 2].position : report_.from;
+    const Vec3 gone = last.position - before;
+    const double straight = 1e-12 * glm::length(gone) * glm::length(to.way);
+    if (glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
+      last.position = at_.place + to.way;
+      last.time = shift.begin + shift.seconds;
+      last.clearance = std::min(last.clearance, to.clearance);
+      return;
+    }
+  }
+  segments.push({at_.place + to.way, at_.height, settings_.radius, shift.begin + shift.seconds, to.clearance, false});
+}
+
+void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {
   if (gait_.grounded()) gait_.ground_velocity = ground_velocity;
   if (fitted_) looked_at_ = revision();
   if (!shifted_) return;
-  report_.elapsed = 0.0;
-  for (const Segment& corner : report_.segments) report_.elapsed = std::max(report_.elapsed, corner.time);
+  report_.elapsed = dt;
   finish();
 }
 
@@ -193,6 +233,7 @@ class Movement {
       const std::optional<std::size_t> in_the_way = go(done, last ? dt_ - done : seconds);
       if (!in_the_way) {
         done = last ? dt_ : done + seconds;
+        seconds = std::min(2.0 * seconds, usual);
         continue;
       }
       seconds *= 0.5;
@@ -252,7 +293,20 @@ std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* cons
       throw Error("walker " + std::to_string(i) + " does not move in these instances, nor in a Filtered of them");
     }
   }
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    if (walkers[i] != nullptr && std::find(walkers.begin(), walkers.begin() + static_cast<std::ptrdiff_t>(i),
+                                           walkers[i]) != walkers.begin() + static_cast<std::ptrdiff_t>(i)) {
+      throw Error("walker " + std::to_string(i) + " is in the list twice");
+    }
+  }
   const std::vector<ObjectId> all = instances.instances();
+  for (const ObjectId instance : all) {
+    const Pose end = after(instances.pose(instance), instances.velocity(instance), dt);
+    if (!(largest(end.position) <= coordinate_limit) || !std::isfinite(end.heading)) {
+      throw Error("the instance " + std::to_string(instance) +
+                  " would be moved out of the coordinates that roam knows");
+    }
+  }
   for (Walker* const walker : walkers) {
     if (walker != nullptr) walker->state().begin_shifts();
   }
@@ -268,8 +322,8 @@ std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* cons
     const bool stands_still =
         std::any_of(stopped.begin(), stopped.end(), [&](const Stopped& stop) { return stop.instance == ground; });
     const bool moves = instances.has(ground) && !stands_still;
-    walker->state().end_shifts(moves ? instances.velocity(ground).at(instances.pose(ground), walker->feet())
-                                     : Vec3(0.0));
+    walker->state().end_shifts(
+        moves ? instances.velocity(ground).at(instances.pose(ground), walker->feet()) : Vec3(0.0), dt);
   }
   return stopped;
 }

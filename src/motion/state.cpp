@@ -46,30 +46,6 @@ Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.he
 
 Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
 
-Vec3 Walker::State::moved() const {
-  Vec3 way(0.0), at = report_.from;
-  for (const Segment& c : report_.segments) {
-    if (!c.teleport) way += c.position - at;
-    at = c.position;
-  }
-  return way;
-}
-
-Vec3 Walker::State::velocity() const { return report_.elapsed > 0.0 ? (moved() + rode_) / report_.elapsed : Vec3(0.0); }
-
-Vec3 Walker::State::pace() const {
-  if (held() || report_.put_back) return Vec3(0.0);
-  Vec3 pace = in_the_end_;
-  Vec3 moved = report_.elapsed > 0.0 ? this->moved() / report_.elapsed : Vec3(0.0);
-  if (mode_ == Mode::walk) pace.z = moved.z = 0.0;
-  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
-  const double speed = glm::length(moved), most = glm::length(wished_);
-  if (!(speed > 0.0 && most > 0.0)) return Vec3(0.0);
-  // Along what it slides, and no more of it than of the way.
-  const Vec3 along = moved / speed;
-  return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
-}
-
 /// Makes the wish no faster than the space can follow.
 void Walker::State::slow_down(WalkerInput& input) {
   const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
@@ -136,12 +112,12 @@ void Walker::State::remember_safe() { safe_ = here(); }
 void Walker::State::put(const Vec3& place, double time) {
   at_.place = place;
   at_.known.forget();
-  const Segment corner{at_.place, at_.height, settings_.radius, time, 0.0, true};
+  const Segment segment{at_.place, at_.height, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
   if (!report_.segments.empty() && report_.segments.back().teleport) {
-    report_.segments.back() = corner;
+    report_.segments.back() = segment;
   } else {
-    report_.segments.push(corner);
+    report_.segments.push(segment);
   }
 }
 

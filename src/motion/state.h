@@ -54,7 +54,7 @@ class Walker::State {
   [[nodiscard]] std::optional<walking::Shifted> shifted(const Space& rest, const walking::Shift& shift);
   void take(const walking::Shift& shift, const walking::Shifted& to);
   /// `ground_velocity`: at its feet, for a body that stands.
-  void end_shifts(const Vec3& ground_velocity);
+  void end_shifts(const Vec3& ground_velocity, double dt);
 
   /// The plane that a body goes by which is carried by its foot.
   [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
@@ -69,6 +69,8 @@ class Walker::State {
   void set_regions(std::span<const SizeRegion> regions);
   bool resize(double radius, double support_radius);
 
+  /// Adds the way of a shift to the report.
+  void append(const walking::Shift& shift, const walking::Shifted& to);
   /// The way of the last call, metres.
   [[nodiscard]] Vec3 moved() const;
   /// Of the space; 0 where it has none.
@@ -120,7 +122,7 @@ class Walker::State {
   bool was_put_back_ = false;  ///< and has not been put elsewhere since
   Vec3 ridden_{0.0};           ///< metres that move_instances() has moved it since the last step
   Vec3 rode_{0.0};             ///< the same before the last call, where that was a step
-  /// Certified of the rest since the last corner of a shift, of the instance alone, metres; infinite: there was none.
+  /// Certified of the rest since the last segment of a shift, of the instance alone, metres; infinite: there was none.
   double rested_ = std::numeric_limits<double>::infinity();
   bool shifted_ = false;         ///< something has moved it since begin_shifts()
   bool fitted_ = false;          ///< at begin_shifts() it was known to fit, or to be held

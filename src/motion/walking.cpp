@@ -66,7 +66,7 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
       if (!flown) return Ending::embedded;
     }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
-    if (gait.footing == Footing::ground) {
+    if (gait.footing == Footing::ground && gait.ground_velocity == Vec3(0.0)) {
       last = {move.place, move.height, {move.settings.radius, move.settings.support_radius}};
     } else if (!gait.grounded() && below_everything(move)) {
       return Ending::bottomless;

@@ -38,7 +38,7 @@ void Collector::demand(double tolerance) {
 }
 
 void Collector::offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object) {
-  if (query.ignored != nullptr && query.ignored->ignores(object)) return;
+  if (query.ignored != nullptr && object != no_object && query.ignored->ignores(object)) return;
   const certified::LocalTriangle local = certified::seen_from(query.from, triangle);
   const auto measure = [&](const certified::LocalTriangle& part) {
     Contact c = query::contact_with(part, query.body, query.from, query.motion);

@@ -9,7 +9,9 @@ namespace roam::query {
 
 /// Of the number of an instance's triangle: the bits that count in its world, and the bit that all of them have.
 inline constexpr TriangleId source_bits = 0xFFFFFFFF;
-inline constexpr TriangleId instance_bit = TriangleId{1} << 63;
+inline constexpr TriangleId instance_bit = TriangleId{1} << 62;
+/// Whether a number is that of an instance's triangle: in a Pager the bit above it marks what is unknown.
+[[nodiscard]] constexpr bool is_of_instance(TriangleId triangle) { return triangle >> 62 == 1; }
 
 /// Where an instance is, as a query sees it.
 struct Frame {

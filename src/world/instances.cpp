@@ -6,6 +6,7 @@
 
 #include "math/finite.h"
 #include "math/mix.h"
+#include "roam/filtered.h"
 #include "text/number.h"
 #include "world/box_tree.h"
 #include "world/floor_only.h"
@@ -19,6 +20,9 @@ namespace {
 /// The number of the first instance.
 constexpr ObjectId first_instance = ObjectId{1} << 31;
 
+/// As many as there are numbers for triangles of (frame.h).
+constexpr std::size_t most_instances = std::size_t{1} << 30;
+
 /// Rounding of a turned point or way, of its largest length: a difference, two products, their sum, and the cosine's
 /// own, four times over.
 constexpr double turn_rounding = 0x1p-48;
@@ -29,6 +33,21 @@ void check(const Pose& pose) {
     throw Error("an instance cannot be put " + number_text(largest(pose.position)) +
                 " m from the origin; the limit is " + number_text(coordinate_limit) + " m");
   }
+}
+
+/// The space itself, or what it is a part of.
+const Space& unfiltered(const Space& space) {
+  const Space* inner = &space;
+  while (const auto* filtered = dynamic_cast<const Filtered*>(inner)) inner = &filtered->space();
+  return *inner;
+}
+
+/// The query without the filters that name instances alone.
+Query for_base(const Query& query) {
+  for (const ObjectFilter* f = query.ignored; f != nullptr; f = f->also) {
+    if (!f->objects.empty() && f->objects.front() < first_instance) return query;
+  }
+  return {query.body, query.from, query.motion};
 }
 
 /// The box about a turned box.
@@ -75,9 +94,9 @@ struct Instances::State {
   LiveSpace* live = nullptr;        ///< the same, where it is to be updated
   std::vector<Instance> instances;  ///< the first one is number first_instance
   BoxTree tree;
-  std::uint64_t changes = 0;
-  double error;           ///< the largest of all, metres
-  bool lossless = false;  ///< one of the worlds is
+  std::uint64_t state = next_revision();  ///< another number after each change, in all of the program
+  double error;                           ///< the largest of all, metres
+  bool lossless = false;                  ///< one of the worlds is
 
   [[nodiscard]] std::uint32_t index(ObjectId instance) const {
     const std::uint32_t i = instance - first_instance;
@@ -93,7 +112,7 @@ struct Instances::State {
     it.frame = {it.pose.position, std::cos(it.pose.heading), std::sin(it.pose.heading),
                 query::instance_bit | TriangleId{i} << 32, first_instance + i};
     tree.change({{turned(it.data->reach, it.frame), i}}, {});
-    ++changes;
+    state = next_revision();
   }
 
   /// A query as an instance sees it.
@@ -134,7 +153,11 @@ struct Instances::State {
   }
 };
 
-Instances::Instances(const Space& space) : state_(std::make_unique<State>(space)) {}
+Instances::Instances(const Space& space) : state_(std::make_unique<State>(space)) {
+  if (dynamic_cast<const Instances*>(&unfiltered(space)) != nullptr) {
+    throw Error("instances cannot be put into a space of instances: add them to that one");
+  }
+}
 Instances::Instances(LiveSpace& space) : Instances(static_cast<const Space&>(space)) { state_->live = &space; }
 Instances::~Instances() = default;
 
@@ -149,7 +172,7 @@ ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, In
   if (world->stats().triangles > query::source_bits) {
     throw Error("cannot add an instance: its world has more than 4 billion triangles; divide it");
   }
-  if (s.instances.size() >= first_instance - 1) throw Error("there are no more numbers for instances");
+  if (s.instances.size() >= most_instances) throw Error("there are no more numbers for instances");
   const auto i = static_cast<std::uint32_t>(s.instances.size());
   s.lossless |= world->data_->lossless;
   const WorldData* const data = world->data_.get();
@@ -163,7 +186,7 @@ void Instances::remove(ObjectId instance) {
   const std::uint32_t i = s.index(instance);
   s.tree.change({}, {i});
   s.instances[i] = {};
-  ++s.changes;
+  s.state = next_revision();
 }
 
 void Instances::set_pose(ObjectId instance, const Pose& pose) {
@@ -208,12 +231,12 @@ SpaceFacts Instances::facts() const {
   SpaceFacts facts = s.space.facts();
   facts.bounds.include(s.tree.bounds());
   facts.largest_error = s.error;
-  if (facts.revision) facts.revision = mix(*facts.revision) + s.changes;
+  if (facts.revision) facts.revision = mix(*facts.revision) + s.state;
   return facts;
 }
 
 Object Instances::object(TriangleId triangle) const {
-  if ((triangle & query::instance_bit) == 0) return state_->space.object(triangle);
+  if (!query::is_of_instance(triangle)) return state_->space.object(triangle);
   const auto i = static_cast<std::uint32_t>((triangle & ~query::instance_bit) >> 32);
   if (i >= state_->instances.size() || !state_->instances[i].world) return {};
   const State::Instance& it = state_->instances[i];
@@ -222,12 +245,12 @@ Object Instances::object(TriangleId triangle) const {
 }
 
 TriangleId Instances::source_triangle(TriangleId triangle) {
-  return (triangle & query::instance_bit) == 0 || triangle == no_triangle ? triangle : triangle & query::source_bits;
+  return !query::is_of_instance(triangle) ? triangle : triangle & query::source_bits;
 }
 
 FirstImpact Instances::ask_first(const Query& query, Vicinity* vicinity) const {
   const State& s = *state_;
-  FirstImpact first = ask_first_of(s.space, query, vicinity);
+  FirstImpact first = ask_first_of(s.space, for_base(query), vicinity);
   double until = first.time;
   s.tree.along(query::reached(query, query::hit_reach), until, [&](std::uint32_t i, const Interval&) {
     if (s.is_ignored(i, query)) return;
@@ -247,11 +270,11 @@ FirstImpact Instances::ask_first(const Query& query, Vicinity* vicinity) const {
 
 void Instances::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   const State& s = *state_;
-  if (const FirstImpact* const only = collector.only(); only && (only->triangle & query::instance_bit) != 0) {
-    return s.offer(only->object - first_instance, query, collector);
+  if (const FirstImpact* const only = collector.only(); only && query::is_of_instance(only->triangle)) {
+    return s.offer(s.index(only->object), query, collector);
   }
   if (s.lossless && collector.only() == nullptr) collector.demand(query::lossless_tolerance);
-  ask_near_of(s.space, query, collector, vicinity);
+  ask_near_of(s.space, for_base(query), collector, vicinity);
   if (collector.only() != nullptr) return;
   Sweep look = query::reached(query, collector.reach());
   s.tree.near(look, [&](std::uint32_t i, const Interval&) {

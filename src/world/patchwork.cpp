@@ -67,7 +67,12 @@ struct Patchwork::State {
 
   // Of the thread that moves the body.
   Patches patches;
-  std::vector<std::uint32_t> leaving;  ///< patches to be forgotten when the body is away
+  /// A patch to be forgotten when the body is away, and why it cannot come again, if that has been said.
+  struct Leaving {
+    std::uint32_t patch;
+    std::optional<std::string> failed = {};
+  };
+  std::vector<Leaving> leaving;
   BoxTree tree;
   std::uint64_t revision = 0;
 
@@ -88,20 +93,27 @@ struct Patchwork::State {
   }
 
   void take(std::vector<Message> messages) {
+    const auto is = [](PatchId patch) {
+      return [index = index_of(patch)](const Leaving& it) { return it.patch == index; };
+    };
     for (Message& m : messages) {
       switch (m.kind) {
         case Message::Kind::expected:
           patches.expect(m.where, m.patch);
           break;
         case Message::Kind::delivered:
-          if (std::erase(leaving, index_of(m.patch)) > 0) patches.forget(index_of(m.patch));
+          if (std::erase_if(leaving, is(m.patch)) > 0) patches.forget(index_of(m.patch));
           patches.deliver(m.patch, std::move(*m.world));
           break;
         case Message::Kind::failed:
-          patches.fail(m.patch, std::move(m.reason));
+          if (const auto at = std::find_if(leaving.begin(), leaving.end(), is(m.patch)); at != leaving.end()) {
+            at->failed = std::move(m.reason);
+          } else {
+            patches.fail(m.patch, std::move(m.reason));
+          }
           break;
         case Message::Kind::forgotten:
-          leaving.push_back(index_of(m.patch));
+          leaving.push_back({index_of(m.patch)});
           break;
       }
     }
@@ -109,12 +121,14 @@ struct Patchwork::State {
 
   /// Forgets what is to be forgotten, but for boxes that the body, if any, is in.
   void forget(const Body* body, const Vec3& place) {
-    std::erase_if(leaving, [&](std::uint32_t index) {
+    std::erase_if(leaving, [&](Leaving& it) {
+      const std::uint32_t index = it.patch;
       if (body != nullptr && !patches.is_replaced(index)) {
         const double around = body->radius + 2.0 * margin;
         if (patches[index].where.grown({around, around, around + body->half_height}).holds(place)) return false;
       }
       patches.forget(index);
+      if (it.failed) patches.fail(PatchId{index + std::uint64_t{1}}, std::move(*it.failed));
       return true;
     });
   }

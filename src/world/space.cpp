@@ -107,7 +107,7 @@ void query::check(const Query& query) {
     touched = &*first.contact;
   } else {
     Collector collector(first, found);
-    ask_near({query.body, query.from + query.motion * first.time}, collector, nullptr);
+    ask_near({query.body, query.from + query.motion * first.time, Vec3(0.0), query.ignored}, collector, nullptr);
   }
   result.hit = true;
   result.time = first.time;

@@ -99,7 +99,7 @@ void append(Record& record, const StepReport& report, bool is_start) {
     if (!places.empty()) places.back().clearance = std::min(places.back().clearance, report.clearance);
   } else {
     if (places.empty()) places.push_back({report.from, report.segments[0].height, 0.0, true});
-    for (const Segment& c : report.segments) places.push_back({c.position, c.height, c.clearance, c.teleport});
+    for (const roam::Segment& c : report.segments) places.push_back({c.position, c.height, c.clearance, c.teleport});
   }
   for (const Contact& c : report.contacts) {
     // A body that slides along a wall touches the same triangle in many steps.
