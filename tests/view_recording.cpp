@@ -69,13 +69,13 @@ TEST(RecordedBody, IsSaidByNoOtherComment) {
   const TestFolder folder;
   EXPECT_FALSE(load_recorded_path(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")).body);
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius wide\n4 5 6\n");
-  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad)); }), "bad.path:2"));
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); }), "bad.path:2"));
 }
 
 TEST(RecordedBody, ThatCannotBeIsNamedWithItsLine) {
   const TestFolder folder;
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius -1\n4 5 6\n");
-  const std::string what = error_of([&] { static_cast<void>(load_recorded_path(bad)); });
+  const std::string what = error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); });
   EXPECT_TRUE(contains(what, "bad.path:2: the walker's radius is -1 m")) << what;
 }
 

@@ -86,12 +86,16 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
 std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
 
 RecordedPath load_recorded_path(const std::filesystem::path& file) {
-  if (file.empty()) return {};
-  const std::string text = files::read_named(file, longest_path_file);
-  std::istringstream in(text);
-  // The lines that are too long for a path are refused first.
-  RecordedPath path{read_path(in, file.string()), {}};
-  path.body = recorded_body(text, file.string());
+  RecordedPath path;
+  if (file.empty()) return path;
+  try {
+    const std::string text = files::read_named(file, longest_path_file);
+    std::istringstream in(text);
+    path.places = read_path(in, file.string());
+    path.body = recorded_body(text, file.string());
+  } catch (const Error& error) {
+    path.problem = error.what();
+  }
   return path;
 }
 

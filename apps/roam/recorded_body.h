@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/walker.h"
 
@@ -31,12 +32,19 @@ struct RecordedBody {
 
 /// A path, and the body that recorded it, where the file says it.
 struct RecordedPath {
-  std::vector<Waypoint> waypoints;
+  std::vector<Waypoint> places;
   std::optional<RecordedBody> body;
+  std::string problem;  ///< why there are none
+
+  /// The places, once wrong options are refused. Throws roam::Error as load_path does, and naming file and line for a
+  /// line that begins like those above and goes on otherwise.
+  [[nodiscard]] const std::vector<Waypoint>& waypoints() const {
+    if (!problem.empty()) throw Error(problem);
+    return places;
+  }
 };
 
-/// Reads both at once: the file may be a pipe. Empty for no file. Throws roam::Error as load_path does, and naming file
-/// and line for a line that begins like those above and goes on otherwise.
+/// Reads both at once: the file may be a pipe. Empty for no file.
 [[nodiscard]] RecordedPath load_recorded_path(const std::filesystem::path& file);
 
 /// A sentence when another body, or in another mode, is sent along the way; empty when it is the same.

@@ -66,9 +66,9 @@ ExitStatus view(const ViewOptions& options) {
     return done;
   }
   if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
-  RecordedPath path = load_recorded_path(options.path);
+  const RecordedPath path = load_recorded_path(options.path);
   ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
-  plan.path = std::move(path.waypoints);
+  plan.path = path.waypoints();
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));

@@ -217,7 +217,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
   }
-  const std::vector<Vec3> path = positions(recorded.waypoints);
+  const std::vector<Vec3> path = positions(recorded.waypoints());
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
     if (!other.empty()) tell("note: " + other);

@@ -51,7 +51,7 @@ enum class LengthUnit : std::uint8_t { m, cm, mm, ft, in };
 struct ImportProgress {
   std::filesystem::path path;     ///< the file or folder being read, as it was passed
   std::uint64_t bytes_read = 0;   ///< of bytes_total; stands still while a foreign reader works on one large file
-  std::uint64_t bytes_total = 0;  ///< size of all files and folders that were passed
+  std::uint64_t bytes_total = 0;  ///< size of all files and folders that were passed; grows while they are counted
   std::uint64_t triangles = 0;    ///< received so far
 };
 
