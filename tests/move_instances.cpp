@@ -202,11 +202,13 @@ TEST(MoveInstances, NeverLetsAnythingTouchInARandomScene) {
 }
 
 TEST(MoveInstances, FreesAHeldBodyWhenWhatHoldsItGoes) {
-  Mesh m = ground();
-  scenes::add_box(m, {-0.5, -0.5, 0.0}, {0.5, 0.5, 3.0});
+  Mesh thicket;
+  for (int i = -20; i <= 20; ++i) {
+    scenes::add_wall(thicket, 0.1 * i, -2.0, 0.1 * i, 2.0, 0.0, 3.0);
+    scenes::add_wall(thicket, -2.0, 0.1 * i, 2.0, 0.1 * i, 0.0, 3.0);
+  }
   Stage stage(Mesh{});
-  stage.scene.add(m, {});
-  const ObjectId id = stage.scene.ids[0];
+  const ObjectId id = stage.scene.add(thicket, {});
   Walker& walker = stage.add({}, Mode::fly, {0.0, 0.0, 1.0});
   ASSERT_TRUE(walker.held());
   stage.scene.space.set_velocity(id, {{0.0, 3.0, 0.0}});
