@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -31,6 +32,9 @@ constexpr double cell_side = 1.0;  // m, a place that was visited
 // A body that moves by less than this share of free motion in this time is stuck.
 constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
+// However long it goes, it remembers no more: cells of some ten hours, then it begins anew.
+constexpr std::size_t most_visits = 1 << 15;
+constexpr std::ptrdiff_t most_events = 10'000, most_voids = 1'000;
 constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
 
 /// What a body flies in: the scene, and the air around it that takes the body over a roof and round an object.
@@ -257,7 +261,10 @@ const StepReport& Wander::advance() {
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
   filter_.append(result_.events, result_.steps, report);
+  auto& events = result_.events;
+  if (std::ssize(events) > most_events) events.erase(events.begin() + (most_events - 1), events.end() - 1);
   const std::uint64_t here = cell(report.to);
+  if (visits_.size() >= most_visits) visits_.clear();
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;
 
@@ -265,6 +272,7 @@ void Wander::note(const StepReport& report) {
     // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
     voids_.push_back({report.to, heading_});
     voids_.push_back({leg_start_, heading_});
+    if (std::ssize(voids_) > most_voids) voids_.erase(voids_.begin(), voids_.begin() + 2);
     way_left_ = 0.0;
   }
   held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;

@@ -47,8 +47,8 @@ class Wander {
   void look();
   /// One step. Must not be called when done().
   const StepReport& advance();
-  /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before; `left_scene` as for
-  /// a route.
+  /// Its events are the first 10,000, the last of them the last of all. `reached` when the time is over; `held` when
+  /// the body cannot move then, or not for 2 s before; `left_scene` as for a route.
   [[nodiscard]] const RouteResult& result() const { return result_; }
 
  private:
