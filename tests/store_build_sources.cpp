@@ -27,7 +27,7 @@ std::vector<std::string> fingerprints(const std::vector<std::string>& files, std
     part.files = {file};
     parts.push_back(part);
   }
-  Sources sources(folder.file(""));
+  Sources sources(folder.file(""), std::nullopt);
   std::atomic<std::int64_t> ticks = 0;
   sources.look(parts, [&] {
     // Once for each file besides.
