@@ -13,8 +13,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay.
-template <class Line>
+/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay. `skips`: whether the index
+/// passes triangles over.
+template <class Line, bool skips = false>
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece, double until)
@@ -68,9 +69,10 @@ class SweepTraversal {
     const float grown = grown_for(radius, tile_steps, frame);
     // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
     const bool exact = t.fine || piece_.body.radius > wide_body;
-    const float hit_limit = exact ? -1.0F
-                                  : static_cast<float>(piece_.body.radius + double(hit_limit_distance) - double(t.error)) *
-                                        (1.0F - radius_roundings * float_unit);
+    const float hit_limit =
+        exact ? -1.0F
+              : static_cast<float>(piece_.body.radius + double(hit_limit_distance) - double(t.error)) *
+                    (1.0F - radius_roundings * float_unit);
     if constexpr (Line::is_ray) line_.enter(frame, motion_, radius, tile_steps);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
@@ -166,13 +168,19 @@ class SweepTraversal {
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       const Place place{tile_number, t.leaves + number, i};
-      if (!index_.skips(place)) take(double(met.time[i]), place);
+      if constexpr (skips) {
+        if (index_.skip->skips(index_.skip->context, place)) continue;
+      }
+      take(double(met.time[i]), place);
     }
     for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       if (double(met.time[i]) >= best_.time) continue;
       const Place place{tile_number, t.leaves + number, i};
-      if (!index_.skips(place)) decide(t, place, double(met.time[i]));
+      if constexpr (skips) {
+        if (index_.skip->skips(index_.skip->context, place)) continue;
+      }
+      decide(t, place, double(met.time[i]));
     }
   }
 

@@ -55,8 +55,6 @@ struct Index {
   Grid grid;                          ///< of the nodes over tiles
   const Absent* absent = nullptr;     ///< null where no tile is
   const Skip* skip = nullptr;         ///< null where every triangle counts
-
-  [[nodiscard]] bool skips(const Place& place) const { return skip != nullptr && skip->skips(skip->context, place); }
 };
 
 /// One straight piece of a motion, at most longest_piece long, from a start in reach of the index.
@@ -72,7 +70,8 @@ struct Impact {
   Place place;        ///< of which only `tile` means something where that is absent
 };
 
-/// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
+/// Without Index::skip (see rest.h): the first impact before `until` with any stored triangle, each grown by its tile's
+/// error, or absent tile.
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
 /// Spheres so thin are asked about as rays are.

@@ -51,6 +51,9 @@ std::optional<double> gap_to_instance(const Shift& shift, const Body& body, cons
   return gap_over(*shift.world, {grown, from, to - from}, reach);
 }
 
+/// A body that is squeezed out between an instance and the rest goes at most so many times as fast as the instance.
+constexpr double steepest_squeeze = 4.0;
+
 /// Whether the instance stays out of the body's reach: it stays in a ball about its origin that goes along.
 bool is_far(const Shift& shift, const Body& body, const Vec3& place) {
   const Box bounds = shift.world->bounds();
@@ -104,7 +107,17 @@ std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const 
     if (const auto to = along(first)) return to;
     if (!part.touched) return std::nullopt;
     const Vec3 left = wish - first, &normal = part.contact.normal;
-    return along(first + left - normal * glm::dot(left, normal));
+    const Vec3 slide = left - normal * glm::dot(left, normal);
+    if (const auto to = along(first + slide)) return to;
+    // Squeezed out between the two: along the one, as fast as the other comes on.
+    const Vec3 seen = shift.from.to_instance(at_.place);
+    const double near = std::min(glm::length(wish) + skin_, Space::reach_limit);
+    const Clearance pusher = shift.world->clearance(body(), seen, near);
+    if (!pusher.found) return std::nullopt;
+    const Vec3 push = Pose{Vec3(0.0), shift.from.heading}.to_scene(pusher.normal);
+    const double needed = glm::dot(left, push), made = glm::dot(slide, push);
+    if (!(needed > 0.0 && made * walking::steepest_squeeze > needed)) return std::nullopt;
+    return along(first + slide * (1.001 * needed / made));
   };
   if (const auto to = towards(own)) return to;
   if (!stands) return towards(carried);
@@ -150,8 +163,12 @@ void Walker::State::append(const walking::Shift& shift, const walking::Shifted& 
     Segment& last = segments.back();
     const Vec3 before = segments.size() > 1 ? segments[segments.size() - 2].position : report_.from;
     const Vec3 gone = last.position - before;
-    const double straight = 1e-12 * glm::length(gone) * glm::length(to.way);
-    if (glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
+    const double begun = segments.size() > 1 ? segments[segments.size() - 2].time : 0.0, length = glm::length(gone);
+    const double straight = 1e-12 * length * glm::length(to.way);
+    // As fast as before, too: the time of a segment is that of an even motion.
+    const double even = length * shift.seconds - glm::length(to.way) * (last.time - begun);
+    const bool goes_on = last.time == shift.begin && std::abs(even) <= 1e-9 * length * shift.seconds;
+    if (goes_on && glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
       last.position = at_.place + to.way;
       last.time = shift.begin + shift.seconds;
       last.clearance = std::min(last.clearance, to.clearance);

@@ -50,10 +50,7 @@ void Collector::offer(const Query& query, const Triangle& triangle, TriangleId i
   for (const certified::LocalTriangle& part : floor_->pieces(local)) measure(part);
 }
 
-void Collector::offer(const Contact& c, double doubt) {
-  if (frame_ == nullptr) return keep(c, doubt);
-  keep(frame_->in_scene(c), doubt + 2.0 * frame_->pad);
-}
+void Collector::keep_seen(const Contact& c, double doubt) { keep(frame_->in_scene(c), doubt + 2.0 * frame_->pad); }
 
 void Collector::keep(const Contact& c, double doubt) {
   if (only_ != nullptr) {
