@@ -139,11 +139,16 @@ END
     build osg_paged_scene
     [[ -d ${ROAM_TEST_DATA-}/pit_osgb ]] || { echo "there is no ROAM_TEST_DATA/pit_osgb: not run"; exit 0; }
     start_screen
+    export OSG_WINDOW="0 0 800 600"  # the more pixels, the finer the tiles
     root=("$ROAM_TEST_DATA"/pit_osgb/Data/*/Tile_+000_+000.osgb)
     "$work/build/osg_paged_scene" "${root[0]}" > "$work/said" 2>&1 &
     viewer=$!
     timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
-    sleep 5
+    # To where the pager reads finer tiles.
+    xdotool keydown shift keydown w
+    sleep 8
+    xdotool keyup w keyup shift
+    sleep 4
     xdotool key Escape
     wait "$viewer" || { cat "$work/said"; exit 1; }
     cat "$work/said"

@@ -1,14 +1,15 @@
-// A viewer of a paged OpenSceneGraph scene. Collision comes from the files as OpenSceneGraph's own pager reads them: what
-// it has not read yet is solid. W, A, S, D and the arrows fly, the mouse looks, G walks, H tells of the other keys.
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
+// A viewer of a paged OpenSceneGraph scene. Collision comes from the files as OpenSceneGraph's own pager reads them:
+// what it has not read yet is solid. W, A, S, D and the arrows fly, the mouse looks, G walks, H tells of the other
+// keys.
 #include <osgRoam/Harvester.h>
 #include <osgRoam/Manipulator.h>
-#include <osgViewer/Viewer>
 #include <roam/patchwork.h>
 
 #include <cstdio>
 #include <memory>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgViewer/Viewer>
 
 int main(int argc, char** argv) {
   osg::ArgumentParser arguments(&argc, argv);
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
 
   osgViewer::Viewer viewer(arguments);
   viewer.setSceneData(scene);
+  scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);  // photographs have their own light
   const osg::ref_ptr<osgRoam::Manipulator> manipulator = new osgRoam::Manipulator;
   manipulator->setSpace(space);  // which is updated before the steps of each frame
   viewer.setCameraManipulator(manipulator);
