@@ -43,8 +43,8 @@ using Streams = std::array<double, roam::store::stream_count>;
 void add_entropy(std::span<const std::byte> coded, const TileShape& shape, Streams& sum) {
   const Unpacked u = unpack(coded);
   const auto& n = u.numbers;
-  const std::array<std::size_t, roam::store::stream_count> sizes{shape.nodes, shape.leaves, n[0], n[1], n[2], n[3], n[3],
-                                                             n[3],        n[4],         n[4], n[4], n[5], n[6], n[7]};
+  const std::array<std::size_t, roam::store::stream_count> sizes{
+      shape.nodes, shape.leaves, n[0], n[1], n[2], n[3], n[3], n[3], n[4], n[4], n[4], n[5], n[6], n[7]};
   const std::byte* at = u.streams.data();
   for (int s = 0; s < roam::store::stream_count; ++s) {
     sum[s] += s >= roam::store::name_bit_stream ? double(sizes[s]) : entropy({at, sizes[s]});
@@ -129,7 +129,8 @@ int run(const Options& options) {
               1e9 * encode / triangles, 1e9 * hash / triangles, 1e9 * decode / triangles, at(0.5), at(0.99), at(1.0));
   if (sum == 0) std::printf("the hashes sum up to nothing\n");  // so that no compiler leaves them out
   if (options.streams) {
-    for (int s = 0; s < roam::store::stream_count; ++s) std::printf("  %-9s %.4f\n", name_stream[s], floor[s] / triangles);
+    for (int s = 0; s < roam::store::stream_count; ++s)
+      std::printf("  %-9s %.4f\n", name_stream[s], floor[s] / triangles);
   }
   return 0;
 }

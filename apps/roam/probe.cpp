@@ -126,10 +126,10 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
 
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},      {"triangles", scene.survey.triangles()},
+  Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
                {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
-               {"to", to_json(o.question.to)},  {"step", o.question.step},
-               {"slope", o.slope_degrees()},    {"support_radius", o.question.support_radius},
+               {"to", to_json(o.question.to)},       {"step", o.question.step},
+               {"slope", o.slope_degrees()},         {"support_radius", o.question.support_radius},
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));

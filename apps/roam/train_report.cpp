@@ -152,7 +152,8 @@ std::string text_report(const TrainReport& report) {
   }
   if (t.trapped_radius > 0.0)
     line("trapped", fmt::format("a rolling sphere below {:.3f} m cannot climb out of that crack", t.trapped_radius));
-  for (const Decisive& d : t.decisive) line(to_string(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
+  for (const Decisive& d : t.decisive)
+    line(to_string(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
   std::map<std::string, std::size_t> kinds;
   for (const Crack& c : t.cracks) ++kinds[to_string(c.kind)];
   for (const auto& [kind, count] : kinds) line(kind.c_str(), fmt::format("{}", count));

@@ -1,6 +1,6 @@
 // A platform rises, crosses a pit and turns, with a person on it who walks about and jumps.
-#include <roam/move_instances.h>
 #include <roam/instances.h>
+#include <roam/move_instances.h>
 #include <roam/walker.h>
 #include <roam/world.h>
 

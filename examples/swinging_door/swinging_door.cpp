@@ -1,7 +1,7 @@
 // A person walks to a door that is shut. It swings open, away from the person, who goes through; then it shuts, pushes
 // whoever stands in its way, and stops where somebody has nowhere to go.
-#include <roam/move_instances.h>
 #include <roam/instances.h>
+#include <roam/move_instances.h>
 #include <roam/walker.h>
 #include <roam/world.h>
 

@@ -31,6 +31,8 @@ struct Stopped {
 /// | is a ghost, or is held | is not moved, and stops nothing |
 ///
 /// An instance that was stopped keeps its velocity and tries again at the next call. Bodies do not meet each other.
+/// Pass all bodies: one that is left out is run over. Make one instance of what moves together, or add what goes in
+/// front first.
 ///
 /// The promises of walker.h hold all the while: at every instant each body's axis is at least radius - 1e-6 m from
 /// every triangle, those of the instance that moves included. A walker that was moved has this movement as its

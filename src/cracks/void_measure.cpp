@@ -18,12 +18,12 @@ namespace roam::cracks {
 
 namespace {
 
-constexpr double window = 4.0;        ///< m around a rim's disc that one flood fills
+constexpr double window = 4.0;         ///< m around a rim's disc that one flood fills
 constexpr double spacing_share = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
 constexpr double sink_margin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
 constexpr double finest = 0.1 * VoidProbe::precision;  ///< m
-constexpr std::size_t most_discs = 32;                  ///< of one flood that are grown
-constexpr std::size_t most_beside = 3;                  ///< likewise, up to where an open drop begins, which takes long
+constexpr std::size_t most_discs = 32;                 ///< of one flood that are grown
+constexpr std::size_t most_beside = 3;                 ///< likewise, up to where an open drop begins, which takes long
 
 /// A place of the lattice at the level of one void.
 struct Cell {

@@ -154,8 +154,8 @@ std::vector<Waypoint> load_path(const std::filesystem::path& file) {
 }
 
 std::string body_line(const WalkerSettings& s, Mode mode) {
-  std::string line = fmt::format("# roam: mode {} radius {} height {} eye {} step {} slope {}", to_string(mode), s.radius,
-                                 s.height, s.eye, s.step, s.slope_degrees);
+  std::string line = fmt::format("# roam: mode {} radius {} height {} eye {} step {} slope {}", to_string(mode),
+                                 s.radius, s.height, s.eye, s.step, s.slope_degrees);
   if (s.support_radius > 0.0) line += fmt::format(" support {}", s.support_radius);
   return line;
 }

@@ -15,7 +15,7 @@ constexpr double leaves_per_node = 4.0;
 struct Plan {
   std::array<float, node_width + 1> cost{};         ///< cost[k], k = 1 .. 16
   std::array<std::uint8_t, node_width + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
-  std::uint8_t left_own = 0;                    ///< the left child's share of the sixteen slots of the node itself
+  std::uint8_t left_own = 0;                        ///< the left child's share of the sixteen slots of the node itself
 };
 
 std::vector<Plan> plan(const BinaryTree& tree, double margin) {

@@ -42,7 +42,7 @@ struct SceneCurve {
   using Key = std::uint64_t;
   static constexpr int axis_bits = 20;
   static constexpr int class_shift = 3 * axis_bits;
-  static constexpr Key axis_mask = 0x1249249249249249ULL;                     ///< the bits of the first axis
+  static constexpr Key axis_mask = 0x1249249249249249ULL;                           ///< the bits of the first axis
   static constexpr std::uint32_t most_tile_triangles = index::most_tile_triangles;  ///< no tile holds more
   static Key spread(std::uint64_t x) { return index::spread(x); }
   static std::uint64_t gather(Key place) { return index::gather(place); }

@@ -15,8 +15,8 @@ namespace roam::index {
 /// `Curve`: see curve.h. Items have a `key` and ascend by it; `reach(item)` is half the widest side of a triangle's
 /// box, rounded up, in metres: how far it may stick out of the cells of its run.
 ///
-/// A run that holds more than Curve::most_tile_triangles is always divided at the first bit of the keys that divides it. So
-/// cutting the cells of such a division one by one gives the same tiles as cutting the whole.
+/// A run that holds more than Curve::most_tile_triangles is always divided at the first bit of the keys that divides
+/// it. So cutting the cells of such a division one by one gives the same tiles as cutting the whole.
 template <class Curve, class Item, class Reach>
 class Cutter {
  public:

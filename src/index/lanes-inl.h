@@ -94,8 +94,8 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
   return std::uint32_t{bits[0]} | std::uint32_t{lane_count > 8 ? bits[1] : std::uint8_t{0}} << 8;
 }
 
-/// The planes across axis `k` by which the centre of a body enters and leaves lane_count child boxes, which are higher and
-/// lower by its half height.
+/// The planes across axis `k` by which the centre of a body enters and leaves lane_count child boxes, which are higher
+/// and lower by its half height.
 struct Slabs {
   VF lower, upper;
 

@@ -53,8 +53,8 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
 /// The triangles of a leaf that are not certainly missed.
 struct Met {
   alignas(64) float time[node_width];  ///< free until then
-  std::uint32_t arrived;           ///< the body is within the arrival distance then: a hit
-  std::uint32_t open;              ///< to be decided in double precision, from then on
+  std::uint32_t arrived;               ///< the body is within the arrival distance then: a hit
+  std::uint32_t open;                  ///< to be decided in double precision, from then on
 };
 
 /// Metres that a computed bound may be wrong by, for each triangle, with the body `way` metres along.
@@ -65,7 +65,8 @@ HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float h
 
 /// The times by which bodies that are slower than `speed` (times length) have used up their slack, where `active`.
 HWY_INLINE VF advanced(VF time, VF slack, VF speed, MF active) {
-  const VF step = hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - time_roundings * float_unit));
+  const VF step =
+      hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - time_roundings * float_unit));
   return hn::IfThenElse(active, hn::Add(time, step), time);
 }
 
@@ -198,8 +199,8 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
   const int rounds = way.moves || way.half_height > 0.0F ? near_rounds : 1;
   for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     Triangles t = load_triangles(leaf, frame, first);
-    const VF error =
-        hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(speed_roundings * float_unit * way.longest));
+    const VF error = hn::Add(leaf_error(t, set(way.longest), frame, way.half_height),
+                             set(speed_roundings * float_unit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     MF active = triangle;
     VF least = zero;

@@ -57,7 +57,7 @@ class Corners {
  public:
   HWY_INLINE Corners(const Leaf& leaf, int first) {
     alignas(64) static constexpr std::uint32_t vertex_shifts[node_width] = {0, 4, 8, 12, 16, 20, 24, 28,
-                                                                  0, 4, 8, 12, 16, 20, 24, 28};
+                                                                            0, 4, 8, 12, 16, 20, 24, 28};
     const hn::RebindToUnsigned<F> u;
     for (int c = 0; c < 3; ++c) {
       auto packed = hn::Set(u, leaf.corner[c][first / 8]);
@@ -111,8 +111,8 @@ HWY_INLINE void Triangles::prepare() {
   within_ab = cross(normal, ab);
   within_ac = cross(ac, normal);
   within_bc = cross(normal, bc);
-  // Two reciprocals from one division. Where a product overflows, in triangles some thousand kilometres wide, the closest
-  // point is not a number, or the place itself: bounds of gaps are weak there.
+  // Two reciprocals from one division. Where a product overflows, in triangles some thousand kilometres wide, the
+  // closest point is not a number, or the place itself: bounds of gaps are weak there.
   const VF long_normal = hn::Max(dot(normal, normal), face_floor);
   const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
   inv_ab2 = hn::Mul(long_ac, edges);
