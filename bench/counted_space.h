@@ -25,7 +25,7 @@ class CountedSpace final : public Space {
 
   [[nodiscard]] const std::array<Tally, kinds>& tallies() const { return tallies_; }
   [[nodiscard]] SpaceFacts facts() const override { return space_.facts(); }
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override { return space_.object_name(triangle); }
+  [[nodiscard]] Object object(TriangleId triangle) const override { return space_.object(triangle); }
 
  protected:
   [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override {

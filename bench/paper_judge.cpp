@@ -30,7 +30,7 @@ bool overlap(const Box& a, const Box& b) {
 
 }  // namespace
 
-const char* name(Ending ending) {
+const char* to_string(Ending ending) {
   switch (ending) {
     case Ending::reached:
       return "completed";

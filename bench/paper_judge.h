@@ -15,7 +15,7 @@ namespace roam::bench {
 enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
 
 /// "completed", "stuck", "fell", "through a wall" or "not finished".
-[[nodiscard]] const char* name(Ending ending);
+[[nodiscard]] const char* to_string(Ending ending);
 
 /// How a way ended.
 struct Judgement {

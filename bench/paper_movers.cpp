@@ -45,7 +45,7 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
   mover.step = [walk](const Vec3& velocity) {
     const StepReport& report = walk->walker->step({.velocity = velocity}, dt);
     walk->radius = report.radius;
-    for (const Corner& corner : report.corners) walk->radius = std::min(walk->radius, corner.radius);
+    for (const Segment& corner : report.segments) walk->radius = std::min(walk->radius, corner.radius);
     if (walk->learner) {
       if (const auto lesson = walk->learner->watch(*walk->walker, velocity, dt)) {
         walk->learner->take(*walk->walker, *lesson);

@@ -90,8 +90,8 @@ Json known(std::optional<bool> is) { return is ? Json(*is) : Json(nullptr); }
 bool failed(const RowFindings& row) { return row.row->load && row.judged.empty(); }
 
 std::string outcome(const Judgement& judged, double patience) {
-  if (judged.ending == Ending::cut) return fmt::format("{} in {:g} s", name(judged.ending), patience);
-  return name(judged.ending);
+  if (judged.ending == Ending::cut) return fmt::format("{} in {:g} s", to_string(judged.ending), patience);
+  return to_string(judged.ending);
 }
 
 std::string table_1(const PaperFindings& findings) {
@@ -167,7 +167,7 @@ Json paper_json(const PaperFindings& findings) {
       table_1.push_back({{"way", findings.ways[way].name},
                          {"row", row.row->name},
                          {"radius_m", cell.radius()},
-                         {"outcome", name(cell.judged().ending)},
+                         {"outcome", to_string(cell.judged().ending)},
                          {"time_s", cell.cut() ? Json(nullptr) : Json(time_of_way(s))},
                          {"steps", s.count},
                          {"p50_us", s.p50},

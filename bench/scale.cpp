@@ -56,7 +56,7 @@ struct Size {
 /// What is timed of each step of a flight.
 enum class What : std::uint8_t { sweep, clearance, step };
 constexpr std::array<What, 3> all_of_it{What::sweep, What::clearance, What::step};
-constexpr const char* name(What what) {
+constexpr const char* to_string(What what) {
   return what == What::sweep ? "sweep" : what == What::clearance ? "clearance" : "step";
 }
 
@@ -168,7 +168,7 @@ std::string table(const std::vector<Row>& rows, const Options& options) {
                   radius, options.speed, options.rounds);
   out += fmt::format("{:>12} {:<7} {:>9} {:>10} {:>11} {:>7}", "triangles", "where", "build, s", "MiB", "B/triangle",
                      "steps");
-  for (const What what : all_of_it) out += fmt::format(" {:>21}", fmt::format("{} p50 / p99", name(what)));
+  for (const What what : all_of_it) out += fmt::format(" {:>21}", fmt::format("{} p50 / p99", to_string(what)));
   out += "\n";
   for (const Row& row : rows) {
     const Size& size = *row.size;
@@ -182,7 +182,7 @@ std::string table(const std::vector<Row>& rows, const Options& options) {
   if (rows.size() < 2) return out;
   out += "\nfrom the first to the last, p50:";
   for (std::size_t w = 0; w < all_of_it.size(); ++w) {
-    out += fmt::format(" {} x{:.2f}", name(all_of_it[w]), rows.back().times[w].p50 / rows.front().times[w].p50);
+    out += fmt::format(" {} x{:.2f}", to_string(all_of_it[w]), rows.back().times[w].p50 / rows.front().times[w].p50);
   }
   return out + "\n";
 }
@@ -196,7 +196,7 @@ Json to_json(const std::vector<Row>& rows, const Options& options) {
              {"bytes", row.size->bytes},
              {"steps", row.steps}};
     for (std::size_t w = 0; w < all_of_it.size(); ++w) {
-      one[name(all_of_it[w])] = {{"p50_us", row.times[w].p50}, {"p99_us", row.times[w].p99}};
+      one[to_string(all_of_it[w])] = {{"p50_us", row.times[w].p50}, {"p99_us", row.times[w].p99}};
     }
     sizes.push_back(std::move(one));
   }

@@ -33,21 +33,21 @@ double entropy(std::span<const std::byte> letters) {
   return bits / 8.0;
 }
 
-constexpr std::array<const char*, roam::store::kStreams> kNames{
+constexpr std::array<const char*, roam::store::stream_count> name_stream{
     "tree",   "counts", "gates",  "seeds",  "names",     "gate x",    "gate y",
     "gate z", "free x", "free y", "free z", "name bits", "gate bits", "free bits"};
 
-using Streams = std::array<double, roam::store::kStreams>;
+using Streams = std::array<double, roam::store::stream_count>;
 
 /// Adds the entropy of each stream of a tile, with the letters' own frequencies in that tile. Bits are incompressible.
 void add_entropy(std::span<const std::byte> coded, const TileShape& shape, Streams& sum) {
   const Unpacked u = unpack(coded);
   const auto& n = u.numbers;
-  const std::array<std::size_t, roam::store::kStreams> sizes{shape.nodes, shape.leaves, n[0], n[1], n[2], n[3], n[3],
-                                                             n[3],        n[4],         n[4], n[4], n[5], n[6], n[7]};
+  const std::array<std::size_t, roam::store::stream_count> sizes{
+      shape.nodes, shape.leaves, n[0], n[1], n[2], n[3], n[3], n[3], n[4], n[4], n[4], n[5], n[6], n[7]};
   const std::byte* at = u.streams.data();
-  for (int s = 0; s < roam::store::kStreams; ++s) {
-    sum[s] += s >= roam::store::kNameBits ? double(sizes[s]) : entropy({at, sizes[s]});
+  for (int s = 0; s < roam::store::stream_count; ++s) {
+    sum[s] += s >= roam::store::name_bit_stream ? double(sizes[s]) : entropy({at, sizes[s]});
     at += sizes[s];
   }
 }
@@ -75,7 +75,7 @@ int run(const Options& options) {
   std::printf("%s%s\n", scene.name.c_str(), options.lossless ? ", lossless" : "");
   std::vector<BuiltTile> tiles = tiles_of(scene.meshes, options.lossless);
   const std::size_t all = tiles.size();
-  std::erase_if(tiles, [](const BuiltTile& t) { return shape_of(t).bytes() > roam::store::kTileBytes; });
+  std::erase_if(tiles, [](const BuiltTile& t) { return shape_of(t).bytes() > roam::store::tile_bytes; });
   double triangles = 0.0, disk = 0.0, resident = 0.0, number_bytes = 0.0;
   std::vector<std::vector<std::byte>> coded;
   const double encode_begin = now();
@@ -129,7 +129,8 @@ int run(const Options& options) {
               1e9 * encode / triangles, 1e9 * hash / triangles, 1e9 * decode / triangles, at(0.5), at(0.99), at(1.0));
   if (sum == 0) std::printf("the hashes sum up to nothing\n");  // so that no compiler leaves them out
   if (options.streams) {
-    for (int s = 0; s < roam::store::kStreams; ++s) std::printf("  %-9s %.4f\n", kNames[s], floor[s] / triangles);
+    for (int s = 0; s < roam::store::stream_count; ++s)
+      std::printf("  %-9s %.4f\n", name_stream[s], floor[s] / triangles);
   }
   return 0;
 }

@@ -5,13 +5,9 @@
 include(CMakePackageConfigHelpers)
 set(roam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roam)
 
-# roam_install(TARGET COMPONENT [NAME]): installs a library as roam::NAME, which is roam::COMPONENT if nothing is said.
+# roam_install(TARGET COMPONENT): installs a library as roam::COMPONENT.
 function(roam_install target component)
-  set(name ${component})
-  if(ARGC GREATER 2)
-    set(name ${ARGV2})
-  endif()
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
   install(TARGETS ${target} EXPORT roam-${component} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(EXPORT roam-${component} NAMESPACE roam:: DESTINATION ${roam_package_dir})
@@ -23,7 +19,7 @@ if(ROAM_TOOLS)
   foreach(component IN ITEMS files process import generate store ways profile training)
     roam_install(roam_${component} ${component})
   endforeach()
-  roam_install(roam_osg osg osgRoam)
+  roam_install(roam_osg osgRoam)
   install(DIRECTORY include/osgRoam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(TARGETS roam_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   # Where the program looks for it from bin: not a command for people.

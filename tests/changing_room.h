@@ -32,7 +32,7 @@ class ChangingRoom final : public roam::Space {
     facts.speed_limit = limit;
     return facts;
   }
-  [[nodiscard]] std::string object_name(std::uint64_t triangle) const override { return world_->object_name(triangle); }
+  [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override { return world_->object(triangle); }
 
   double limit = std::numeric_limits<double>::infinity();  ///< m/s
   /// Where set, a way down meets a plane with this normal at once, as that of a body in touch with a wall may.

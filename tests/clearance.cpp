@@ -20,9 +20,9 @@ using roam::Vec3;
 using roam::World;
 
 /// What Space promises (m): no more than the true gap, but for this, and no less than it by more than that.
-constexpr double kAbove = 1e-6;
-constexpr double kBelow = 2e-3;
-constexpr double kBelowLossless = 1e-5;
+constexpr double above = 1e-6;
+constexpr double below_all = 2e-3;
+constexpr double below_lossless = 1e-5;
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -75,7 +75,7 @@ double true_gap(const Mesh& mesh, const Body& body, const Vec3& from, const Vec3
 /// Bodies that stand beside the wall and move along it.
 void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
   const World world = World::build({&wall.mesh, 1}, {.threads = 0, .lossless = lossless, .progress = {}});
-  const double error = world.stats().largest_error_m, below = lossless ? kBelowLossless : kBelow;
+  const double error = world.stats().largest_error_m, below = lossless ? below_lossless : below_all;
   int found = 0, near = 0;
   for (int q = 0; q < queries; ++q) {
     const Body body{random.between(0.0, 0.4), q % 3 == 2 ? random.between(0.05, 0.9) : 0.0};
@@ -95,7 +95,7 @@ void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
     const double gap = true_gap(wall.mesh, body, from, motion);
     const double bound = world.gap(body, from, motion, reach);
     if (gap > -body.radius) {
-      ASSERT_LE(bound, gap + kAbove) << q;
+      ASSERT_LE(bound, gap + above) << q;
     }
     if (gap > below - body.radius) {
       ASSERT_GE(bound, std::min(reach, gap - std::abs(gap) / 8.0 - below)) << q;
@@ -106,23 +106,23 @@ void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
     if (!c.found) {
       ASSERT_EQ(bound, reach) << q;
       ASSERT_EQ(c.distance, reach) << q;
-      ASSERT_GE(gap, reach - kAbove) << q;
+      ASSERT_GE(gap, reach - above) << q;
       continue;
     }
     ++found;
     if (gap > -body.radius) {
-      ASSERT_LE(c.distance, gap + kAbove) << q;
+      ASSERT_LE(c.distance, gap + above) << q;
     }
     if (gap <= below - body.radius) continue;  // the axis may meet a stored triangle: depth is not distance
     ASSERT_GE(c.distance, gap - below) << q;
     // What is near is told exactly, and never as a touch.
     if (gap > 0.0) {
       near += gap < 0.03 ? 1 : 0;
-      ASSERT_GE(c.distance, gap * (15.0 / 16.0) - 2.0 * error - kAbove) << q;
+      ASSERT_GE(c.distance, gap * (15.0 / 16.0) - 2.0 * error - above) << q;
     }
     // The triangle that is named is about the nearest.
     const roam::Triangle named = wall.mesh.triangle(static_cast<std::size_t>(c.triangle));
-    ASSERT_LE(double(oracle::least_distance(body, from, motion, 1.0, named)) - body.radius, gap + below + kAbove) << q;
+    ASSERT_LE(double(oracle::least_distance(body, from, motion, 1.0, named)) - body.radius, gap + below + above) << q;
   }
   EXPECT_GT(found, queries / 2);
   EXPECT_GT(near, queries / 20);

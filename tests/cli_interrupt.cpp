@@ -53,7 +53,7 @@ class Interrupt : public testing::Test {
 
   /// Starts the program, sends the signal after so many seconds, and looks at what is left. A fast machine may be done
   /// before.
-  void interrupt(const Arguments& arguments, double after, int signal) {
+  void interrupt(const Arguments& arguments, double after, int signal, int times = 1) {
     SCOPED_TRACE(arguments[0] + ", signal " + std::to_string(signal) + " after " + std::to_string(after) + " s");
     std::vector<char*> argv{const_cast<char*>(ROAM_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -81,7 +81,11 @@ class Interrupt : public testing::Test {
     interrupted_ += ended ? 0 : 1;
     const bool done = ended;
     const auto sent = Clock::now();
-    ASSERT_TRUE(done || ::kill(program, signal) == 0);
+    for (int i = 0; i < times && !done; ++i) {
+      ASSERT_EQ(::kill(program, signal), 0);
+      // Each is a signal of its own.
+      if (i + 1 < times) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     while (!ended && since(sent) < 10.0 * soon) {
       ended = ::waitpid(program, &status, WNOHANG) == program;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -180,6 +184,17 @@ TEST_F(Interrupt, View) {
 
 TEST_F(Interrupt, ViewThatFilms) {
   interrupt({"view", scene(), "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")});
+}
+
+TEST_F(Interrupt, ViewThatFilmsByThreeSignalsAtOnce) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    interrupt({"view", scene(), "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")}, 2.0, signal, 3);
+    EXPECT_FALSE(fs::exists(folder_.file("film.mp4")));
+  }
+}
+
+TEST_F(Interrupt, ViewThatFilmsByTheEndOfItsTerminal) {
+  interrupt({"view", scene(), "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")}, 2.0, SIGHUP);
 }
 
 /// One draw call of minutes: an image that is repeated thousands of times over one quad, seen aslant, filtered by

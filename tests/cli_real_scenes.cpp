@@ -118,7 +118,7 @@ std::vector<std::string> paths_along(const TunnelGraph& graph, const std::vector
 }
 
 /// The distance of the straight way along an edge from the nearest of all triangles, as far as `reach`.
-double true_clearance(const roam::Scene& scene, const roam::Vec3& from, const roam::Vec3& to, double reach) {
+double true_clearance(const roam::ImportedScene& scene, const roam::Vec3& from, const roam::Vec3& to, double reach) {
   long double least = reach;
   roam::Box way;
   way.include(from);
@@ -140,7 +140,7 @@ double true_clearance(const roam::Scene& scene, const roam::Vec3& from, const ro
 TEST(RealScenes, TheTunnelIsFlownAlongEveryEdgeThatIsClear) {
   ROAM_NEEDS_TEST_DATA();
   const TunnelGraph graph = read_tunnel_graph();
-  const roam::Scene scene = roam::import_scene(roam::test::test_data() / tunnel);
+  const roam::ImportedScene scene = roam::import_scene(roam::test::test_data() / tunnel);
   constexpr double radius = 0.5;
   constexpr double answered_as_hit = 0.002;  // m: so much early a hit may be answered
   std::vector<Edge> clear;

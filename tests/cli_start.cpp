@@ -9,6 +9,7 @@
 namespace {
 
 using roam::Vec3;
+using roam::World;
 
 constexpr roam::WalkerSettings person{.radius = 0.3, .height = 1.8};
 
@@ -57,6 +58,15 @@ TEST(Start, IsRefusedInAnEmptyScene) {
   }
 }
 
+TEST(Start, IsFoundInASceneThatIsHigherThanARayIsLong) {
+  roam::Mesh mesh;
+  add_square(mesh, Vec3(0.0), 100.0, true);
+  add_square(mesh, Vec3(5000.0, 0.0, 1.2e6), 1.0, true);
+  const roam::World world = roam::World::build({&mesh, 1});
+  const Vec3 place = roam::app::wander_start(world, person, roam::Mode::walk, {});
+  EXPECT_NEAR(place.z, 0.95, 0.1);
+}
+
 TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   // The gallery is 3 m wide in a landscape of kilometres: a grid of columns over it meets only the landscape.
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 200'000}));
@@ -69,6 +79,24 @@ TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   }
   EXPECT_GE(near_walls, 2);
   EXPECT_GT(world.clearance(roam::Body::capsule(0.3, 1.8), place, 1.0).distance, 0.0);
+}
+
+TEST(Start, LetsABodyFlyOverAFloorWithoutARoofAndAroundABlock) {
+  roam::Mesh floor, block;
+  add_square(floor, Vec3(0.0), 4.0, true);
+  for (const double z : {0.0, 1.0}) add_square(block, Vec3(0.0, 0.0, z), 0.5, z > 0.0);
+  for (const roam::Mesh& mesh : {floor, block}) {
+    const World world = World::build({&mesh, 1});
+    const Vec3 start = roam::app::wander_start(world, person, roam::Mode::fly, {});
+    roam::Walker walker(world, person, roam::Mode::fly, start);
+    roam::app::Wander wander(walker, {}, 20.0);
+    while (!wander.done()) {
+      wander.look();
+      wander.advance();
+    }
+    EXPECT_EQ(wander.result().outcome, roam::Outcome::reached);
+    EXPECT_GT(wander.result().length, 5.0);
+  }
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(LargeStore, DrawsALongWayAsIfItHadHeldAllOfIt) {
     EXPECT_EQ(walked.status, 0) << walked.err;
     return folder_->read(name);
   };
-  const std::string little = drawn("8M", "little.svg"), much = drawn("256M", "much.svg");
+  const std::string little = drawn("64M", "little.svg"), much = drawn("256M", "much.svg");
   EXPECT_GT(little.size(), 20'000U);
   EXPECT_TRUE(little == much) << "what has left the pager's memory again is drawn as what it is";
 }

@@ -91,6 +91,49 @@ TEST_F(StoreMemory, IsWhatMemorySaysAndLittleMore) {
   }
 }
 
+TEST_F(StoreMemory, IsKeptByAllThatAWalkDoesBesides) {
+  const std::string scene = folder_->file("gallery.ply"), drawing = folder_->file("way.svg");
+  const std::vector<std::vector<std::string>> extras{{"--picture", drawing},
+                                                     {"--picture", folder_->file("way.png")},
+                                                     {"--verify"},
+                                                     {"--verify", "--picture", drawing}};
+  for (const char* store : {"gallery", "terrain", "parts"}) {
+    const std::string folder = folder_->file(store);
+    for (const long mebibytes : {8, 64}) {
+      const auto walk = [&](std::vector<std::string> call, const std::vector<std::string>& extra) {
+        if (mebibytes == 8 && !extra.empty() && extra.back().ends_with(".png"))
+          return;  // its pixels take more: docs/stores.md
+        call.insert(call.end(), {"--memory", std::to_string(mebibytes) + "M"});
+        call.insert(call.end(), extra.begin(), extra.end());
+        const ProgramResult r = run(call);
+        EXPECT_EQ(r.status, 0) << r.err;
+        EXPECT_LE(r.peak, (mebibytes + own) << 10)
+            << store << ' ' << mebibytes << "M " << call[2] << ' ' << (extra.empty() ? "" : extra.back());
+      };
+      walk({"walk", folder, "--wander", "5", "--height", "1.8"}, {});
+      for (const auto& extra : extras) {
+        walk({"walk", folder, "--wander", "5", "--height", "1.8"}, extra);
+        walk({"walk", folder, "--path", folder + ".way", "--mode", "fly", "--speed", "60"}, extra);
+      }
+    }
+  }
+  const ProgramResult against = run({"walk", folder_->file("gallery"), "--path", folder_->file("gallery.way"), "--mode",
+                                     "fly", "--speed", "60", "--against", scene});
+  EXPECT_EQ(against.status, 0) << against.err;
+  EXPECT_LE(against.peak, (64 + own) << 10) << "--against";
+}
+
+TEST_F(StoreMemory, IsThatOfAShortWalkHoweverLongTheWalkIs) {
+  const std::string folder = folder_->file("parts");
+  for (const char* extra : {"--verify", "--picture"}) {
+    std::vector<std::string> call{"walk", folder, "--wander", "300", "--dt", "0.001", "--memory", "8M", extra};
+    if (call.back() == "--picture") call.push_back(folder_->file("long.svg"));
+    const ProgramResult r = run(call);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_LE(r.peak, (8 + own) << 10) << extra;
+  }
+}
+
 TEST_F(StoreMemory, IsKeptWhateverTheStoreSays) {
   const TestFolder hostile;
   const std::string store = hostile.file("s");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "piece_log.h"
 #include "roam/error.h"
 #include "swept_distance.h"
 #include "verification.h"
@@ -292,6 +293,18 @@ TEST(Verification, IsTheSameOfASceneThatComesPieceByPiece) {
   EXPECT_EQ(pieces.least_gap, whole.least_gap);
   ASSERT_TRUE(pieces.worst && whole.worst);
   EXPECT_EQ(pieces.worst->distance, whole.worst->distance);
+}
+
+TEST(Verification, IsTheSameOfPiecesThatLieInAFile) {
+  Swarm swarm(Vec3(-13739, 253, 182), 100, 2 * roam::app::PieceLog::held + 100);
+  const auto whole = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
+  roam::app::PieceLog log;
+  for (const Piece& piece : swarm.pieces) log.add(piece);
+  const auto logged = roam::app::verify({&swarm.mesh, 1}, log);
+  EXPECT_EQ(logged.pieces, whole.pieces);
+  EXPECT_EQ(logged.violations, whole.violations);
+  EXPECT_EQ(logged.overstated, whole.overstated);
+  EXPECT_EQ(logged.least_gap, whole.least_gap);
 }
 
 /// Whether it is asked if this is the scene, as it lies; otherwise it must be said that nothing was measured.

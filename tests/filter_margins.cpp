@@ -21,9 +21,9 @@ using roam::Vec3;
 using roam::World;
 
 /// Metres: just more than World may let a body sink.
-constexpr double kDepth = 1.2e-6;
-constexpr double kNearest = 1e-6;
-constexpr int kGrazes = 20000;
+constexpr double depth = 1.2e-6;
+constexpr double nearest_allowed = 1e-6;
+constexpr int grazes = 20000;
 
 /// Triangles a few metres wide on a grid of 2^-10 m, within 60 m.
 Mesh on_grid(clutter::Random& random, int count) {
@@ -48,26 +48,26 @@ void graze_all(clutter::Random& random, const Mesh& mesh) {
   const World world = World::build({&mesh, 1});
   ASSERT_LT(world.stats().largest_error_m, 1e-12) << "quantization would hide what is tested";
   int tested = 0;
-  for (int q = 0; q < kGrazes; ++q) {
+  for (int q = 0; q < grazes; ++q) {
     const Triangle t = mesh.triangle(random.engine() % mesh.triangles.size());
     if (!(length(cross(t[1] - t[0], t[2] - t[0])) > 1e-3)) continue;
     const Body body{std::pow(10.0, random.between(-1.3, 2.3)), q % 2 == 0 ? 0.0 : random.between(0.1, 1.0)};
-    const clutter::Graze g = clutter::graze(random, t, body, kDepth, std::pow(10.0, random.between(-2.0, 1.75)));
+    const clutter::Graze g = clutter::graze(random, t, body, depth, std::pow(10.0, random.between(-2.0, 1.75)));
     const long double d = oracle::distance_on_the_way(g.body, g.from, g.motion, g.time, t);
-    if (d > g.body.radius - kNearest) continue;  // rounding of the construction took it away
+    if (d > g.body.radius - nearest_allowed) continue;  // rounding of the construction took it away
     ++tested;
     const auto s = world.sweep(g.body, g.from, g.motion);
     ASSERT_TRUE(s.hit) << q;
     ASSERT_LE(s.time, g.time) << q;
     if (s.time > 0.0) {
-      ASSERT_GE(oracle::distance_on_the_way(g.body, g.from, g.motion, s.time, t), g.body.radius - kNearest) << q;
+      ASSERT_GE(oracle::distance_on_the_way(g.body, g.from, g.motion, s.time, t), g.body.radius - nearest_allowed) << q;
     }
     const auto near = world.clearance(g.body, g.from + g.time * g.motion, 0.0);
     ASSERT_TRUE(near.found) << q;
     ASSERT_LE(world.gap(g.body, g.from, g.motion, 1.0), 0.0) << q;
     ASSERT_LE(world.gap(g.body, g.from, g.motion, 1e-4), 0.0) << q;
   }
-  EXPECT_GT(tested, kGrazes / 4);
+  EXPECT_GT(tested, grazes / 4);
 }
 
 /// Rays through corners, edges and faces: through the closed triangle, but for roundings of doubles.
@@ -76,7 +76,7 @@ void pierce_all(clutter::Random& random, const Mesh& mesh, const Vec3& place) {
   for (Vec3& v : there.vertices) v += place;
   const World world = World::build({&there, 1});
   ASSERT_LT(world.stats().largest_error_m, 1e-11) << "quantization would hide what is tested";
-  for (int q = 0; q < 4 * kGrazes; ++q) {
+  for (int q = 0; q < 4 * grazes; ++q) {
     const Triangle t = there.triangle(random.engine() % there.triangles.size());
     const double u = q % 3 == 0 ? 0.0 : random.unit(), v = q % 3 == 2 ? random.unit() * (1.0 - u) : 0.0;
     const Vec3 point = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);

@@ -63,3 +63,8 @@ inline std::vector<std::string> marks_in(const std::string& folder) {
   }
   return marks;
 }
+
+/// A word of a shell.
+inline std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+inline bool can_trace() { return run_program("/bin/sh", {"-c", "strace -o /dev/null true"}).status == 0; }

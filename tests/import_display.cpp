@@ -45,7 +45,7 @@ TEST(ImportDisplay, ShowsTheTrianglesThatAreWalkedOn) {
     const auto file = folder.write(name, content);
     for (const ImportOptions& options :
          {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}, ImportOptions{.up = UpAxis::x}}) {
-      const Scene scene = import_scene(file, options);
+      const ImportedScene scene = import_scene(file, options);
       const Shown shown = show({file}, options);
       EXPECT_GT(shown.triangles.size(), 0u) << name;
       EXPECT_EQ(not_shown(scene, shown, 2e-6), 0u) << name;

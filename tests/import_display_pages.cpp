@@ -259,7 +259,7 @@ TEST(ImportDisplayPages, OfThePitAreWhatIsWalkedOn) {
   Shown shown;
   std::uint64_t missing = 0;
   for (const auto& part : roots.parts) collect(reader, roots.report.origin, *part, shown, missing);
-  const Scene scene = import_scene(folder);
+  const ImportedScene scene = import_scene(folder);
   EXPECT_EQ(not_shown(scene, shown, 4e-5), 0u);
   EXPECT_EQ(missing, scene.report.missing_pages);
 }

@@ -21,7 +21,7 @@ TEST_P(ImportDisplayRealScenes, AreShownAsTheyAreWalkedOn) {
   // Some keep their images beside the folder of the file.
   const ImportOptions options{.allow = {test_data()}};
   const Shown shown = show({file}, options);
-  const Scene scene = import_scene(file, options);
+  const ImportedScene scene = import_scene(file, options);
   EXPECT_EQ(not_shown(scene, shown, tolerance), 0u);
   EXPECT_EQ(shown.report.import.notes, scene.report.notes);
   EXPECT_EQ(shown.report.import.files, scene.report.files);

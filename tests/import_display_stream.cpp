@@ -183,9 +183,9 @@ TEST(ImportDisplayStream, SurvivesEveryFlippedBitAndEveryTruncation) {
 std::string recorded_stream(const TemporaryFolder& folder, const std::filesystem::path& file) {
   const std::filesystem::path record = folder.path() / "recorded";
   ImportOptions options;
-  options.reader = folder.write_script("reader.sh", "exec 4>&3\n'" + find_reader({}).string() +
-                                                        "' \"$@\" 3>&1 4>&- | cat > '" + record.string() +
-                                                        "'\ncat '" + record.string() + "' >&4\n");
+  options.reader =
+      folder.write_script("reader.sh", "exec 4>&3\n'" + find_reader({}).string() + "' \"$@\" 3>&1 4>&- | cat > '" +
+                                           record.string() + "'\ncat '" + record.string() + "' >&4\n");
   EXPECT_EQ(display_error(file, options), "");
   std::ifstream stream(record, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -263,6 +263,25 @@ TEST(ImportDisplayStream, CountsWhatSmallThingsTakeWhereTheyAreDrawn) {
                              frame(3, FrameKind::end, PayloadWriter().add(totals).add(std::uint32_t{0}).bytes());
   EXPECT_TRUE(is_taken(stream, 4u << 20));
   EXPECT_FALSE(is_taken(stream, 1u << 20));
+}
+
+TEST(ImportDisplayStream, TakesNoPartThatFillsMoreThanHalfOfTheMemory) {
+  DisplayPart part = full_part();
+  DisplayTexture& texture = part.textures.at(0);
+  texture.texels = roam::DisplayTexels::rgba;
+  texture.width = texture.height = 512;
+  texture.levels = 1;
+  texture.bytes.assign(DisplayTexture::bytes_of(texture.texels, 512, 512), 7);
+  const std::vector<std::byte> bytes = encode(part);
+  Totals totals;
+  totals.triangles = part.triangles;
+  const PartHeader header{{1000, 0, 0}, {0, 0, 0}, {1, 1, 1}, part.triangles, bytes.size()};
+  const std::string stream = hello + frame(1, FrameKind::part, PayloadWriter().add(header).bytes()) +
+                             frame(2, FrameKind::part_bytes, bytes) +
+                             frame(3, FrameKind::end, PayloadWriter().add(totals).add(std::uint32_t{0}).bytes());
+  ASSERT_LT(part.node_bytes(), bytes.size() / 2);
+  EXPECT_TRUE(is_taken(stream, 2 * bytes.size()));
+  EXPECT_FALSE(is_taken(stream, 2 * bytes.size() - 2)) << "what comes and what is made of it are there together";
 }
 
 TEST(ImportDisplayStream, RefusesADamagedOrder) {

@@ -63,7 +63,7 @@ inline std::vector<pid_t> children_of_this_process() {
 }
 
 /// All triangles of a scene in order, by their corners.
-inline std::vector<Triangle> triangles_of(const Scene& scene) {
+inline std::vector<Triangle> triangles_of(const ImportedScene& scene) {
   std::vector<Triangle> all;
   for (const Mesh& mesh : scene.meshes) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) all.push_back(mesh.triangle(i));
@@ -71,7 +71,7 @@ inline std::vector<Triangle> triangles_of(const Scene& scene) {
   return all;
 }
 
-inline Box bounds_of(const Scene& scene) {
+inline Box bounds_of(const ImportedScene& scene) {
   Box box;
   for (const Triangle& triangle : triangles_of(scene)) {
     for (const Vec3& corner : triangle) box.include(corner);
@@ -82,7 +82,7 @@ inline Box bounds_of(const Scene& scene) {
 /// The message of the Error that importing throws; empty when it throws none.
 inline std::string import_error(const std::filesystem::path& path, const ImportOptions& options = {}) {
   try {
-    const Scene scene = import_scene(path, options);
+    const ImportedScene scene = import_scene(path, options);
     return "";
   } catch (const Error& error) {
     return error.what();
@@ -92,7 +92,7 @@ inline std::string import_error(const std::filesystem::path& path, const ImportO
 inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 /// Whether one of the report's sentences has this part.
-inline bool notes_contain(const Scene& scene, std::string_view part) {
+inline bool notes_contain(const ImportedScene& scene, std::string_view part) {
   for (const std::string& note : scene.report.notes) {
     if (contains(note, part)) return true;
   }

@@ -50,7 +50,7 @@ std::string collada(const std::string& up, const std::string& unit) {
 TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
   const TemporaryFolder folder;
   for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {
-    const Scene scene = import_scene(folder.write("floor.dae", collada(up, "0.0254")));
+    const ImportedScene scene = import_scene(folder.write("floor.dae", collada(up, "0.0254")));
     const auto triangles = triangles_of(scene);
     ASSERT_EQ(triangles.size(), 2u);
     EXPECT_EQ(triangles[1], (Triangle{Vec3(10, 20, 30), Vec3(11, 21, 30), Vec3(10, 21, 30)}));
@@ -62,7 +62,7 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
     EXPECT_EQ(notes_contain(scene, "read it with up = y (--up y)"), up == "Y_UP");
   }
   const auto file = folder.write("floor.dae", collada("Y_UP", "0.0254"));
-  const Scene told = import_scene(file, {.up = UpAxis::y, .unit = LengthUnit::in});
+  const ImportedScene told = import_scene(file, {.up = UpAxis::y, .unit = LengthUnit::in});
   EXPECT_TRUE(told.report.notes.empty());
   EXPECT_EQ(triangles_of(told)[0][0], Vec3(10 * 0.0254, -30 * 0.0254, 20 * 0.0254));
 }
@@ -120,7 +120,7 @@ Connections:  {
 	C: "OO",100,200
 }
 )");
-  const Scene scene = import_scene(file);
+  const ImportedScene scene = import_scene(file);
   const auto triangles = triangles_of(scene);
   ASSERT_EQ(triangles.size(), 2u);
   EXPECT_EQ(triangles[1], (Triangle{Vec3(10, 20, 30), Vec3(11, 21, 30), Vec3(10, 21, 30.5)}));
@@ -131,16 +131,16 @@ Connections:  {
 
 TEST(ImportFormats, SaysWhereAReaderThatKeepsFloatsRounds) {
   const TemporaryFolder folder;
-  const Scene far = import_scene(folder.write("far.off", "OFF\n3 1 0\n4000000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
+  const ImportedScene far = import_scene(folder.write("far.off", "OFF\n3 1 0\n4000000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
   EXPECT_TRUE(notes_contain(far, "Coordinates of up to 4000000 m"));
   EXPECT_TRUE(notes_contain(far, "rounded by up to 0.24 m"));
-  const Scene near = import_scene(folder.write("near.off", "OFF\n3 1 0\n8000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
+  const ImportedScene near = import_scene(folder.write("near.off", "OFF\n3 1 0\n8000.3 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"));
   EXPECT_TRUE(near.report.notes.empty());
 }
 
 TEST(ImportFormats, ReadsOff) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 3\n"));
+  const ImportedScene scene = import_scene(folder.write("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 3\n"));
   EXPECT_EQ(scene.report.triangles, 2u);
   EXPECT_EQ(scene.meshes[0].name, "quad");
 }
@@ -184,7 +184,7 @@ TEST(ImportFormats, MergesFilesInTheOrderGiven) {
   const TemporaryFolder folder;
   const std::vector<std::filesystem::path> paths{folder.write("b.obj", "v 5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\n"),
                                                  folder.write("a.obj", one_triangle)};
-  const Scene scene = import_scene(paths);
+  const ImportedScene scene = import_scene(paths);
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].name, "b");
   EXPECT_EQ(triangles_of(scene)[2][0], Vec3(1, 2, 3));

@@ -11,7 +11,7 @@ namespace {
 
 TEST(ImportObj, KeepsEveryDigitFarFromTheOrigin) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("far.obj",
+  const ImportedScene scene = import_scene(folder.write("far.obj",
                                                 "v 4012345.678901234 -0.1 1e-300\n"
                                                 "v +4012346.678901234 .5 -7.25E+2\n"
                                                 "v 3 4 5\n"
@@ -22,7 +22,7 @@ TEST(ImportObj, KeepsEveryDigitFarFromTheOrigin) {
 TEST(ImportObj, ReadsTheNearestDoubleOfLongDigitStrings) {
   const TemporaryFolder folder;
   // Halfway cases that readers with powers of ten in floating point get wrong.
-  const Scene scene = import_scene(folder.write("digits.obj",
+  const ImportedScene scene = import_scene(folder.write("digits.obj",
                                                 "v 9007199.254740993 0.1000000000000000055511151231257827 1\n"
                                                 "v 1 +2.5 .25\nv 0 -0 5.\nf 1 2 3\n"));
   const Triangle t = triangles_of(scene)[0];
@@ -33,7 +33,7 @@ TEST(ImportObj, ReadsTheNearestDoubleOfLongDigitStrings) {
 
 TEST(ImportObj, UnderstandsNegativeIndicesAndAllCornerForms) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("corners.obj",
+  const ImportedScene scene = import_scene(folder.write("corners.obj",
                                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
                                                 "f -3 -2 -1\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
                                                 "v 0 0 1\nf -1//-1 -2//-1 -3//-1\n"));
@@ -46,7 +46,7 @@ TEST(ImportObj, UnderstandsNegativeIndicesAndAllCornerForms) {
 
 TEST(ImportObj, FansPolygonsFromTheirFirstCorner) {
   const TemporaryFolder folder;
-  const Scene scene =
+  const ImportedScene scene =
       import_scene(folder.write("polygon.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 2 3 4 5 1\n"));
   const auto triangles = triangles_of(scene);
   ASSERT_EQ(triangles.size(), 3u);
@@ -57,7 +57,7 @@ TEST(ImportObj, FansPolygonsFromTheirFirstCorner) {
 
 TEST(ImportObj, NamesObjectsByObjectThenGroupThenMaterial) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("names.obj",
+  const ImportedScene scene = import_scene(folder.write("names.obj",
                                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl rock\nf 1 2 3\n"
                                                 "o House\nf 1 2 3\ng wall east\nusemtl brick\nf 1 2 3\nf 1 2 3\n"
                                                 "o Shed\nf 1 2 3\n"));
@@ -72,7 +72,7 @@ TEST(ImportObj, NamesObjectsByObjectThenGroupThenMaterial) {
 
 TEST(ImportObj, KeepsTheOrderOfTheFileWhenObjectsRepeat) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("repeat.obj",
+  const ImportedScene scene = import_scene(folder.write("repeat.obj",
                                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                                                 "g a\nf 1 2 3\ng b\nf 2 3 4\ng a\nf 1 2 4\n"));
   ASSERT_EQ(scene.meshes.size(), 3u);
@@ -124,14 +124,14 @@ TEST(ImportObj, TellsTheLineOfAFaceWithoutItsVertices) {
 
 TEST(ImportObj, SkipsFacesOfTwoCornersAndSaysSo) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\n"));
+  const ImportedScene scene = import_scene(folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\n"));
   EXPECT_EQ(scene.report.triangles, 1u);
   EXPECT_TRUE(notes_contain(scene, "2 faces with fewer than three corners were skipped, the first in line 4"));
 }
 
 TEST(ImportObj, KeepsTrianglesThatArePointsOrSegments) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("thin.obj", "v 1 2 3\nv 4 5 6\nf 1 1 1\nf 1 2 1\n"));
+  const ImportedScene scene = import_scene(folder.write("thin.obj", "v 1 2 3\nv 4 5 6\nf 1 1 1\nf 1 2 1\n"));
   EXPECT_EQ(scene.report.triangles, 2u);
 }
 

@@ -77,7 +77,7 @@ inline bool same_bits(const std::vector<Triangle>& a, const std::vector<Triangle
 /// Expects that the pieces of these paths are what import_scene gives of them; returns how many vertices they have.
 inline std::uint64_t expect_streams_as_imported(const std::vector<std::filesystem::path>& paths,
                                                 const ImportOptions& options = {}) {
-  const Scene scene = import_scene(paths, options);
+  const ImportedScene scene = import_scene(paths, options);
   Pieces pieces;
   const ImportReport report = stream_scene(paths, options, pieces.sink());
   expect_same_report(report, scene.report);

@@ -51,7 +51,7 @@ TEST(ImportPly, IsLeftOutByTheNameOfItsFileThatItIsCalledBy) {
   const std::filesystem::path yard = folder.write("yard.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng gate\nf 1 2 3\n");
   EXPECT_EQ(import_scene(dungeon).meshes.at(0).name, "dungeon");
   EXPECT_TRUE(contains(import_error(dungeon, {.ignore = {"*"}}), "to be ignored"));
-  const Scene scene = import_scene({dungeon, yard}, {.ignore = {"yard"}});
+  const ImportedScene scene = import_scene({dungeon, yard}, {.ignore = {"yard"}});
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[1].name, "gate");
   EXPECT_EQ(scene.report.ignored_triangles, 1u);
@@ -98,7 +98,7 @@ TEST(ImportPly, SkipsWhatIsNotGeometry) {
       "element vertex 3\nproperty uchar red\nproperty float z\nproperty list uint8 double w\nproperty double x\n"
       "property int y\nelement face 1\nproperty float q\nproperty list uchar int vertex_indices\n"
       "property list uchar float texcoord\nelement edge 1\nproperty int a\n";
-  const Scene scene = import_scene(folder.write(
+  const ImportedScene scene = import_scene(folder.write(
       "rich.ply", header("ascii", elements) + "1.5 2 7 8\n2.5 0\n255 3 1 0.5 1 2\n0 3.5 0 4 5\n9 9 2 1 1 7 "
                                               "8\n0.5 3 0 1 2 6 0 0 1 0 1 1\n4\n"));
   const Triangle t = triangles_of(scene)[0];

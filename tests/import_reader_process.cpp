@@ -170,6 +170,19 @@ TEST_F(ImportReaderProcess, CancelsAtTheCallersWish) {
   EXPECT_EQ(calls, 3);
 }
 
+TEST_F(ImportReaderProcess, CancelsWhileTheFilesOfAFolderAreCounted) {
+  constexpr std::uint64_t files = 5000;
+  for (std::uint64_t i = 0; i < files; ++i) (void)folder_.write("folder/" + std::to_string(i), "x");
+  ImportOptions options;
+  std::uint64_t counted = 0;
+  options.progress = [&](const ImportProgress& progress) {
+    counted = progress.bytes_total;
+    return false;
+  };
+  EXPECT_THROW(static_cast<void>(import_scene(folder_.path() / "folder", options)), Cancelled);
+  EXPECT_LT(counted, files);
+}
+
 TEST_F(ImportReaderProcess, PassesOnWhatTheCallbackThrows) {
   ImportOptions options;
   options.progress = [](const ImportProgress&) -> bool { throw std::logic_error("enough"); };

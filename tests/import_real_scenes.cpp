@@ -143,7 +143,7 @@ TEST(ImportRealScenes, HaveTheTrianglesAndTheBoxThatAreKnown) {
   ROAM_NEEDS_TEST_DATA();
   for (const Known& scene : known) {
     SCOPED_TRACE(scene.path);
-    const Scene read = import_scene(test_data() / scene.path, {.unit = scene.unit});
+    const ImportedScene read = import_scene(test_data() / scene.path, {.unit = scene.unit});
     EXPECT_EQ(read.report.triangles, scene.triangles);
     const Box box = bounds_of(read), expected = expected_box(scene);
     expect_near(box.lower, expected.lower, "lower");
@@ -154,18 +154,18 @@ TEST(ImportRealScenes, HaveTheTrianglesAndTheBoxThatAreKnown) {
 
 TEST(ImportRealScenes, MissOnlyThePagesThatAreMissing) {
   ROAM_NEEDS_TEST_DATA();
-  const Scene pit = import_scene(test_data() / "pit_osgb");
+  const ImportedScene pit = import_scene(test_data() / "pit_osgb");
   EXPECT_EQ(pit.report.files, 74u);
   EXPECT_EQ(pit.report.missing_pages, 0u);
   ASSERT_TRUE(pit.report.georeference);
   EXPECT_EQ(pit.report.georeference->origin, Vec3(54, -212, 0));
-  const Scene tile = import_scene(test_data() / "contextcapture_tiles/Tile_+010_+005_L22_000000t6.osgb");
+  const ImportedScene tile = import_scene(test_data() / "contextcapture_tiles/Tile_+010_+005_L22_000000t6.osgb");
   EXPECT_EQ(tile.report.files, 1u);
   EXPECT_GT(tile.report.missing_pages, 0u);
 }
 
 /// Corners on the grid that formats with six digits can tell apart, each triangle from its least corner on, sorted.
-std::vector<std::array<long, 9>> as_a_set(const Scene& scene) {
+std::vector<std::array<long, 9>> as_a_set(const ImportedScene& scene) {
   constexpr double grid = 1e-3;
   std::vector<std::array<long, 9>> set;
   for (const Triangle& t : triangles_of(scene)) {
@@ -194,7 +194,7 @@ TEST(ImportRealScenes, AreTheSameMineInSixFormats) {
 TEST(ImportRealScenes, GiveTheSameBitsTwice) {
   ROAM_NEEDS_TEST_DATA();
   for (const char* path : {"pit_osgb", "building/small_house.glb", "recast/nav_test.obj"}) {
-    const Scene a = import_scene(test_data() / path), b = import_scene(test_data() / path);
+    const ImportedScene a = import_scene(test_data() / path), b = import_scene(test_data() / path);
     ASSERT_EQ(a.meshes.size(), b.meshes.size());
     for (std::size_t i = 0; i < a.meshes.size(); ++i) {
       EXPECT_EQ(a.meshes[i].name, b.meshes[i].name);
@@ -236,7 +236,7 @@ TEST(ImportRealScenes, ThatAreBrokenEndInASceneOrAMessageInBoundedTimeAndMemory)
     SCOPED_TRACE(path.string());
     const auto begin = std::chrono::steady_clock::now();
     try {
-      const Scene scene = import_scene(path, options);
+      const ImportedScene scene = import_scene(path, options);
       EXPECT_GT(scene.report.triangles, 0u);
       for (const Triangle& t : triangles_of(scene)) {
         for (const Vec3& v : t) EXPECT_TRUE(std::abs(v.x) <= 1e9 && std::abs(v.y) <= 1e9 && std::abs(v.z) <= 1e9);

@@ -1,8 +1,10 @@
 // A reader that was taken over by its file: what it tries is stopped, and reported.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -76,7 +78,68 @@ TEST_P(ImportSandbox, EndsAReaderThatTakesMemory) {
   EXPECT_TRUE(contains(error_of("memory"), "memory was refused: Cannot allocate memory"));
 }
 
+TEST_P(ImportSandbox, KeepsNoDescriptorOfTheProgramThatStartsIt) {
+  for (const char* kernel : {"", "--no-close-range"}) {
+    options_.reader = folder_.write_script(
+        "inherit.sh", std::string("exec 9< /etc/passwd; exec '" MISBEHAVING_READER "' ") + kernel + " \"$@\"\n");
+    EXPECT_EQ(error_of("inherited"), "inherited was refused: Bad file descriptor") << kernel;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(HighestLandlock, ImportSandbox, testing::Values(1 << 20, 2, 0));
+
+/// A kernel, or a container, without seccomp.
+class ImportSandboxWithoutSeccomp : public ImportSandbox {
+ protected:
+  void SetUp() override {
+    ImportSandbox::SetUp();
+    options_.reader = folder_.write_script("reader.sh", "exec '" MISBEHAVING_READER "' --no-seccomp \"$@\"\n");
+  }
+};
+
+TEST_P(ImportSandboxWithoutSeccomp, StillKeepsAReaderToTheScenesFolder) {
+  if (reader_confinement().landlock < 3) GTEST_SKIP() << "this kernel has no Landlock that knows truncation";
+  for (const char* deed : {"secret", "list", "proc", "write", "overwrite", "append", "unnamed", "truncate", "unlink",
+                           "rename", "link", "symlink", "mkdir"}) {
+    EXPECT_TRUE(contains(error_of(deed), std::string(deed) + " was refused: ")) << error_of(deed);
+    expect_untouched(deed);
+  }
+  EXPECT_EQ(error_of("scene"), "scene was done");
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernel, ImportSandboxWithoutSeccomp, testing::Values(1 << 20));
+
+/// What the kernel says of a reader that waits: the value behind a name in /proc/PID/status.
+std::string status_of(pid_t process, const std::string& name) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string word; status >> word;) {
+    if (word == name + ":" && status >> word) return word;
+  }
+  return "";
+}
+
+TEST(ImportSandboxRights, AreNoneOfRootAndTheFirstToGoWhereMemoryRunsOut) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.reader = MISBEHAVING_READER;
+  bool walled = false;
+  options.progress = [&](const ImportProgress&) {
+    const std::vector<pid_t> children = children_of_this_process();
+    if (children.size() != 1 || status_of(children.front(), "Seccomp") != "2") return true;
+    walled = true;
+    for (const char* set : {"CapInh", "CapPrm", "CapEff", "CapBnd", "CapAmb"}) {
+      // Only root may take rights from the set that bounds them, and only for root do they come back.
+      if (geteuid() != 0 && set == std::string("CapBnd")) continue;
+      EXPECT_EQ(status_of(children.front(), set), "0000000000000000") << set;
+    }
+    int score = 0;
+    std::ifstream("/proc/" + std::to_string(children.front()) + "/oom_score_adj") >> score;
+    EXPECT_EQ(score, 1000);
+    return false;
+  };
+  EXPECT_THROW(static_cast<void>(import_scene(folder.write("scene.obj", "drip"), options)), Cancelled);
+  EXPECT_TRUE(walled);
+}
 
 TEST(ImportSandboxTime, EndsAReaderThatComputesWithoutEnd) {
   const TemporaryFolder folder;
@@ -105,7 +168,7 @@ TEST(ImportSandboxReport, SaysWhichWallsHold) {
     ImportOptions options;
     options.reader = folder.write_script(
         "reader.sh", "exec '" ROAM_READER_PROGRAM "' --highest-landlock " + std::to_string(highest) + " \"$@\"\n");
-    const Scene read = import_scene(scene, options);
+    const ImportedScene read = import_scene(scene, options);
     ASSERT_TRUE(read.report.confinement);
     EXPECT_EQ(read.report.confinement->landlock, std::min(here.landlock, highest));
     EXPECT_EQ(read.report.confinement->system_calls, here.system_calls);

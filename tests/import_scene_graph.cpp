@@ -24,7 +24,7 @@ std::string group(const std::string& kind, const std::string& fields, const std:
 }
 
 /// The x of each triangle's first corner.
-std::vector<double> first_xs(const Scene& scene) {
+std::vector<double> first_xs(const ImportedScene& scene) {
   std::vector<double> xs;
   for (const Triangle& t : triangles_of(scene)) xs.push_back(t[0].x);
   return xs;
@@ -108,7 +108,7 @@ TEST(ImportSceneGraph, ReadsAllPrimitivesInOrder) {
 
 TEST(ImportSceneGraph, LeavesOutTrianglesWhoseIndicesLeadNowhere) {
   const TemporaryFolder folder;
-  const Scene scene =
+  const ImportedScene scene =
       import_scene(folder.write("indices.osg",
                                 "Geode {\nname \"Broken\"\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\n"
                                 "DrawElementsUInt TRIANGLES 6 {\n0 1 2 0 1 70000\n}\n}\nVertexArray Vec3Array 3\n{\n"
@@ -125,11 +125,11 @@ TEST(ImportSceneGraph, NamesObjectsByTheNearestNameAndIgnoresByAnyAncestor) {
       "names.osg", group("Group", "name \"House\"\n",
                          {group("Group", "name \"Doors\"\n", {triangle_at("1"), triangle_at("2", "Door_7")}),
                           triangle_at("3", "Wall"), triangle_at("4", "Tree 12")}));
-  const Scene all = import_scene(file);
+  const ImportedScene all = import_scene(file);
   ASSERT_EQ(all.meshes.size(), 4u);
   EXPECT_EQ(all.meshes[0].name, "Doors");
   EXPECT_EQ(all.meshes[1].name, "Door_7");
-  const Scene some = import_scene(file, {.ignore = {"Doors", "Tree*", "Window?"}});
+  const ImportedScene some = import_scene(file, {.ignore = {"Doors", "Tree*", "Window?"}});
   EXPECT_EQ(first_xs(some), (std::vector<double>{3}));
   EXPECT_EQ(some.report.ignored_triangles, 3u);
   EXPECT_EQ(some.report.ignored_objects.size(), 3u);
@@ -154,7 +154,7 @@ TEST(ImportSceneGraph, LoadsPagesDownToTheFinest) {
   const TemporaryFolder folder;
   folder.write("middle/page1.osg", paged(triangle_at("2"), {"fine/page2.osg"}));
   folder.write("middle/fine/page2.osg", triangle_at("3"));
-  const Scene scene =
+  const ImportedScene scene =
       import_scene(folder.write("root.osg", moved("10", {paged(triangle_at("1"), {"middle/page1.osg"})})));
   EXPECT_EQ(first_xs(scene), (std::vector<double>{13}));
   EXPECT_EQ(scene.report.files, 3u);
@@ -165,7 +165,7 @@ TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAPageIsMissing) {
   const TemporaryFolder folder;
   folder.write("here.osg", triangle_at("5"));
   folder.write("broken.osg", "Group {\n");
-  const Scene scene = import_scene(
+  const ImportedScene scene = import_scene(
       folder.write("root.osg", group("Group", "",
                                      {paged(triangle_at("1"), {"gone.osg"}), paged(triangle_at("2"), {"here.osg"}),
                                       paged(triangle_at("3"), {"here.osg", "gone.osg"})})));
@@ -179,7 +179,7 @@ TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAPageIsMissing) {
 
 TEST(ImportSceneGraph, EndsPagesThatReferToThemselves) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("loop.osg", paged(triangle_at("1"), {"./x/../loop.osg"})));
+  const ImportedScene scene = import_scene(folder.write("loop.osg", paged(triangle_at("1"), {"./x/../loop.osg"})));
   EXPECT_EQ(first_xs(scene), (std::vector<double>{1}));
   EXPECT_EQ(scene.report.missing_pages, 1u);
 }
@@ -190,7 +190,7 @@ TEST(ImportSceneGraph, ReadsProxiesAndCountsThoseThatAreMissing) {
   const auto proxy = [](const std::string& file) {
     return "ProxyNode {\nFileNameList 1 {\n\"" + file + "\"\n}\nnum_children 0\n}\n";
   };
-  const Scene scene = import_scene(folder.write(
+  const ImportedScene scene = import_scene(folder.write(
       "root.osg", group("Group", "", {proxy("part.osg"), proxy("gone.osg"), proxy("http://localhost/a.osg")})));
   EXPECT_EQ(first_xs(scene), (std::vector<double>{7}));
   EXPECT_EQ(scene.report.missing_pages, 2u);
@@ -213,7 +213,7 @@ TEST(ImportSceneGraph, Reads3dsWithItsNumbers) {
   const std::string mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
   const std::string object = chunk(0x4000, std::string("Ramp") + '\0' + mesh);
   const TemporaryFolder folder;
-  const Scene scene = import_scene(
+  const ImportedScene scene = import_scene(
       folder.write("ramp.3ds", chunk(0x4d4d, chunk(0x0002, bytes_of(std::uint32_t{3})) + chunk(0x3d3d, object))));
   ASSERT_EQ(scene.report.triangles, 1u);
   EXPECT_EQ(scene.meshes[0].name, "Ramp");
@@ -222,7 +222,7 @@ TEST(ImportSceneGraph, Reads3dsWithItsNumbers) {
 
 TEST(ImportSceneGraph, ReadsAc3dWithItsNumbers) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write(
+  const ImportedScene scene = import_scene(folder.write(
       "ramp.ac",
       "AC3Db\nMATERIAL \"White\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 64 trans 0\nOBJECT world\nkids 1\n"
       "OBJECT poly\nname \"Ramp\"\nloc 10 0 0\nnumvert 4\n1 2 3\n4 5 6\n7 9 8\n1 9 8\nnumsurf 1\nSURF 0x20\nmat 0\n"
@@ -238,7 +238,7 @@ TEST(ImportSceneGraph, ReadsDxfFacesWithTheirNumbers) {
   const char* values[] = {"1", "2", "3", "4", "5", "6", "7", "9", "8", "1", "9", "8"};
   for (int i = 0; i < 12; ++i) face += std::string(codes[i]) + "\n" + values[i] + "\n";
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("ramp.dxf", face + "0\nENDSEC\n0\nEOF\n"));
+  const ImportedScene scene = import_scene(folder.write("ramp.dxf", face + "0\nENDSEC\n0\nEOF\n"));
   EXPECT_EQ(scene.report.triangles, 2u);
   EXPECT_EQ(bounds_of(scene).lower, Vec3(1, 2, 3));
   EXPECT_EQ(bounds_of(scene).upper, Vec3(7, 9, 8));
@@ -262,7 +262,7 @@ TEST(ImportSceneGraph, ReadsFoldersOfTilesInTheOrderOfTheirNames) {
   folder.write("a/Data/Tile_+002_+000/not the tile.txt", "");
   folder.write("a/Data/Thumbs/x.osgb", "");
   for (const char* path : {"a", "a/", "a/Data", "a/Data/"}) {
-    const Scene scene = import_scene(folder.path() / path);
+    const ImportedScene scene = import_scene(folder.path() / path);
     EXPECT_EQ(first_xs(scene), (std::vector<double>{1, 2})) << path;
     EXPECT_EQ(scene.meshes[0].name, "Tile_+000_+001");
     EXPECT_EQ(scene.report.missing_pages, 1u);
@@ -294,14 +294,14 @@ TEST(ImportSceneGraph, PlacesFoldersRelativeToTheFirstByTheirOrigins) {
   const auto nowhere = scene_folder("nowhere", "5", "", "");
   const auto broken = scene_folder("broken", "6", "EPSG:32632", "1,2");
 
-  const Scene one = import_scene(second);
+  const ImportedScene one = import_scene(second);
   EXPECT_EQ(first_xs(one), (std::vector<double>{1}));
   ASSERT_TRUE(one.report.georeference);
   EXPECT_EQ(one.report.georeference->origin, Vec3(500300.25, 5000000, 90));
   EXPECT_TRUE(notes_contain(one, "in 'EPSG:32632' the scene's zero lies at (500300.25, 5000000, 90)"));
 
   const std::vector<std::filesystem::path> both{first, second, nowhere};
-  const Scene merged = import_scene(both);
+  const ImportedScene merged = import_scene(both);
   EXPECT_EQ(first_xs(merged), (std::vector<double>{1, 300.75, 5}));
   EXPECT_EQ(triangles_of(merged)[1][1], Vec3(299.75, 1, -10));
   EXPECT_EQ(merged.report.georeference->origin, Vec3(500000.5, 5000000, 100));

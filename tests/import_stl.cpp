@@ -28,7 +28,7 @@ const std::string ascii_facet =
 
 TEST(ImportStl, KeepsEveryDigitOfAsciiFiles) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("far.stl",
+  const ImportedScene scene = import_scene(folder.write("far.stl",
                                                 "solid far\nfacet normal nan nan nan\nouter loop\n"
                                                 "vertex 4012345.678901234 5412345.123456789 312.0001\n"
                                                 "vertex 4012346 5412345 312\nvertex 4012345 5412346 312\n"
@@ -38,7 +38,7 @@ TEST(ImportStl, KeepsEveryDigitOfAsciiFiles) {
 
 TEST(ImportStl, KeepsTheFloatsOfBinaryFiles) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write("box.stl", binary_stl("", {{0.1f, 2, 3, 4, 5, 6, 7, 8, 9.5f}})));
+  const ImportedScene scene = import_scene(folder.write("box.stl", binary_stl("", {{0.1f, 2, 3, 4, 5, 6, 7, 8, 9.5f}})));
   const Triangle t = triangles_of(scene)[0];
   EXPECT_EQ(t[0], Vec3(static_cast<double>(0.1f), 2, 3));
   EXPECT_EQ(t[2], Vec3(7, 8, 9.5));
@@ -49,14 +49,14 @@ TEST(ImportStl, ReadsBinaryFilesThatBeginWithSolid) {
   const auto facets = std::vector<std::array<float, 9>>(3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
   EXPECT_EQ(import_scene(folder.write("a.stl", binary_stl("solid exported by CAD", facets))).report.triangles, 3u);
   // Also when bytes follow that the header does not count: they are told.
-  const Scene more = import_scene(folder.write("b.stl", binary_stl("solid exported by CAD", facets) + "tail"));
+  const ImportedScene more = import_scene(folder.write("b.stl", binary_stl("solid exported by CAD", facets) + "tail"));
   EXPECT_EQ(more.report.triangles, 3u);
   EXPECT_TRUE(notes_contain(more, "4 bytes after the last of the 3 triangles"));
 }
 
 TEST(ImportStl, MakesAnObjectOfEachAsciiSolid) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(folder.write(
+  const ImportedScene scene = import_scene(folder.write(
       "two.stl", "solid Hull\n" + ascii_facet + ascii_facet + "endsolid Hull\nSOLID\n" + ascii_facet + "ENDSOLID\n"));
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].name, "Hull");
@@ -66,7 +66,7 @@ TEST(ImportStl, MakesAnObjectOfEachAsciiSolid) {
 
 TEST(ImportStl, SharesEqualVerticesWithoutMovingAny) {
   const TemporaryFolder folder;
-  const Scene scene = import_scene(
+  const ImportedScene scene = import_scene(
       folder.write("shared.stl", binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 1, 1, 0}})));
   EXPECT_EQ(scene.meshes[0].vertices.size(), 4u);
   EXPECT_EQ(triangles_of(scene)[1][2], Vec3(1, 1, 0));
@@ -89,7 +89,7 @@ TEST(ImportStl, TellsWhereAFileIsCutOrWrong) {
 TEST(ImportStl, LeavesOutTrianglesWithBadVerticesAndNamesTheirObject) {
   const TemporaryFolder folder;
   const float infinite = std::numeric_limits<float>::infinity();
-  const Scene scene = import_scene(folder.write("bad.stl", binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+  const ImportedScene scene = import_scene(folder.write("bad.stl", binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0},
                                                                            {std::nanf(""), 0, 0, 1, 0, 0, 0, 1, 0},
                                                                            {2e9f, 0, 0, 1, 0, 0, 0, infinite, 0},
                                                                            {5, 5, 5, 1, 0, 0, 0, 1, 0}})));

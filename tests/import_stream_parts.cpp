@@ -70,7 +70,7 @@ ImportReport stream_parts(const std::vector<ScenePart>& parts, Pieces& pieces) {
 }
 
 void expect_parts_are_the_scene(const std::vector<fs::path>& paths) {
-  const Scene scene = import_scene(paths);
+  const ImportedScene scene = import_scene(paths);
   Pieces pieces;
   const ImportReport report = stream_parts(scene_parts(paths), pieces);
   EXPECT_EQ(report.files, scene.report.files);

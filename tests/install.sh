@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
+#   install.sh moving  SOURCE PREFIX WORK CXX   builds examples/swinging_door and moving_platform and runs them
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
 #   install.sh training SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
 #   install.sh profile SOURCE PREFIX WORK CXX   builds a program that only keeps and applies a profile: it links the core
 #   install.sh osg_one_line SOURCE PREFIX WORK CXX   builds that example outside the tree and drives into a wall with it
+#   install.sh osg_paged_scene SOURCE PREFIX WORK CXX   builds that example outside the tree and looks at a paged scene
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh package SOURCE PREFIX WORK CXX   asks find_package for versions and components that are there and that are not
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
@@ -32,10 +34,30 @@ expect() {
   [[ $said == *"$text"* ]] || { echo "expected: $text"; exit 1; }
 }
 
+# start_screen: a display for the programs that follow.
+start_screen() {
+  mkfifo "$work/ready"
+  exec {ready}<> "$work/ready"
+  # -noreset: else the server starts anew, and refuses the next client, when the first has looked and left.
+  Xvfb -noreset -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
+  screen=$!
+  trap 'kill "$screen"' EXIT
+  read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
+  export DISPLAY=":$display" LIBGL_ALWAYS_SOFTWARE=1 OSG_WINDOW="20 20 400 300"
+}
+
 case $what in
   example)
     build sweep_a_sphere
     expect 'stops at x = 19.' "$work/build/sweep_a_sphere"
+    ;;
+  moving)
+    build swinging_door
+    expect 'shut: the person is stopped by the door at x = -0.3' "$work/build/swinging_door"
+    expect 'shut again: the person was moved to x = -0.3' "$work/build/swinging_door"
+    rm -r "$work/example" "$work/build"
+    build moving_platform
+    expect 'carried to x = 18.' "$work/build/moving_platform"
     ;;
   import)
     build walk_a_path
@@ -100,14 +122,7 @@ END
     build osg_one_line
     # A wall of 2 m at y = 0: OpenSceneGraph turns OBJ to z up. Home is 5 m before it, and W with Shift flies at 7 m/s.
     printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' > "$work/wall.obj"
-    mkfifo "$work/ready"
-    exec {ready}<> "$work/ready"
-    # -noreset: else the server starts anew, and refuses the next client, when the first has looked and left.
-    Xvfb -noreset -displayfd "$ready" -screen 0 800x600x24 2> "$work/xvfb.log" &
-    screen=$!
-    trap 'kill "$screen"' EXIT
-    read -r -t 60 -u "$ready" display || { cat "$work/xvfb.log"; exit 1; }
-    export DISPLAY=":$display" LIBGL_ALWAYS_SOFTWARE=1 OSG_WINDOW="20 20 400 300"
+    start_screen
     "$work/build/osg_one_line" "$work/wall.obj" > "$work/said" 2>&1 &
     viewer=$!
     timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
@@ -119,6 +134,26 @@ END
     xdotool key Escape
     wait "$viewer" || { cat "$work/said"; exit 1; }
     expect 'the camera was last at 0.00 -0.30 ' cat "$work/said"
+    ;;
+  osg_paged_scene)
+    build osg_paged_scene
+    [[ -d ${ROAM_TEST_DATA-}/pit_osgb ]] || { echo "there is no ROAM_TEST_DATA/pit_osgb: not run"; exit 0; }
+    start_screen
+    export OSG_WINDOW="0 0 800 600"  # the more pixels, the finer the tiles
+    root=("$ROAM_TEST_DATA"/pit_osgb/Data/*/Tile_+000_+000.osgb)
+    "$work/build/osg_paged_scene" "${root[0]}" > "$work/said" 2>&1 &
+    viewer=$!
+    timeout 60 xdotool search --sync --onlyvisible --name '.*' mousemove 100 100 > /dev/null
+    # To where the pager reads finer tiles.
+    xdotool keydown shift keydown w
+    sleep 8
+    xdotool keyup w keyup shift
+    sleep 4
+    xdotool key Escape
+    wait "$viewer" || { cat "$work/said"; exit 1; }
+    cat "$work/said"
+    # More than the root: the pager read on, and what it read is in use.
+    (($(sed -n 's/^\([0-9]*\) files.*/\1/p' "$work/said") > 1)) || exit 1
     ;;
   osg_intersector)
     build osg_intersector
@@ -139,7 +174,7 @@ END
       said=$(tr -s ' \n' ' ' <<< "$said")
       [[ $said == *"$1"* ]] || { echo "$said"; echo "expected: $1"; exit 1; }
     }
-    for component in roam files process import generate store ways profile training osg; do
+    for component in roam files process import generate store ways profile training osgRoam; do
       request=REQUIRED
       [[ $component == roam ]] || request="REQUIRED COMPONENTS $component"
       expect "Generating done" configure "$request" "get_target_property(kind roam::$component TYPE)

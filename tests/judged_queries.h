@@ -18,31 +18,31 @@ using roam::Mesh;
 using roam::Vec3;
 
 /// Metres: a body is never nearer than its radius by more than this, and never stopped farther off.
-constexpr double kNearest = 1e-6;
-constexpr double kFarthest = 2e-3;
-constexpr double kFarthestLossless = 1e-5;
+constexpr double nearest_allowed = 1e-6;
+constexpr double farthest_off = 2e-3;
+constexpr double farthest_lossless = 1e-5;
 
 /// Metres. An arrival is accepted up to 20 um before the body touches, and twice the rounding error of its frame
 /// (docs/algorithm.md). What of that is used depends on where the arrival is looked for from, and so on the order in
 /// which tiles are visited: another where the tree over them is divided into pages, or where a search begins below it.
-constexpr double kArrival = 2.5e-5;
+constexpr double arrival_tolerance = 2.5e-5;
 
 /// The same along the way: the flatter it meets, the more.
 inline double along(const Vec3& way, const roam::Impact& impact) {
   const double length = glm::length(way);
   const double steep = impact.hit && length > 0.0 ? std::abs(glm::dot(impact.normal, way)) / length : 0.0;
-  return kArrival / std::max(0.01, steep);
+  return arrival_tolerance / std::max(0.01, steep);
 }
 
 /// Judges Space::gap where the body's surface comes as near as `gap` (m).
 inline void judge_gap(double bound, double gap, const Body& body, double reach) {
   if (gap > -body.radius) {
-    ASSERT_LE(bound, std::max(gap, 0.0) + kNearest);
+    ASSERT_LE(bound, std::max(gap, 0.0) + nearest_allowed);
   }
   if (bound == reach) {
-    ASSERT_GE(gap, reach - kNearest);
+    ASSERT_GE(gap, reach - nearest_allowed);
   } else {
-    ASSERT_LE(gap, std::max(bound, 0.0) * (8.0 / 7.0) + kFarthest);
+    ASSERT_LE(gap, std::max(bound, 0.0) * (8.0 / 7.0) + farthest_off);
   }
 }
 
@@ -58,13 +58,13 @@ class NearJudge {
 
  private:
   /// Metres. How far the body may go until the triangles around it are looked for again.
-  static constexpr double kSpare = 0.5;
+  static constexpr double spare_room = 0.5;
 
   void look(const Vec3& at, double reach) {
     const Vec3 away = glm::abs(at - centre_);
     if (judge_ && std::max({away.x, away.y, away.z}) + reach <= half_) return;
     centre_ = at;
-    half_ = reach + kSpare;
+    half_ = reach + spare_room;
     const roam::Box around{at - Vec3(half_), at + Vec3(half_)};
     near_ = {};
     for (std::size_t i = 0; i < mesh_->triangles.size(); ++i) {
@@ -91,7 +91,7 @@ inline void judge_sweep(const roam::Impact& s, const Body& body, const Vec3& fro
                         NearJudge& judge) {
   const double enough = body.radius + 0.01;
   if (!s.hit || s.time > 0.0) {
-    ASSERT_GE(judge.over(body, from, s.time * motion, enough), body.radius - kNearest);
+    ASSERT_GE(judge.over(body, from, s.time * motion, enough), body.radius - nearest_allowed);
   }
   if (s.hit) {
     ASSERT_LE(judge.over(body, from + s.time * motion, Vec3(0.0), enough), body.radius + farthest);

@@ -17,34 +17,34 @@ namespace {
 using roam::Body;
 using roam::Triangle;
 using roam::Vec3;
-using roam::index::kWidth;
+using roam::index::node_width;
 using roam::index::Leaf;
 namespace lanes = roam::index::HWY_NAMESPACE;
 
 /// Metres. The triangles lie anywhere in a tile of this step, and bodies pass one of them that set out far from it.
-constexpr double kStep = 1.0 / 1024.0;
-const Vec3 kOrigin(-13739.0, 253.0, 182.0);
+constexpr double step_size = 1.0 / 1024.0;
+const Vec3 curve_origin(-13739.0, 253.0, 182.0);
 
 struct Scene {
   Leaf leaf{};
-  Triangle triangles[kWidth];
+  Triangle triangles[node_width];
 
   explicit Scene(clutter::Random& random) {
-    leaf.triangle_count = kWidth;
+    leaf.triangle_count = node_width;
     // Up to eight metres wide, as fits the tile.
     const double half = std::pow(10.0, random.between(-1.0, 0.6));
     const Vec3 middle = Vec3(32.0) + random.in_box(31.9 - half);
-    Vec3 vertices[kWidth];
-    for (int v = 0; v < kWidth; ++v) {
-      const Vec3 at = (middle + random.in_box(half)) / kStep;
+    Vec3 vertices[node_width];
+    for (int v = 0; v < node_width; ++v) {
+      const Vec3 at = (middle + random.in_box(half)) / step_size;
       for (int k = 0; k < 3; ++k) {
         leaf.vertex[k][v] = static_cast<std::uint16_t>(at[k]);
-        vertices[v][k] = kOrigin[k] + kStep * leaf.vertex[k][v];
+        vertices[v][k] = curve_origin[k] + step_size * leaf.vertex[k][v];
       }
     }
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       for (int c = 0; c < 3; ++c) {
-        const auto v = static_cast<std::uint32_t>(random.engine() % kWidth);
+        const auto v = static_cast<std::uint32_t>(random.engine() % node_width);
         leaf.corner[c][i / 8] |= v << (4 * (i % 8));
         triangles[i][c] = vertices[v];
       }
@@ -55,13 +55,13 @@ struct Scene {
 /// A body that passes one triangle of a scene, and touches it by less than a rounding of its radius.
 struct Touch {
   Scene scene;
-  lanes::Frame frame{kOrigin, kStep, kOrigin};
+  lanes::Frame frame{curve_origin, step_size, curve_origin};
   clutter::Graze graze;
   float radius = 0.0F;
   bool some = false;  ///< there is one
 
   Touch(clutter::Random& random, bool capsule, bool rests) : scene(random) {
-    const Triangle& t = scene.triangles[random.engine() % kWidth];
+    const Triangle& t = scene.triangles[random.engine() % node_width];
     if (!(clutter::length(clutter::cross(t[1] - t[0], t[2] - t[0])) > 1e-3)) return;
     some = true;
     const Body body{std::pow(10.0, random.between(-3.0, 1.0)), capsule ? random.between(0.1, 1.0) : 0.0};
@@ -70,7 +70,7 @@ struct Touch {
       graze.from += graze.time * graze.motion;
       graze.motion = Vec3(0.0);
     }
-    frame = lanes::Frame(kOrigin, kStep, graze.from);
+    frame = lanes::Frame(curve_origin, step_size, graze.from);
     const long double least = oracle::least_distance(graze.body, graze.from, graze.motion, 1.0, t);
     radius = std::nextafter(static_cast<float>(least), 100.0F);
   }
@@ -86,11 +86,11 @@ void sweep_every_triangle(bool capsule) {
     const Touch touch(random, capsule, false);
     if (!touch.some) continue;
     const lanes::Motion motion(touch.graze.motion, touch.graze.body.half_height);
-    const float limit = q % 2 == 0 ? -1.0F : touch.radius + roam::index::kHitLimit;
+    const float limit = q % 2 == 0 ? -1.0F : touch.radius + roam::index::hit_limit_distance;
     lanes::Met met;
     lanes::sweep_leaf(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius, limit, 0.0F, 1.0F,
                       met);
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       ++tested;
       const bool left = ((met.arrived | met.open) >> i & 1U) != 0;
       const double free = left ? double(met.time[i]) : 1.0;
@@ -125,12 +125,12 @@ void bound_every_triangle(bool capsule) {
     const Bounds bounds(1.0 / 8.0, 0.0, 0.0, 100.0);
     lanes::VF left = lanes::set(std::numeric_limits<float>::infinity());
     lanes::Children triangles;
-    alignas(64) float most[kWidth], lanes_left[lanes::kLanes];
+    alignas(64) float most[node_width], lanes_left[lanes::lane_count];
     lanes::near_leaf(touch.scene.leaf, touch.frame, way, touch.radius, bounds, left, triangles, most);
     lanes::hn::Store(left, lanes::kF, lanes_left);
-    const float others = *std::min_element(lanes_left, lanes_left + lanes::kLanes);
+    const float others = *std::min_element(lanes_left, lanes_left + lanes::lane_count);
     ASSERT_GT(others, touch.radius);
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       ++tested;
       const long double least = touch.least(i, 1.0);
       if ((triangles.mask >> i & 1U) == 0) {
@@ -170,11 +170,11 @@ struct Sliver {
     const Vec3 corners[3] = {first, second, third};
     for (int c = 0; c < 3; ++c) {
       for (int k = 0; k < 3; ++k) {
-        const double steps = (corners[(c + turned) % 3][k] + 32.0) / kStep;
+        const double steps = (corners[(c + turned) % 3][k] + 32.0) / step_size;
         leaf.vertex[k][c] = static_cast<std::uint16_t>(steps);
-        triangle[c][k] = kStep * leaf.vertex[k][c];
+        triangle[c][k] = step_size * leaf.vertex[k][c];
       }
-      for (int i = 0; i < kWidth; ++i) leaf.corner[c][i / 8] |= static_cast<std::uint32_t>(c) << (4 * (i % 8));
+      for (int i = 0; i < node_width; ++i) leaf.corner[c][i / 8] |= static_cast<std::uint32_t>(c) << (4 * (i % 8));
     }
     normal = clutter::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const double area = clutter::length(normal);
@@ -196,10 +196,10 @@ TEST(LeafFilter, KnowsHowNearASliverIs) {
     const double beside = std::pow(10.0, random.between(-3.0, 0.5)), above = std::pow(10.0, random.between(-4.0, 1.0));
     const Vec3 place = t[0] + random.unit() * (t[1] - t[0]) + (q % 2 == 0 ? beside : -beside) * side +
                        (q % 4 < 2 ? above : -above) * sliver.normal;
-    const lanes::Frame frame(Vec3(0.0), kStep, place);
+    const lanes::Frame frame(Vec3(0.0), step_size, place);
     lanes::VF left = lanes::set(0.0F);
     lanes::Children triangles;
-    alignas(64) float most[kWidth];
+    alignas(64) float most[node_width];
     lanes::near_leaf(sliver.leaf, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left,
                      triangles, most);
     ASSERT_EQ(triangles.mask & 1U, 1U) << q;
@@ -221,7 +221,7 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
     const double depth = q % 4 < 2 ? 0.0 : random.between(-0.02, 0.3) * body.radius;
     const clutter::Graze g =
         clutter::graze(random, sliver.triangle, body, depth, std::pow(10.0, random.between(-2.0, 1.8)));
-    const lanes::Frame frame(Vec3(0.0), kStep, g.from);
+    const lanes::Frame frame(Vec3(0.0), step_size, g.from);
     const lanes::Motion motion(g.motion, body.half_height);
     const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
     const float limit = static_cast<float>(body.radius) + 0.00114F;

@@ -1,8 +1,10 @@
 // A reader that was taken over by its file: it enters the walls as roam-reader does, and then does what the file says,
 // one word. It lives to tell only where the walls let it.
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -31,6 +33,23 @@
 namespace {
 
 using namespace roam::reader;
+
+bool no_seccomp = false, no_close_range = false;  ///< of the kernel that this stands for
+
+}  // namespace
+
+// These take the place of the libraries' in this program.
+extern "C" scmp_filter_ctx seccomp_init(std::uint32_t action) {
+  using Init = scmp_filter_ctx (*)(std::uint32_t);
+  return no_seccomp ? nullptr : reinterpret_cast<Init>(dlsym(RTLD_NEXT, "seccomp_init"))(action);
+}
+extern "C" int close_range(unsigned first, unsigned last, int flags) noexcept {
+  if (!no_close_range) return static_cast<int>(syscall(SYS_close_range, first, last, flags));
+  errno = ENOSYS;
+  return -1;
+}
+
+namespace {
 
 std::string beside;           ///< a path in the scene's folder
 FrameWriter* said = nullptr;  ///< the stream that has begun
@@ -83,6 +102,8 @@ const std::map<std::string, std::function<long()>> misdeeds{
        const rlimit any{RLIM_INFINITY, RLIM_INFINITY};
        return setrlimit(RLIMIT_AS, &any);
      }},
+    // A descriptor that the program which started this one has left open.
+    {"inherited", [] { return fcntl(9, F_GETFD); }},
     {"secret", [] { return open("/etc/passwd", O_RDONLY); }},
     {"list", [] { return open("/etc", O_RDONLY | O_DIRECTORY); }},
     {"proc", [] { return open("/proc/self/environ", O_RDONLY); }},
@@ -125,13 +146,13 @@ int main(int argc, char** argv) {
     if (name == "--folder") rights.scope.folders.emplace_back(argv[i + 1]);
     if (name == "--file") rights.scope.files.emplace_back(argv[i + 1]);
     if (name == "--memory") rights.data = std::strtoull(argv[i + 1], nullptr, 10);
+    if (name == "--no-seccomp") no_seccomp = true;
+    if (name == "--no-close-range") no_close_range = true;
     if (name == "--thread") std::thread(pause).detach();
     if (name == "--highest-landlock") highest = std::atoi(argv[i + 1]);
     if (name == "--") rights.scope.scene = scene = argv[i + 1];
   }
-  static_cast<void>(limit_process(rights, stream_fd));
-  static_cast<void>(enter_empty_folder());
-  const roam::Confinement walls = enter(rights, highest);
+  const roam::Confinement walls = confine(rights, stream_fd, highest);
   FrameWriter frames(stream_fd);
   frames.send(FrameKind::hello,
               PayloadWriter().add(Greeting{stream_version, walls.landlock, walls.system_calls, 1, 1, 1}));

@@ -12,7 +12,7 @@
 namespace {
 
 using roam::Vec3;
-using roam::index::kWidth;
+using roam::index::node_width;
 using roam::index::Node;
 namespace lanes = roam::index::HWY_NAMESPACE;
 
@@ -28,12 +28,12 @@ struct Scene {
     extent = static_cast<float>(step * (top ? 0x1p29 : 0x1p16));
     const double wide = top ? 4000.0 : 60.0;
     origin = {-13739.0, 253.0, 182.0};
-    node.child_count = kWidth;
-    node.inner_count = kWidth;
+    node.child_count = node_width;
+    node.inner_count = node_width;
     for (int k = 0; k < 3; ++k) {
       node.shift[k] = static_cast<std::uint8_t>(random.between(0.0, top ? 18.0 : 8.0));
       node.origin[k] = static_cast<std::int32_t>(random.between(0.0, 0.5 * wide / step));
-      for (int i = 0; i < kWidth; ++i) {
+      for (int i = 0; i < node_width; ++i) {
         const auto a = static_cast<std::uint8_t>(random.between(0.0, 256.0));
         const auto b = static_cast<std::uint8_t>(random.between(0.0, 256.0));
         node.lower[k][i] = std::min(a, b);
@@ -42,7 +42,7 @@ struct Scene {
     }
     start = origin + Vec3(random.between(0.0, wide), random.between(0.0, wide), random.between(0.0, wide));
   }
-  [[nodiscard]] long double plane(const std::uint8_t (&bounds)[3][kWidth], int i, int k) const {
+  [[nodiscard]] long double plane(const std::uint8_t (&bounds)[3][node_width], int i, int k) const {
     const auto steps = static_cast<std::int64_t>(node.origin[k]) + (std::int64_t{bounds[k][i]} << node.shift[k]);
     return (long double)(origin[k]) + (long double)(step)*steps;
   }
@@ -95,7 +95,7 @@ void touch_every_child(bool top) {
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
     const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       const long double t = scene.nearest_time(i, way, h), d = scene.distance(i, way, h, t);
       if (d > 1000.0L) continue;
       ++tested;
@@ -115,7 +115,7 @@ void touch_every_child(bool top) {
       const lanes::Swept swept(frame, lanes::Reach(way, double(radius) - double(more), h), more);
       const std::uint32_t met = lanes::met_children(scene.node, swept);
       ASSERT_NE(met >> i & 1U, 0U) << "query " << q << " child " << i;
-      left_out += kWidth - std::popcount(met);
+      left_out += node_width - std::popcount(met);
 
       for (const Vec3& gone : {Vec3(0.0), way}) {
         const long double least = gone == way ? d : scene.distance(i, Vec3(0.0), h, 0.0L);
@@ -131,9 +131,9 @@ void touch_every_child(bool top) {
         // Out of reach it is bounded, too.
         const float half = 0.5F * static_cast<float>(least);
         lanes::near_node(scene.node, frame, near, margin, half, left, children);
-        alignas(64) float lanes_left[lanes::kLanes];
+        alignas(64) float lanes_left[lanes::lane_count];
         lanes::hn::Store(left, lanes::kF, lanes_left);
-        ASSERT_GE(*std::min_element(lanes_left, lanes_left + lanes::kLanes), half) << "query " << q;
+        ASSERT_GE(*std::min_element(lanes_left, lanes_left + lanes::lane_count), half) << "query " << q;
         ASSERT_TRUE((children.mask >> i & 1U) != 0 || children.key[i] > half) << "query " << q << " child " << i;
       }
     }
@@ -145,10 +145,10 @@ void touch_every_child(bool top) {
 TEST(NodeFilter, LosesNoChildOfATinyTileToALargeBodyFarOff) {
   clutter::Random random(42);
   Node node{};
-  node.child_count = kWidth;
+  node.child_count = node_width;
   for (int k = 0; k < 3; ++k) {
     node.shift[k] = 8;
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       node.lower[k][i] = 1;
       node.upper[k][i] = 254;
     }
@@ -162,7 +162,7 @@ TEST(NodeFilter, LosesNoChildOfATinyTileToALargeBodyFarOff) {
     const Vec3 start = origin + Vec3(0.5 * wide, 0.5 * wide, off);
     const lanes::Frame frame(origin, finest, start);
     const lanes::Swept swept(frame, lanes::Reach(Vec3(0.0, 0.0, q % 3 == 0 ? 1.0 : 0.0), radius, h), 0.0F);
-    ASSERT_EQ(lanes::met_children(node, swept), (1U << kWidth) - 1) << q << ": " << off << " m off";
+    ASSERT_EQ(lanes::met_children(node, swept), (1U << node_width) - 1) << q << ": " << off << " m off";
   }
 }
 
@@ -175,7 +175,7 @@ void delay_every_child(bool top) {
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
     const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       const long double nearest = scene.nearest_time(i, way, h), least = scene.distance(i, way, h, nearest);
       const long double most = scene.distance(i, way, h, 0.0L);
       if (least > 1000.0L) continue;
@@ -209,7 +209,7 @@ void pierce_every_child(bool top) {
   for (int q = 0; q < 2000; ++q) {
     const Scene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
-    for (int i = 0; i < kWidth; ++i) {
+    for (int i = 0; i < node_width; ++i) {
       Vec3 point;
       for (int k = 0; k < 3; ++k) {
         const auto lower = double(scene.plane(scene.node.lower, i, k)),

@@ -11,7 +11,7 @@ using rig::Rig;
 TEST(ManipulatorFailures, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
   struct Failing final : roam::Space {
     roam::SpaceFacts facts() const override { return {.bounds = {Vec3(-1.0), Vec3(1.0)}}; }
-    std::string object_name(roam::TriangleId) const override { return {}; }
+    roam::Object object(roam::TriangleId) const override { return {}; }
     roam::FirstImpact ask_first(const roam::Query&, roam::Vicinity*) const override {
       if (broken) throw roam::Error("the disk is gone");
       return {};

@@ -164,7 +164,7 @@ TEST(ManipulatorKeys, AJumpIsEquallyHighAtAnyFrameRate) {
     const double ground = r->walker()->feet().z;
     double top = 0.0;
     r->setStepCallback([&](const roam::StepReport& report, double) {
-      for (const roam::Corner& c : report.corners) top = std::max(top, c.position.z - 0.5 * c.height - ground);
+      for (const roam::Segment& c : report.segments) top = std::max(top, c.position.z - 0.5 * c.height - ground);
     });
     r.press(' ');
     r.frames(1.0, dt);

@@ -160,7 +160,7 @@ TEST(ManipulatorMouse, ADoubleClickGoesThere) {
     EXPECT_TRUE(r.viewer.continuous);
     r.frames(5.0);
     EXPECT_FALSE(r->going());
-    EXPECT_LT(glm::length(r->walker()->feet() - floor), 0.05) << name(mode);
+    EXPECT_LT(glm::length(r->walker()->feet() - floor), 0.05) << to_string(mode);
     EXPECT_FALSE(r.viewer.continuous);
   }
 }

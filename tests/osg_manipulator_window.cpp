@@ -264,7 +264,7 @@ TEST(ManipulatorWindow, AViewerThatDrawsOnDemandRestsWhenTheBodyDoes) {
     EXPECT_TRUE(w.viewer.checkNeedToDoFrame());
     xdo("keyup w");
     EXPECT_TRUE(w.until([&] { return w.watch->count(Adapter::KEYUP, 'w') > let_go; }));
-    EXPECT_TRUE(w.until([&] { return !w.viewer.checkNeedToDoFrame(); })) << name(mode);
+    EXPECT_TRUE(w.until([&] { return !w.viewer.checkNeedToDoFrame(); })) << to_string(mode);
   }
 }
 

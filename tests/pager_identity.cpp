@@ -64,7 +64,7 @@ class StoredWorld final : public roam::Space {
   }
 
   [[nodiscard]] roam::SpaceFacts facts() const override { return {}; }
-  [[nodiscard]] std::string object_name(TriangleId) const override { return {}; }
+  [[nodiscard]] roam::Object object(TriangleId) const override { return {}; }
 
  protected:
   [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {

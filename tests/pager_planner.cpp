@@ -31,7 +31,7 @@ class Scenery {
     place_ += 0.05 * velocity_;
     if (whole(0, 49) == 0) velocity_ = {number(-20.0, 20.0), number(-20.0, 20.0), 0.0};
     if (whole(0, 99) == 0) place_ = {number(-100.0, 100.0), number(-100.0, 100.0), 0.0};
-    handover_.traveller = Traveller({0.3, 0.5}, place_, velocity_);
+    handover_.tracked = TrackedBody({0.3, 0.5}, place_, velocity_);
     ++handover_.told;
     if (whole(0, 2) > 0) update();
     Work work;
@@ -78,19 +78,19 @@ class Scenery {
   void update() {
     while (!handover_.messages.empty() && handover_.gone.room() > 0) {
       const Message message = handover_.messages.pop();
-      const Thing& thing = message.thing;
-      ASSERT_TRUE(thing.is_page() || residents_->has_page(thing.page)) << "spoken of after its page";
+      const PagedItem& item = message.item;
+      ASSERT_TRUE(item.is_page() || residents_->has_page(item.page)) << "spoken of after its page";
       if (message.kind == Message::Kind::failed) {
-        residents_->fail(thing);
+        residents_->fail(item);
       } else if (message.kind == Message::Kind::go) {
-        const bool kept = handover_.traveller.holds(residents_->box(thing));
-        handover_.gone.push({thing, kept});
-        if (!kept) residents_->take(thing);
+        const bool kept = handover_.tracked.holds(residents_->box(item));
+        handover_.gone.push({item, kept});
+        if (!kept) residents_->take(item);
         ++gone_;
-      } else if (thing.is_page()) {
-        residents_->put_page(thing.page, message.page);
+      } else if (item.is_page()) {
+        residents_->put_page(item.page, message.page);
       } else {
-        residents_->put_tile(thing, message.unit);
+        residents_->put_tile(item, message.unit);
       }
     }
   }
@@ -98,22 +98,22 @@ class Scenery {
   /// What a loading thread does.
   void load(const Work& work) {
     std::byte* const memory = arena_ + work.unit * unit_bytes;
-    const std::vector<store::TileEntry>& tiles = tiles_[work.thing.page];
+    const std::vector<store::TileEntry>& tiles = tiles_[work.item.page];
     Outcome outcome;
-    if (work.thing.is_page()) {
-      const std::uint32_t coded = store_.pages[work.thing.page].ref.bytes;
+    if (work.item.is_page()) {
+      const std::uint32_t coded = store_.pages[work.item.page].ref.bytes;
       std::memcpy(memory, tiles.data(), coded);
       outcome.page.view.tiles = {reinterpret_cast<const store::TileEntry*>(memory), tiles.size()};
       std::byte* at = memory + Planner::tiles_offset(coded);
       outcome.page.tiles = reinterpret_cast<index::Tile*>(at);
       index::Tile absent{};
-      absent.nodes = index::Tile::kAbsent;
+      absent.nodes = index::Tile::absent_leaf;
       for (std::size_t i = 0; i < tiles.size(); ++i, at += sizeof absent) new (at) index::Tile(absent);
       for (std::size_t i = 0; i < tiles.size(); ++i, at += sizeof(Planner::TileState)) new (at) Planner::TileState();
     } else {
       const auto* entry = reinterpret_cast<const std::byte*>(work.entry);
       ASSERT_TRUE(entry >= arena_ && entry < arena_ + units_ * unit_bytes) << "to be read after its page has gone";
-      ASSERT_EQ(std::memcmp(entry, &tiles[work.thing.tile], sizeof(store::TileEntry)), 0) << "its page is overwritten";
+      ASSERT_EQ(std::memcmp(entry, &tiles[work.item.tile], sizeof(store::TileEntry)), 0) << "its page is overwritten";
       std::memset(memory, 0xEE, shape_of(*work.entry).bytes());
     }
     if (whole(0, 49) == 0) outcome.why = "made to fail";

@@ -119,7 +119,7 @@ void judge_beside(const Pager& pager, Vicinity& vicinity, const Question& q, con
     ASSERT_FALSE(a.impact.unknown);
     ASSERT_FALSE(b.impact.unknown);
     if (q.sweep) {
-      judged::judge_sweep(a.impact, q.body, q.from, q.motion, judged::kFarthest, judge);
+      judged::judge_sweep(a.impact, q.body, q.from, q.motion, judged::farthest_off, judge);
     } else {
       judged::judge_gap(a.gap, q.body, q.from, q.motion, q.reach, judge);
     }
@@ -129,9 +129,9 @@ void judge_beside(const Pager& pager, Vicinity& vicinity, const Question& q, con
   const double enough = q.body.radius + q.reach + 0.01;
   if (!q.sweep) {
     const double gap = judge.over(q.body, q.from, q.motion, enough) - q.body.radius;
-    ASSERT_LE(a.gap, std::max(gap, 0.0) + judged::kNearest);
+    ASSERT_LE(a.gap, std::max(gap, 0.0) + judged::nearest_allowed);
   } else if (!a.impact.hit || a.impact.time > 0.0) {
-    ASSERT_GE(judge.over(q.body, q.from, a.impact.time * q.motion, enough), q.body.radius - judged::kNearest);
+    ASSERT_GE(judge.over(q.body, q.from, a.impact.time * q.motion, enough), q.body.radius - judged::nearest_allowed);
   }
 }
 
@@ -299,7 +299,7 @@ TEST(PagerVicinity, NeverAnswersFromAnotherStore) {
       const Answer a = ask_in(pager, vicinity, q);
       hits += a.impact.hit ? 1 : 0;
       if (q.sweep) {
-        judged::judge_sweep(a.impact, q.body, q.from, q.motion, judged::kFarthest, judge);
+        judged::judge_sweep(a.impact, q.body, q.from, q.motion, judged::farthest_off, judge);
       } else {
         judged::judge_gap(a.gap, q.body, q.from, q.motion, q.reach, judge);
       }

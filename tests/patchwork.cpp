@@ -158,4 +158,96 @@ TEST(Patchwork, TriangleNumbersStayWithTheirPatch) {
   EXPECT_EQ(space.object_name(id + 2), "");
 }
 
+TEST(Patchwork, WhatIsForgottenIsUnknownAndMayComeAgain) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  EXPECT_THROW(space.forget(patch), roam::Error);  // it has not come
+  EXPECT_THROW(space.forget(PatchId{7}), roam::Error);
+  space.deliver(patch, board(0.25));
+  space.update();
+  const std::uint64_t bytes = space.stats().bytes;
+  space.forget(patch);
+  EXPECT_THROW(space.forget(patch), roam::Error);  // it is forgotten
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.25, stored);
+  EXPECT_TRUE(space.update());
+  EXPECT_NEAR(stopped_at(space, 0.5), 1.0, stored);
+  EXPECT_TRUE(space.sweep(ball, {0.5, 0.5, 3.0}, {0.0, 0.0, -4.0}).unknown);
+  EXPECT_EQ(space.stats().patches, 0u);
+  EXPECT_EQ(space.stats().unknown, 1u);
+  EXPECT_EQ(space.stats().coming, 1u);
+  EXPECT_EQ(space.stats().triangles, 0u);
+  (void)space.expect({{9.0, 9.0, 9.0}, {10.0, 10.0, 10.0}});  // frees what was forgotten
+  space.update();
+  EXPECT_LT(space.stats().bytes, bytes);
+  space.deliver(patch, board(0.75));
+  EXPECT_TRUE(space.update());
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.75, stored);
+  EXPECT_EQ(space.stats().coming, 1u);
+  EXPECT_EQ(space.stats().patches, 1u);
+}
+
+TEST(Patchwork, ForgetsNothingThatTheBodyIsIn) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  space.deliver(patch, board(0.25));
+  space.update();
+  space.forget(patch);
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 0.6}));
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 1.0 + ball.radius}));
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.25, stored);
+  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 1.0 + ball.radius + 3.0 * Patchwork::margin}));
+  EXPECT_NEAR(stopped_at(space, 0.5), 1.0, stored);
+  EXPECT_TRUE(space.fits(ball, {0.5, 0.5, 1.0 + ball.radius + 3.0 * Patchwork::margin}));
+}
+
+TEST(Patchwork, WhatIsDeliveredAgainBeforeItIsForgottenTakesItsPlace) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  space.deliver(patch, board(0.25));
+  space.update();
+  space.forget(patch);
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 0.6}));
+  space.deliver(patch, board(0.75));
+  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 5.0}));
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.75, stored);
+  EXPECT_EQ(space.stats().patches, 1u);
+  EXPECT_EQ(space.stats().coming, 0u);
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 5.0}));
+}
+
+TEST(Patchwork, ForgetsAFinerPatchThatWaitsAndNoneThatIsReplaced) {
+  Patchwork space;
+  const PatchId coarse = space.expect(unit), finer = space.expect(unit, coarse), other = space.expect(unit, coarse);
+  space.deliver(coarse, board(0.25));
+  space.deliver(finer, board(0.5));
+  space.update();
+  space.forget(finer);
+  space.deliver(other, board(0.75));
+  space.update();
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.25, stored);  // the finer ones are not all there
+  space.deliver(finer, board(0.5));
+  space.update();
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.75, stored);
+  space.forget(coarse);
+  EXPECT_FALSE(space.update());
+  EXPECT_NEAR(stopped_at(space, 0.5), 0.75, stored);
+  EXPECT_EQ(space.stats().coming, 0u);
+}
+
+TEST(Patchwork, CountsAFailureThatComesBeforeThePatchIsForgotten) {
+  Patchwork space;
+  const PatchId patch = space.expect(unit);
+  space.deliver(patch, board(0.25));
+  space.update();
+  space.forget(patch);
+  space.fail(patch, "lost");
+  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 0.6}));
+  EXPECT_EQ(space.stats().coming, 0u);
+  EXPECT_EQ(space.stats().failed, 0u);
+  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 5.0}));
+  EXPECT_EQ(space.stats().coming, 0u);
+  EXPECT_EQ(space.stats().failed, 1u);
+  EXPECT_EQ(space.stats().unknown, 1u);
+}
+
 }  // namespace

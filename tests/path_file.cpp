@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <streambuf>
 
 #include "roam/error.h"
 
@@ -75,14 +76,67 @@ TEST(PathFile, NeedsTwoWaypoints) {
   EXPECT_NE(message("1 2 3\n").find("only one waypoint"), std::string::npos);
 }
 
+/// Lines without end, of which each is the same.
+class Endless : public std::streambuf {
+ public:
+  explicit Endless(std::string line) : line_(std::move(line)) { rewind(); }
+  std::uint64_t bytes = 0;
+
+ private:
+  void rewind() { setg(line_.data(), line_.data(), line_.data() + line_.size()); }
+  int_type underflow() override {
+    bytes += line_.size();
+    if (bytes > std::uint64_t{1} << 30) return traits_type::eof();
+    rewind();
+    return traits_type::to_int_type(line_.front());
+  }
+  std::string line_;
+};
+
+std::string message_of_endless(const std::string& line) {
+  Endless lines(line);
+  std::istream in(&lines);
+  try {
+    (void)roam::read_path(in, "walk.path");
+  } catch (const roam::Error& error) {
+    return error.what();
+  }
+  return "read to its end";
+}
+
+TEST(PathFile, IsNotReadWithoutEnd) {
+  EXPECT_EQ(message_of_endless("x"),
+            "walk.path:1: the line is longer than 4096 bytes; a line is 'x y z' or 't x y z qx "
+            "qy qz qw'");
+  EXPECT_EQ(message_of_endless("1 2 3\n"),
+            "walk.path:1000001: holds more than 1000000 waypoints; leave some out, or go along it in parts");
+  EXPECT_EQ(message_of_endless("# a comment that is as long as comments are, and says nothing\n"),
+            "walk.path: is larger than 128 MiB; is it the right file?");
+}
+
+TEST(PathFile, TakesLinesAsLongAsTheyMayBe) {
+  const std::string longest = "#" + std::string(4095, 'x');
+  EXPECT_EQ(read(longest + "\n1 2 3\n4 5 6\n" + longest).size(), 2u);
+  EXPECT_EQ(message("1 2 3\n4 5 6\n" + longest + "x").substr(0, 28), "walk.path:3: the line is lon");
+}
+
+TEST(PathFile, ShowsLittleOfAFileThatIsNone) {
+  const std::string secret(200, 's');
+  const std::string said = message(secret + " in a file that a link leads to\n");
+  EXPECT_EQ(said.find(std::string(30, 's')), std::string::npos) << said;
+  EXPECT_EQ(said.find("a link"), std::string::npos) << said;
+  EXPECT_EQ(message("1 2 \x1b[31mred\n").find('\x1b'), std::string::npos);
+}
+
 TEST(PathFile, SaysWhichFileCannotBeOpened) {
   try {
     (void)roam::load_path("no/such.path");
     FAIL() << "opened a file that is not there";
   } catch (const roam::Error& error) {
-    EXPECT_EQ(std::string(error.what()), "cannot open the path file no/such.path; check its name and permissions");
+    EXPECT_EQ(std::string(error.what()), "cannot read no/such.path: No such file or directory; check its name");
   }
   EXPECT_THROW((void)roam::load_path("."), roam::Error);
+  EXPECT_THROW((void)roam::load_path("/dev/zero"), roam::Error);
 }
 
 /// A file that is gone when the test ends.

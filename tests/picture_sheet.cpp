@@ -48,7 +48,11 @@ struct Drawn {
     report.settings = settings;
     report.waypoints = path.size();
     if (report.result.blocked_at) report.object = world.object_name(report.result.blocked_at->triangle);
-    sheet = picture::make_sheet({title, report, record, world, meshes});
+    const picture::Measured measured = picture::measure(world, report, record);
+    const auto triangles = [&](const roam::Box&, const std::function<void(std::span<const Mesh>)>& take) {
+      take(meshes);
+    };
+    sheet = picture::make_sheet({title, report, record, measured, world.bounds(), triangles});
   }
 
   template <class Item>
@@ -164,7 +168,7 @@ TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
     }
     EXPECT_FALSE(drawn.all<Text>("title").empty());
     EXPECT_FALSE(drawn.all<Text>("legend").empty());
-    EXPECT_TRUE(drawn.says(std::string(name(drawn.report.result.outcome)) + ":"));
+    EXPECT_TRUE(drawn.says(std::string(to_string(drawn.report.result.outcome)) + ":"));
   }
 }
 

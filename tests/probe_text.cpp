@@ -48,7 +48,7 @@ TEST(ProbeText, SaysNotShownWhereTheWalkerContradictsTheWay) {
     const app::Json json = app::json_report(answer, false);
     EXPECT_EQ(json["passable"], false);
     EXPECT_EQ(json["wide_enough"], true);
-    EXPECT_EQ(json["walked"]["outcome"], name(outcome));
+    EXPECT_EQ(json["walked"]["outcome"], to_string(outcome));
     const std::vector<ProbeAnswer> answers{answer};
     EXPECT_TRUE(contains(app::table(question, answers), " ? ")) << app::table(question, answers);
   }
@@ -170,12 +170,12 @@ TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {
     ProbeAnswer answer = wide_enough(Outcome::reached);
     answer.limit->kind = kind;
     const app::Json opening = app::json_report(answer, true)["opening"];
-    EXPECT_EQ(opening["kind"], name(kind));
+    EXPECT_EQ(opening["kind"], to_string(kind));
     for (const char* other : {"width_m", "distance_m", "height_m", "step_m"})
-      EXPECT_EQ(opening.contains(other), member == other) << name(kind) << " " << other;
-    EXPECT_EQ(opening["missing_m"].is_null(), kind == Kind::apart) << name(kind);
-    EXPECT_EQ(opening.contains("end"), kind == Kind::start || kind == Kind::target) << name(kind);
-    EXPECT_EQ(opening.contains("room"), kind == Kind::start || kind == Kind::target) << name(kind);
+      EXPECT_EQ(opening.contains(other), member == other) << to_string(kind) << " " << other;
+    EXPECT_EQ(opening["missing_m"].is_null(), kind == Kind::apart) << to_string(kind);
+    EXPECT_EQ(opening.contains("end"), kind == Kind::start || kind == Kind::target) << to_string(kind);
+    EXPECT_EQ(opening.contains("room"), kind == Kind::start || kind == Kind::target) << to_string(kind);
   }
   ProbeAnswer low = wide_enough(Outcome::reached);
   low.limit->kind = Kind::start;

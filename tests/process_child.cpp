@@ -258,5 +258,22 @@ TEST(FindProgram, LooksInTheFoldersOfPath) {
   ::setenv("PATH", path.c_str(), 1);
 }
 
+TEST(FindProgram, LooksInNoFolderThatDependsOnWhereItWasStarted) {
+  const TestFolder folder;
+  const std::string program = folder.write("roam-test-program", "#!/bin/sh\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.file(""));
+  for (const std::string& relative :
+       {std::string(), std::string("."),
+        std::string("../" + std::filesystem::path(folder.file("")).parent_path().filename().string())}) {
+    ::setenv("PATH", (relative + ":" + path).c_str(), 1);
+    EXPECT_EQ(find_program("roam-test-program"), "") << relative;
+  }
+  ::setenv("PATH", path.c_str(), 1);
+  std::filesystem::current_path(before);
+}
+
 }  // namespace
 }  // namespace roam::process

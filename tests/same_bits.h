@@ -40,7 +40,7 @@ class Bits {
     (*this)(r.elapsed);
     (*this)(r.clearance);
     (*this)(r.least_clearance);
-    for (const roam::Corner& c : r.corners) {
+    for (const roam::Segment& c : r.segments) {
       (*this)(c.position);
       (*this)(c.time);
       (*this)(c.clearance);

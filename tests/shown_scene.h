@@ -96,7 +96,7 @@ inline std::string display_error(const std::filesystem::path& path, const Import
 }
 
 /// How many of the scene's triangles are not shown once each within `tolerance` metres, corner by corner.
-inline std::size_t not_shown(const Scene& scene, const Shown& shown, double tolerance) {
+inline std::size_t not_shown(const ImportedScene& scene, const Shown& shown, double tolerance) {
   using Cell = std::array<std::int64_t, 3>;
   const double size = 4.0 * tolerance;
   const auto cell_of = [&](const Vec3& v) {

@@ -95,15 +95,15 @@ TEST(Objects, AreNamedByEveryHit) {
   std::array<Contact, 8> contacts;
   for (const Query& q : queries(9, half, 2000)) {
     const Impact impact = world.sweep(q);
-    ASSERT_EQ(impact.object, impact.hit ? world.object(impact.triangle) : roam::no_object);
+    ASSERT_EQ(impact.object, impact.hit ? world.object(impact.triangle).id : roam::no_object);
     if (impact.hit) ++met[impact.object];
     for (std::size_t i = world.contacts(q, 0.5, contacts); i-- > 0;) {
-      ASSERT_EQ(contacts[i].object, world.object(contacts[i].triangle));
+      ASSERT_EQ(contacts[i].object, world.object(contacts[i].triangle).id);
     }
     const Clearance near = world.clearance(q, 1.0);
-    ASSERT_EQ(near.object, near.found ? world.object(near.triangle) : roam::no_object);
+    ASSERT_EQ(near.object, near.found ? world.object(near.triangle).id : roam::no_object);
     const Clearance floor = world.floor_clearance(q.body, q.from, 1.0, {.slope_degrees = 40.0});
-    ASSERT_EQ(floor.object, floor.found ? world.object(floor.triangle) : roam::no_object);
+    ASSERT_EQ(floor.object, floor.found ? world.object(floor.triangle).id : roam::no_object);
   }
   for (const long times : met) EXPECT_GT(times, 10);
 }
@@ -116,8 +116,9 @@ TEST(Objects, OfAPatchworkAreThoseOfThePatch) {
   const auto judge = [&](const auto& answer) {
     ++(answer.unknown ? unknown : known);
     const auto patch = static_cast<std::size_t>(Patchwork::patch(answer.triangle)) - 1;
-    ASSERT_EQ(answer.object, answer.unknown ? roam::no_object
-                                            : worlds.at(patch).object(Patchwork::triangle_in_patch(answer.triangle)));
+    ASSERT_EQ(answer.object, answer.unknown
+                                 ? roam::no_object
+                                 : worlds.at(patch).object(Patchwork::triangle_in_patch(answer.triangle)).id);
   };
   for (const Query& q : queries(10, half, 1000)) {
     const Impact impact = patches.space.sweep(q);
@@ -183,7 +184,7 @@ class List final : public Space {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) triangles_.push_back(mesh.triangle(i));
   }
   [[nodiscard]] roam::SpaceFacts facts() const override { return {}; }
-  [[nodiscard]] std::string object_name(roam::TriangleId) const override { return "list"; }
+  [[nodiscard]] roam::Object object(roam::TriangleId) const override { return {0, "list"}; }
 
  protected:
   [[nodiscard]] FirstImpact ask_first(const Query& query, roam::Vicinity*) const override {
@@ -264,7 +265,7 @@ TEST(ASpaceOfOnesOwn, AnswersAsALosslessWorldDoes) {
 TEST(ASpaceOfOnesOwn, IsAskedNothingThatNoQueryTakes) {
   struct Untouched final : Space {
     [[nodiscard]] roam::SpaceFacts facts() const override { return {}; }
-    [[nodiscard]] std::string object_name(roam::TriangleId) const override { return {}; }
+    [[nodiscard]] roam::Object object(roam::TriangleId) const override { return {}; }
     [[nodiscard]] FirstImpact ask_first(const Query&, roam::Vicinity*) const override {
       ADD_FAILURE() << "it was asked";
       return {};

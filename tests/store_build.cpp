@@ -17,8 +17,8 @@ using roam::Mesh;
 using roam::Triangle;
 using roam::Vec3;
 
-constexpr double kEverything = 1e10;
-const Box everything{Vec3(-kEverything), Vec3(kEverything)};
+constexpr double all_of_it = 1e10;
+const Box everything{Vec3(-all_of_it), Vec3(all_of_it)};
 
 double apart(const Triangle& a, const Triangle& b) {
   double worst = 0.0;

@@ -119,7 +119,7 @@ TEST(StoreDivision, BordersLieOnlyWhereMoreThanAShardIsDivided) {
   const ShardLimits limits{500, 1500};
   for (const Stretch& s : divided(parts, {20}, limits).stretches) {
     for (const CurveCell& cell : s.cells) {
-      if (cell.bits == kKeyBits) continue;
+      if (cell.bits == key_bits) continue;
       // The cell around it, up to where another triangle shares it.
       std::uint64_t inside = 0, around = 0;
       const CurveCell twice{cell.key >> (cell.bits + 1) << (cell.bits + 1), cell.bits + 1};
@@ -178,11 +178,11 @@ TEST(StoreHistogram, DoesNotDependOnTheRuns) {
 TEST(StoreCurve, PlacesOfAnAxisComeBack) {
   clutter::Random random(6);
   for (int i = 0; i < 1000; ++i) {
-    const std::uint64_t x = random.engine() & ((std::uint64_t{1} << AbsoluteCurve::kAxisBits) - 1);
+    const std::uint64_t x = random.engine() & ((std::uint64_t{1} << AbsoluteCurve::axis_bits) - 1);
     for (int k = 0; k < 3; ++k) {
       const CurveKey place = AbsoluteCurve::spread(x) << k;
-      ASSERT_EQ(place >> AbsoluteCurve::kClassShift, 0U);
-      ASSERT_EQ(AbsoluteCurve::gather(place >> k & AbsoluteCurve::kAxis), x);
+      ASSERT_EQ(place >> AbsoluteCurve::class_shift, 0U);
+      ASSERT_EQ(AbsoluteCurve::gather(place >> k & AbsoluteCurve::axis_mask), x);
     }
   }
 }

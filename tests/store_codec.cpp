@@ -33,7 +33,7 @@ void expect_back(BuiltTile& tile, const std::string& what) {
 std::size_t expect_all_back(std::span<const Mesh> meshes, bool lossless, const std::string& what) {
   std::size_t tiles = 0;
   for (BuiltTile& tile : tiles_of(meshes, lossless)) {
-    if (roam::store::shape_of(tile).bytes() > roam::store::kTileBytes) continue;
+    if (roam::store::shape_of(tile).bytes() > roam::store::tile_bytes) continue;
     expect_back(tile, what);
     ++tiles;
   }
@@ -80,11 +80,11 @@ TEST(StoreCodec, BringsTheSmallestAndTheLargestTileBack) {
   const Mesh one{"", {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}, {0.0, 1.0, 0.0}}, {{0, 1, 2}}};
   const Mesh full = floor_mesh(128, 64, {0.0, 0.0, 0.0}, 0.1);
   const Mesh far = floor_mesh(128, 64, {1e9 - 20.0, -1e9, 0.0}, 0.1);
-  ASSERT_EQ(full.triangles.size(), roam::index::kTileTriangles);
+  ASSERT_EQ(full.triangles.size(), roam::index::most_tile_triangles);
   for (const Mesh& mesh : {one, full, far}) {
     for (const bool lossless : {false, true}) {
       BuiltTile tile = tile_of({&mesh, 1}, lossless);
-      if (roam::store::shape_of(tile).bytes() > roam::store::kTileBytes) {
+      if (roam::store::shape_of(tile).bytes() > roam::store::tile_bytes) {
         EXPECT_THROW((void)roam::store::encode_tile(tile), roam::Error);
       } else {
         expect_back(tile, "one or many");
@@ -113,7 +113,7 @@ TEST(StoreCodec, RefusesATileThatIsTooLarge) {
   clutter::Random random(3);
   const Mesh mesh = clutter::make(random, {16000, 30.0, 1e-3, 0.1, Vec3(0.0)});
   BuiltTile tile = tile_of({&mesh, 1});
-  ASSERT_GT(roam::store::shape_of(tile).bytes(), roam::store::kTileBytes);
+  ASSERT_GT(roam::store::shape_of(tile).bytes(), roam::store::tile_bytes);
   EXPECT_THROW((void)roam::store::encode_tile(tile), roam::Error);
 }
 

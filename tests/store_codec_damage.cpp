@@ -42,7 +42,7 @@ std::vector<Coded> samples() {
 }
 
 /// Bytes of a tile of which every bit is tried.
-constexpr std::size_t kSmall = 1000;
+constexpr std::size_t small_size = 1000;
 
 class StoreCodecDamage : public testing::Test {
  protected:
@@ -84,7 +84,7 @@ TEST_F(StoreCodecDamage, IsSafeAfterEveryFlippedBit) {
   std::vector<Coded> all = samples();
   all.push_back(code(tile_of({&one, 1})));
   for (Coded& c : all) {
-    if (c.bytes.size() > kSmall) continue;
+    if (c.bytes.size() > small_size) continue;
     for (std::size_t bit = 0; bit < 8 * c.bytes.size(); ++bit) {
       const auto mask = std::byte(1U << (bit % 8));
       c.bytes[bit / 8] ^= mask;
@@ -139,7 +139,7 @@ TEST_F(StoreCodecDamage, IsSafeForAnyShape) {
     std::uint32_t& n = *std::array{&shape.triangles, &shape.nodes, &shape.leaves}[random.engine() % 3];
     n = random.engine() % 2 == 0 ? n + 1 : static_cast<std::uint32_t>(random.engine() >> (32 + random.engine() % 32));
     if (random.engine() % 4 == 0) shape.fine = !shape.fine;
-    if (shape.nodes > 4096 || shape.leaves > 4096 || shape.bytes() > roam::store::kTileBytes) {
+    if (shape.nodes > 4096 || shape.leaves > 4096 || shape.bytes() > roam::store::tile_bytes) {
       EXPECT_NE(decoder_.decode(c.bytes, shape, room_.tile(c.shape)), nullptr);
     } else if (shape.triangles != c.shape.triangles || shape.nodes != c.shape.nodes || shape.leaves != c.shape.leaves) {
       EXPECT_FALSE(decodes(c.bytes, shape));
@@ -149,13 +149,13 @@ TEST_F(StoreCodecDamage, IsSafeForAnyShape) {
 
 TEST_F(StoreCodecDamage, RefusesATreeThatIsTooDeep) {
   // Each node has one inner child and, but for the last, no leaf.
-  for (const std::uint32_t deep : {std::uint32_t{roam::index::kMaxDepth}, std::uint32_t{roam::index::kMaxDepth} + 1}) {
+  for (const std::uint32_t deep : {std::uint32_t{roam::index::max_depth}, std::uint32_t{roam::index::max_depth} + 1}) {
     const Mesh one{"", {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}, {0.0, 1.0, 0.0}}, {{0, 1, 2}}};
     Coded c = code(tile_of({&one, 1}));
     Unpacked u = unpack(c.bytes);
     u.streams.insert(u.streams.begin(), deep, std::byte{1});
     c.shape.nodes += deep;
-    EXPECT_EQ(decodes(pack(u), c.shape), deep <= roam::index::kMaxDepth) << deep;
+    EXPECT_EQ(decodes(pack(u), c.shape), deep <= roam::index::max_depth) << deep;
   }
 }
 

@@ -67,22 +67,22 @@ inline std::vector<std::byte> memory_of(const BuiltTile& tile) {
 class Room {
  public:
   std::span<std::byte> tile(const TileShape& shape) {
-    std::memset(blocks_.get(), kGuard, sizeof(Block));
+    std::memset(blocks_.get(), guard_bytes, sizeof(Block));
     auto* begin = reinterpret_cast<std::byte*>(blocks_.get() + 1);
-    std::memset(begin + shape.bytes(), kGuard, kGuards * sizeof(Block));
+    std::memset(begin + shape.bytes(), guard_bytes, guard_count * sizeof(Block));
     return {begin, shape.bytes()};
   }
   [[nodiscard]] bool kept_inside(std::size_t bytes) const {
     const auto* all = reinterpret_cast<const unsigned char*>(blocks_.get());
-    const auto guarded = [](unsigned char c) { return c == kGuard; };
+    const auto guarded = [](unsigned char c) { return c == guard_bytes; };
     const auto* end = all + sizeof(Block) + bytes;
-    return std::all_of(all, all + sizeof(Block), guarded) && std::all_of(end, end + kGuards * sizeof(Block), guarded);
+    return std::all_of(all, all + sizeof(Block), guarded) && std::all_of(end, end + guard_count * sizeof(Block), guarded);
   }
 
  private:
-  static constexpr unsigned char kGuard = 0xa5;
-  static constexpr std::size_t kBlocks = roam::store::kTileBytes / sizeof(Block), kGuards = 16;
-  std::unique_ptr<Block[]> blocks_ = std::make_unique<Block[]>(1 + kBlocks + kGuards);
+  static constexpr unsigned char guard_bytes = 0xa5;
+  static constexpr std::size_t block_count = roam::store::tile_bytes / sizeof(Block), guard_count = 16;
+  std::unique_ptr<Block[]> blocks_ = std::make_unique<Block[]>(1 + block_count + guard_count);
 };
 
 /// What could lead a traversal out of a tile, or empty: every node and leaf is reached once, none is too deep.
@@ -98,10 +98,10 @@ inline std::string danger_of(std::span<const std::byte> bytes, const TileShape& 
   while (!open.empty()) {
     const auto [at, depth] = open.back();
     open.pop_back();
-    if (depth > roam::index::kMaxDepth) return "too deep";
+    if (depth > roam::index::max_depth) return "too deep";
     if (seen_nodes[at]++ > 0) return "a node is reached twice";
     const Node& n = nodes[at];
-    if (n.child_count < 1 || n.child_count > roam::index::kWidth || n.inner_count > n.child_count) return "counts";
+    if (n.child_count < 1 || n.child_count > roam::index::node_width || n.inner_count > n.child_count) return "counts";
     for (int k = 0; k < 3; ++k) {
       if (n.shift[k] > 16) return "shift";
     }
@@ -119,7 +119,7 @@ inline std::string danger_of(std::span<const std::byte> bytes, const TileShape& 
   std::uint32_t triangles = 0;
   for (std::uint32_t i = 0; i < shape.leaves; ++i) {
     if (seen_leaves[i] == 0) return "a leaf is not reached";
-    if (leaves[i].triangle_count < 1 || leaves[i].triangle_count > roam::index::kWidth) return "triangles of a leaf";
+    if (leaves[i].triangle_count < 1 || leaves[i].triangle_count > roam::index::node_width) return "triangles of a leaf";
     if (leaves[i].ids != triangles || leaves[i].id_bytes != 0) return "ids of a leaf";
     triangles += leaves[i].triangle_count;
   }

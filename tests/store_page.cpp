@@ -13,7 +13,7 @@ namespace {
 using namespace roam;
 using namespace roam::store;
 
-constexpr std::uint64_t kPackBytes = 1 << 30;
+constexpr std::uint64_t pack_bytes = 1 << 30;
 
 std::vector<TileEntry> some_tiles(std::size_t count, double spread, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -31,7 +31,7 @@ std::vector<TileEntry> some_tiles(std::size_t count, double spread, std::uint32_
     t.triangles = 1 + random() % 16384;
     t.leaves = static_cast<std::uint16_t>(1 + std::min<std::uint32_t>(t.triangles - 1, random() % 1500));
     t.nodes = static_cast<std::uint16_t>(1 + random() % std::min<std::uint32_t>(t.leaves, 100));
-    t.offset = random() % (kPackBytes / 2);
+    t.offset = random() % (pack_bytes / 2);
     t.bytes = 1 + random() % 100'000;
     t.number_bytes = static_cast<std::uint32_t>(random() % (1 + most_number_bytes(t.triangles)));
     t.hash = i;
@@ -58,7 +58,7 @@ TEST(Page, HoldsEveryTileOnceWhereItsTreeSays) {
       const EncodedPage page = encode_page(tiles);
       const Copy copy(page.bytes);
       PageView view;
-      ASSERT_STREQ(view_page(copy.bytes(), kPackBytes, view), nullptr) << count << ' ' << spread;
+      ASSERT_STREQ(view_page(copy.bytes(), pack_bytes, view), nullptr) << count << ' ' << spread;
       ASSERT_EQ(view.tiles.size(), count);
       std::vector<int> seen(count);
       for (std::size_t i = 0; i < count; ++i) {
@@ -86,7 +86,7 @@ TEST(Page, RefusesEntriesThatNoTileHas) {
     spoil(entry);
     std::memcpy(copy.bytes().data() + at, &entry, sizeof entry);
     PageView view;
-    return view_page(copy.bytes(), kPackBytes, view) != nullptr;
+    return view_page(copy.bytes(), pack_bytes, view) != nullptr;
   };
   EXPECT_FALSE(refused([](TileEntry& t) { t.hash ^= 1; })) << "the spoiling itself is not what is refused";
   EXPECT_TRUE(refused([](TileEntry& t) { t.triangles = 0; }));
@@ -102,7 +102,7 @@ TEST(Page, RefusesEntriesThatNoTileHas) {
   EXPECT_TRUE(refused([](TileEntry& t) { t.origin[1] = std::numeric_limits<double>::infinity(); }));
   EXPECT_TRUE(refused([](TileEntry& t) { t.lower[0] = t.upper[0] + 1.0; }));
   EXPECT_TRUE(refused([](TileEntry& t) { t.upper[2] += 1e6; })) << "then it lies outside its node";
-  EXPECT_TRUE(refused([](TileEntry& t) { t.offset = kPackBytes; }));
+  EXPECT_TRUE(refused([](TileEntry& t) { t.offset = pack_bytes; }));
   EXPECT_TRUE(refused([](TileEntry& t) { t.offset = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([](TileEntry& t) { t.bytes = 0; }));
 }
@@ -117,7 +117,7 @@ TEST(Page, RefusesAnythingWhereZerosBelong) {
     const Copy copy(bytes);
     copy.bytes()[at] = std::byte{1};
     PageView view;
-    return view_page(copy.bytes(), kPackBytes, view) != nullptr;
+    return view_page(copy.bytes(), pack_bytes, view) != nullptr;
   };
   for (std::size_t at = 48; at < 128; ++at) EXPECT_TRUE(refused(at)) << at;
   for (std::size_t node = 1; node <= nodes; ++node) {
@@ -137,13 +137,13 @@ TEST(Page, WhateverIsTakenForOneLeadsNobodyAstray) {
       copy.bytes()[random() % (random() % 4 == 0 ? page.bytes.size() : nodes_end)] ^= std::byte(1U << random() % 8);
     }
     PageView view;
-    if (view_page(copy.bytes(), kPackBytes, view) != nullptr) continue;
+    if (view_page(copy.bytes(), pack_bytes, view) != nullptr) continue;
     ++taken;
     std::vector<int> tiles(view.tiles.size());
     std::size_t visited = 0;
     const std::function<void(std::uint32_t, int)> visit = [&](std::uint32_t number, int depth) {
       ASSERT_LT(number, view.nodes.size());
-      ASSERT_LT(depth, index::kMaxDepth);
+      ASSERT_LT(depth, index::max_depth);
       ASSERT_LE(++visited, view.nodes.size());
       const index::Node& node = view.nodes[number];
       for (std::uint32_t c = 0; c < node.child_count; ++c) {
@@ -162,7 +162,7 @@ TEST(Page, WhateverIsTakenForOneLeadsNobodyAstray) {
   for (std::size_t size = 0; size < page.bytes.size(); size += 41) {
     const Copy copy(std::span(page.bytes).first(size));
     PageView view;
-    EXPECT_NE(view_page(copy.bytes(), kPackBytes, view), nullptr);
+    EXPECT_NE(view_page(copy.bytes(), pack_bytes, view), nullptr);
   }
 }
 

@@ -50,7 +50,7 @@ struct Source {
     const auto mesh = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), id) - first.begin() - 1);
     return scene.meshes[mesh].triangle(id - first[mesh]);
   }
-  roam::Scene scene;
+  roam::ImportedScene scene;
   std::vector<TriangleId> first;
   TriangleId triangles = 0;
 };

@@ -305,9 +305,9 @@ TEST(Sweep, ProximityTellsPointNormalFeatureAndGap) {
 }
 
 TEST(Sweep, FeaturesHaveNames) {
-  EXPECT_STREQ(roam::name(Feature::face), "face");
-  EXPECT_STREQ(roam::name(Feature::edge), "edge");
-  EXPECT_STREQ(roam::name(Feature::vertex), "vertex");
+  EXPECT_STREQ(roam::to_string(Feature::face), "face");
+  EXPECT_STREQ(roam::to_string(Feature::edge), "edge");
+  EXPECT_STREQ(roam::to_string(Feature::vertex), "vertex");
 }
 
 std::string refusal(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {

@@ -12,9 +12,9 @@ using roam::Vec3;
 
 StepReport step(double x, double clearance) {
   StepReport report;
-  report.corners.push({Vec3(3.0, 0.0, 0.0), 1.8, 0.3, 0.5, clearance, false});
-  report.corners.push({Vec3(3.0, 4.0, 0.0), 1.8, 0.3, 1.0, clearance, false});
-  report.corners.push({Vec3(x, 4.0, 0.0), 1.8, 0.3, 1.0, 0.0, true});
+  report.segments.push({Vec3(3.0, 0.0, 0.0), 1.8, 0.3, 0.5, clearance, false});
+  report.segments.push({Vec3(3.0, 4.0, 0.0), 1.8, 0.3, 1.0, clearance, false});
+  report.segments.push({Vec3(x, 4.0, 0.0), 1.8, 0.3, 1.0, 0.0, true});
   report.to = {x, 4.0, 0.0};
   report.elapsed = 1.0;
   report.least_clearance = clearance;

@@ -79,7 +79,7 @@ TEST(Training, BecomesAProfileThatHoldsAllOfTheBodyAndIsOfTheScene) {
     EXPECT_NO_THROW(roam::check(p));
     EXPECT_TRUE(p.belongs_to(scene));
     EXPECT_EQ(p.mode, options.mode);
-    EXPECT_EQ(p.method, roam::name(options.method));
+    EXPECT_EQ(p.method, roam::to_string(options.method));
     EXPECT_EQ(p.radius, t.radius);
     EXPECT_EQ(p.height, options.height > 0.0 ? 1.8 : 2.0 * t.radius);
     EXPECT_EQ(p.support_radius, t.support_radius);

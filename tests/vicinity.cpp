@@ -145,7 +145,7 @@ TEST(Vicinity, AnswersAsWithoutWhereNothingIsKept) {
     const Body body = course::some_body(random, 0.3);
     const Vec3 at = course::beside(random, mesh, body), way = random.direction();
     // Something is kept from here.
-    judged::judge_sweep(sweep_in(world, vicinity, body, at, 0.05 * way), body, at, 0.05 * way, judged::kFarthest,
+    judged::judge_sweep(sweep_in(world, vicinity, body, at, 0.05 * way), body, at, 0.05 * way, judged::farthest_off,
                         judge);
     const auto as_without = [&](const Body& b, const Vec3& from, const Vec3& motion, double reach) {
       const Impact s = sweep_in(world, vicinity, b, from, motion);
@@ -165,10 +165,10 @@ TEST(Vicinity, AnswersAsWithoutWhereNothingIsKept) {
     const double reach = i % 5 == 0 ? random.between(20.0, 1000.0) : random.between(0.25, 3.0);
     judged::judge_gap(gap_in(world, vicinity, body, at, Vec3(0.0), reach), body, at, Vec3(0.0), reach, judge);
     const Vec3 motion = random.between(0.2, 4.0) * random.direction();
-    judged::judge_sweep(sweep_in(world, vicinity, body, at, motion), body, at, motion, judged::kFarthest, judge);
+    judged::judge_sweep(sweep_in(world, vicinity, body, at, motion), body, at, motion, judged::farthest_off, judge);
     judged::judge_gap(gap_in(world, vicinity, body, at, motion, 0.2), body, at, motion, 0.2, judge);
     const Body large{random.between(1.0, 1000.0), 0.0};
-    judged::judge_sweep(sweep_in(world, vicinity, large, at, 0.1 * way), large, at, 0.1 * way, judged::kFarthest,
+    judged::judge_sweep(sweep_in(world, vicinity, large, at, 0.1 * way), large, at, 0.1 * way, judged::farthest_off,
                         judge);
     ASSERT_FALSE(HasFatalFailure());
   }

@@ -117,7 +117,7 @@ class Judged {
   Tally tally;
 
   Judged(const Space& space, const Mesh& mesh, bool lossless)
-      : space_(&space), judge_(mesh), farthest_(lossless ? judged::kFarthestLossless : judged::kFarthest) {}
+      : space_(&space), judge_(mesh), farthest_(lossless ? judged::farthest_lossless : judged::farthest_off) {}
 
   /// From now on another space of the same triangles, or of others.
   void turn_to(const Space& space) { space_ = &space; }

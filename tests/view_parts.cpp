@@ -5,12 +5,12 @@
 #include <cstdlib>
 
 #include "exit_status.h"
+#include "histogram.h"
 #include "messages.h"
 #include "program.h"
 #include "roam/error.h"
 #include "view/bookmarks.h"
 #include "view/commands.h"
-#include "view/histogram.h"
 #include "view/options.h"
 #include "view/settings.h"
 #include "view/status.h"
@@ -242,10 +242,10 @@ TEST(Settings, SayThatAFolderIsNoFile) {
   const TestFolder folder;
   std::filesystem::create_directories(folder.file("roam.json"));
   const std::string settings = error_of([&] { static_cast<void>(read_settings(folder.file("roam.json"))); });
-  EXPECT_TRUE(contains(settings, folder.file("roam.json") + ": cannot be opened")) << settings;
+  EXPECT_TRUE(contains(settings, folder.file("roam.json") + ": Is a directory; name a file")) << settings;
   const std::string bookmarks =
       error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, "", "m")); });
-  EXPECT_TRUE(contains(bookmarks, folder.file("roam.json") + ": cannot be opened")) << bookmarks;
+  EXPECT_TRUE(contains(bookmarks, folder.file("roam.json") + ": Is a directory; name a file")) << bookmarks;
 }
 
 TEST(Bookmarks, AreKeptForTheirSceneAlone) {

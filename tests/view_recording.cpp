@@ -49,7 +49,7 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
     for (std::size_t i = 0; i < modes.size(); ++i) recorder.add(static_cast<double>(i), {1.0 * i, 0, 0}, {}, modes[i]);
     recorder.close();
     EXPECT_EQ(load_path(file).size(), modes.size());
-    return recorded_body(file).value();
+    return load_recorded_path(file).body.value();
   };
   const RecordedBody walked = record({Mode::walk, Mode::walk});
   EXPECT_EQ(walked.mode, Mode::walk);
@@ -67,15 +67,15 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
 
 TEST(RecordedBody, IsSaidByNoOtherComment) {
   const TestFolder folder;
-  EXPECT_FALSE(recorded_body(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")));
+  EXPECT_FALSE(load_recorded_path(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")).body);
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius wide\n4 5 6\n");
-  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(recorded_body(bad)); }), "bad.path:2"));
+  EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); }), "bad.path:2"));
 }
 
 TEST(RecordedBody, ThatCannotBeIsNamedWithItsLine) {
   const TestFolder folder;
   const std::string bad = folder.write("bad.path", "1 2 3\n# roam: mode walk radius -1\n4 5 6\n");
-  const std::string what = error_of([&] { static_cast<void>(recorded_body(bad)); });
+  const std::string what = error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); });
   EXPECT_TRUE(contains(what, "bad.path:2: the walker's radius is -1 m")) << what;
 }
 
@@ -134,7 +134,7 @@ TEST(UnusedName, NeverNamesWhatIsThere) {
 TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   const auto step = [](double x, double clearance) {
     StepReport report;
-    report.corners.push({Vec3(x, 0.0, 0.0), 1.8, 0.3, 0.01, clearance, false});
+    report.segments.push({Vec3(x, 0.0, 0.0), 1.8, 0.3, 0.01, clearance, false});
     report.from = {x - 1.0, 0.0, 0.0};
     report.to = {x, 0.0, 0.0};
     report.height = 1.8;
@@ -153,10 +153,12 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   EXPECT_EQ(log.tally().length, 2.0);
   EXPECT_EQ(log.tally().least_clearance, 0.4);
   int of_the_step = 0;
-  for (const Piece& piece : log.take_pieces()) {
-    EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
-    of_the_step += piece.step == 1 ? 1 : 0;
-  }
+  log.take_pieces().each(100, [&](std::span<const Piece> pieces) {
+    for (const Piece& piece : pieces) {
+      EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
+      of_the_step += piece.step == 1 ? 1 : 0;
+    }
+  });
   EXPECT_EQ(of_the_step, 2) << "the way, and the place at its end";
 }
 

@@ -120,7 +120,7 @@ TEST(Walker, ALongStepOverFlatGroundIsOnePiece) {
   Walk w(m, {}, Mode::walk, {-10.0, 0.0, 0.95});
   const StepReport& r = w.step({1.4, 0.0, 0.0}, 10.0);
   EXPECT_NEAR(w.walker.position().x, 4.0, 1e-6);
-  EXPECT_LE(r.corners.size(), 3u);
+  EXPECT_LE(r.segments.size(), 3u);
   EXPECT_EQ(r.elapsed, 10.0);
 }
 
@@ -128,7 +128,7 @@ TEST(Walker, AStepOfNoTimeDoesNothing) {
   const Mesh m = floor_mesh();
   Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
   const Vec3 before = w.walker.position();
-  EXPECT_EQ(w.step({1.4, 0.0, 0.0}, 0.0).corners.size(), 0u);
+  EXPECT_EQ(w.step({1.4, 0.0, 0.0}, 0.0).segments.size(), 0u);
   EXPECT_EQ(w.walker.position(), before);
 }
 
@@ -151,7 +151,7 @@ TEST(Walker, GivesTheSameBitsOnEveryRunAndWithAnyNumberOfThreads) {
     for (int i = 0; i < 2000; ++i) {
       const double a = random.between(0.0, 2.0 * std::numbers::pi);
       w.step({{2.0 * std::cos(a), 2.0 * std::sin(a), 0.0}, random.chance(0.02)}, random.between(0.0, 0.2));
-      for (const roam::Corner& c : w.report().corners) trace.push_back(c.position);
+      for (const roam::Segment& c : w.report().segments) trace.push_back(c.position);
     }
     if (first.empty()) first = trace;
     ASSERT_EQ(first.size(), trace.size());

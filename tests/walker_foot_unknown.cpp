@@ -179,8 +179,8 @@ class Counting final : public roam::Space {
     facts.revision = tells ? std::optional(changes) : std::nullopt;
     return facts;
   }
-  [[nodiscard]] std::string object_name(roam::TriangleId triangle) const override {
-    return world.object_name(triangle);
+  [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override {
+    return world.object(triangle);
   }
 
   roam::World world;

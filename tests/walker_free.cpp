@@ -87,7 +87,7 @@ TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
   for (const Mode mode : {Mode::fly, Mode::walk}) {
     for (const double speed : {0.0, 0.5, 50.0}) {
       for (const double ahead : {-0.1, 0.1, 0.25}) {
-        SCOPED_TRACE(testing::Message() << name(mode) << " at " << speed << " m/s, a wall " << ahead << " m ahead");
+        SCOPED_TRACE(testing::Message() << to_string(mode) << " at " << speed << " m/s, a wall " << ahead << " m ahead");
         ChangingRoom room(hall(), true);
         Walker w(room, {}, mode, {0.0, 0.0, -4.0});
         for (int i = 0; i < 30; ++i) w.step({}, frame);
@@ -178,7 +178,7 @@ TEST(WalkerFree, ChangingTheModeInAChangedSpaceFreesTheBody) {
 void expect_true_or_none(const ChangingRoom& room, const Walker& w) {
   const StepReport& r = w.report();
   EXPECT_LE(r.clearance, room.judge().distance(w.body(), w.position(), 2.0) + 1e-6);
-  for (const roam::Corner& c : r.corners) {
+  for (const roam::Segment& c : r.segments) {
     EXPECT_LE(c.clearance, room.judge().distance(Body::capsule(c.radius, c.height), c.position, 2.0) + 1e-6);
   }
 }
@@ -261,7 +261,7 @@ TEST(WalkerFree, ToldClearancesAreAsNearTheTruthAsIsSaid) {
     for (int i = 0; i < 12; ++i) {
       const StepReport& r = w.step({i % 4 == 3 ? Vec3(0.0) : wish}, frame);
       ASSERT_GE(margin(judge, r, 0.1), 0.0);
-      if (!r.contacts.empty() || r.corners.size() > 1) continue;
+      if (!r.contacts.empty() || r.segments.size() > 1) continue;
       const double truth = judge.over(w.body(), r.from, r.to - r.from, 2.0);
       ASSERT_GE(r.clearance, least_told(truth, settings, w.skin())) << flight << " " << i << " " << truth;
       ++judged;

@@ -43,7 +43,7 @@ TEST(MeasuredOpening, IsTheDoorThatIsTooNarrow) {
     const auto opening = roam::measure_opening(person.walker, ahead);
     ASSERT_TRUE(opening);
     EXPECT_EQ(opening->kind, Opening::Kind::door);
-    EXPECT_EQ(std::string(name(opening->kind)), "door");
+    EXPECT_EQ(std::string(to_string(opening->kind)), "door");
     EXPECT_NEAR(opening->width, width, 0.01);
     EXPECT_NEAR(std::abs(opening->direction.y), 1.0, 1e-3);
     EXPECT_NEAR(opening->point.x, 7.0, 0.01);

@@ -34,7 +34,7 @@ TEST(Pace, ABodyStopsInTheDistanceThatPhysicsSays) {
     for (const double speed : {1.4, 7.0}) {
       for (const double braking : {0.9, 3.0, 500.0}) {
         for (const double dt : {1.0 / 240.0, frame, 0.037, 0.5}) {
-          SCOPED_TRACE(testing::Message() << name(mode) << ' ' << speed << " m/s, " << braking << " m/s2, " << dt);
+          SCOPED_TRACE(testing::Message() << to_string(mode) << ' ' << speed << " m/s, " << braking << " m/s2, " << dt);
           Walker w(world, {}, mode, start_of(mode));
           w.step({.velocity = {speed, 0.0, 0.0}}, frame);
           const double from = w.position().x;
@@ -57,7 +57,7 @@ TEST(Pace, ABodyGetsGoingInTheDistanceThatPhysicsSays) {
   const World world = build(m);
   for (const Mode mode : moving) {
     for (const double dt : {frame, 0.037, 0.25}) {
-      SCOPED_TRACE(testing::Message() << name(mode) << ' ' << dt);
+      SCOPED_TRACE(testing::Message() << to_string(mode) << ' ' << dt);
       Walker w(world, {}, mode, start_of(mode));
       const double from = w.position().x;
       double seconds = 0.0;
@@ -139,11 +139,11 @@ TEST(Pace, NoSpeedChangesFasterThanTheLimit) {
         // A rim is got onto, and off, at once.
         const bool steps = r.has(EventKind::stepped_up) || r.has(EventKind::stepped_down);
         if (!steps && !r.put_back) {
-          ASSERT_LE(length(now), length(before) + most) << name(mode) << ' ' << seed << " step " << i;
+          ASSERT_LE(length(now), length(before) + most) << to_string(mode) << ' ' << seed << " step " << i;
         }
         const bool free = r.contacts.empty() && !steps;
         if (free && was_free) {
-          ASSERT_LE(length(now - before), most) << name(mode) << ' ' << seed << " step " << i;
+          ASSERT_LE(length(now - before), most) << to_string(mode) << ' ' << seed << " step " << i;
           ++free_steps;
         }
         touching += free ? 0 : 1;
@@ -192,7 +192,7 @@ TEST(Pace, ARouteRestsWhereItTurnsAndAtItsEnd) {
   const World world = build(m);
   for (const Mode mode : {Mode::walk, Mode::fly}) {
     for (const double dt : {frame, 0.1}) {
-      SCOPED_TRACE(testing::Message() << name(mode) << ' ' << dt);
+      SCOPED_TRACE(testing::Message() << to_string(mode) << ' ' << dt);
       const double z = 0.91;
       const std::vector<Vec3> path{{-15.0, -5.0, z}, {-9.0, -5.0, z}, {-3.5, -5.0, z}, {-3.0, -5.0, z}, {-3.0, 4.0, z}};
       Walker w(world, {}, mode, path[0]);

@@ -172,7 +172,7 @@ void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSetting
       tally.moved += r.to != r.from;
       tally.went_on += waited && !r.met_unknown;
       ASSERT_GE(margin(judge, r, settings.radius), 0.0) << "step " << step;
-      for (const roam::Corner& c : r.corners) {
+      for (const roam::Segment& c : r.segments) {
         for (const Tile& t : land.all) {
           const Vec3 apart = glm::max(t.where.lower - c.position, c.position - t.where.upper);
           ASSERT_FALSE(std::max({apart.x, apart.y, apart.z}) < 0.0 && Landscape::unknown(space, t)) << "inside";

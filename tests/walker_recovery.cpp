@@ -98,7 +98,7 @@ TEST(Recovery, WhereNothingIsBelowItIsPutBackToTheLastSafePlaceAndSaysSo) {
     EXPECT_FALSE(r.held || r.has(EventKind::held));
     back = r.put_back;
     EXPECT_EQ(back, r.has(EventKind::put_back));
-    EXPECT_TRUE(!back || !r.corners.empty());
+    EXPECT_TRUE(!back || !r.segments.empty());
   }
   EXPECT_TRUE(back);
   EXPECT_EQ(w.count(EventKind::fell), 1);
@@ -242,8 +242,8 @@ TEST(Recovery, FeetArePlacedInTheSizeThatTheBodyHasThere) {
 TEST(Recovery, AGhostAtRestHasNotMoved) {
   const World world = build(floor_mesh());
   Walker w(world, {}, Mode::ghost, {0.0, 0.0, 0.95});
-  EXPECT_TRUE(w.step({}, 0.1).corners.empty());
-  EXPECT_EQ(w.step({{1.0, 0.0, 0.0}}, 0.1).corners.size(), 1U);
+  EXPECT_TRUE(w.step({}, 0.1).segments.empty());
+  EXPECT_EQ(w.step({{1.0, 0.0, 0.0}}, 0.1).segments.size(), 1U);
 }
 
 TEST(Recovery, ABodyThatIsHeldWhereItFitsIsToldItsClearance) {

@@ -132,7 +132,7 @@ inline double margin(const Judge& judge, const roam::StepReport& step) {
   constexpr double promise = 1e-6;
   double least = std::numeric_limits<double>::infinity();
   Vec3 at = step.from;
-  for (const roam::Corner& c : step.corners) {
+  for (const roam::Segment& c : step.segments) {
     const roam::Body body = roam::Body::capsule(c.radius, c.height);
     const double enough = std::max(c.radius, c.clearance) + 0.001;
     const double true_clearance =
@@ -148,7 +148,7 @@ inline double margin(const Judge& judge, const roam::StepReport& step) {
 /// The same of a body whose radius does not change: minus infinity where it does.
 inline double margin(const Judge& judge, const roam::StepReport& step, double radius) {
   bool same = step.radius == radius;
-  for (const roam::Corner& c : step.corners) same = same && c.radius == radius;
+  for (const roam::Segment& c : step.segments) same = same && c.radius == radius;
   return same ? margin(judge, step) : -std::numeric_limits<double>::infinity();
 }
 

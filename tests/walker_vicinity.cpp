@@ -28,7 +28,7 @@ class Counting final : public Space {
   explicit Counting(const World& world) : world_(world) {}
 
   [[nodiscard]] roam::SpaceFacts facts() const override { return world_.facts(); }
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override { return world_.object_name(triangle); }
+  [[nodiscard]] roam::Object object(TriangleId triangle) const override { return world_.object(triangle); }
 
  protected:
   [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, Vicinity* vicinity) const override {
@@ -85,11 +85,11 @@ void expect_same(const Walker& a, const Walker& b) {
   const StepReport &r = a.report(), &s = b.report();
   ASSERT_EQ(r.clearance, s.clearance);
   ASSERT_EQ(r.least_gap, s.least_gap);
-  ASSERT_EQ(r.corners.total(), s.corners.total());
-  for (std::size_t i = 0; i < r.corners.size(); ++i) {
-    ASSERT_EQ(r.corners[i].position, s.corners[i].position);
-    ASSERT_EQ(r.corners[i].clearance, s.corners[i].clearance);
-    ASSERT_EQ(r.corners[i].time, s.corners[i].time);
+  ASSERT_EQ(r.segments.total(), s.segments.total());
+  for (std::size_t i = 0; i < r.segments.size(); ++i) {
+    ASSERT_EQ(r.segments[i].position, s.segments[i].position);
+    ASSERT_EQ(r.segments[i].clearance, s.segments[i].clearance);
+    ASSERT_EQ(r.segments[i].time, s.segments[i].time);
   }
   ASSERT_EQ(r.contacts.total(), s.contacts.total());
   for (std::size_t i = 0; i < r.contacts.size(); ++i) {

@@ -18,7 +18,7 @@ TEST(Wedged, ABodyIsSaidToBeBlockedOnce) {
   add_wall(m, 2.0, -10.0, 2.0, 10.0, 0.0, 3.0);
   for (const Mode mode : {Mode::walk, Mode::fly}) {
     for (const double speed : {1.4, 60.0}) {
-      SCOPED_TRACE(testing::Message() << name(mode) << ' ' << speed);
+      SCOPED_TRACE(testing::Message() << to_string(mode) << ' ' << speed);
       Walk w(m, {}, mode, {0.0, 0.0, 0.91});
       while (!w.step({speed, 0.0, 0.0}).blocked) {
       }

@@ -17,9 +17,9 @@ namespace {
 
 using clutter::Random;
 using judged::judge_gap;
-using judged::kFarthest;
-using judged::kFarthestLossless;
-using judged::kNearest;
+using judged::farthest_off;
+using judged::farthest_lossless;
+using judged::nearest_allowed;
 using roam::Body;
 using roam::Box;
 using roam::Mesh;
@@ -49,7 +49,7 @@ TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid)
   Random random(7);
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
-  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
+  const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
   int hits = 0, misses = 0, embedded = 0;
   for (int q = 0; q < 1500; ++q) {
     const Body body{random.between(0.0, 0.05) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
@@ -60,10 +60,10 @@ TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid)
       ++embedded;
       const long double d = least_distance(mesh, body, from, motion, 0.0);
       ASSERT_LE(d, body.radius + farthest) << "query " << q;
-      ASSERT_LE(s.distance, double(d) - body.radius + kNearest);
+      ASSERT_LE(s.distance, double(d) - body.radius + nearest_allowed);
       continue;
     }
-    ASSERT_GE(least_distance(mesh, body, from, motion, s.time), body.radius - kNearest) << "query " << q;
+    ASSERT_GE(least_distance(mesh, body, from, motion, s.time), body.radius - nearest_allowed) << "query " << q;
     if (!s.hit) {
       ++misses;
       continue;
@@ -86,7 +86,7 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
   Random random(8);
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
-  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
+  const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
   for (int q = 0; q < 600; ++q) {
     const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
     const Vec3 from = c.centre + random.in_box(1.5 * c.half);
@@ -95,7 +95,7 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
     const auto near = world.clearance(body, from, motion, reach);
     const double gap = double(least_distance(mesh, body, from, motion, 1.0) - (long double)(body.radius));
     if (gap > -body.radius) {
-      ASSERT_LE(near.distance, std::max(gap, 0.0) + kNearest) << "query " << q;
+      ASSERT_LE(near.distance, std::max(gap, 0.0) + nearest_allowed) << "query " << q;
     }
     judge_gap(world.gap(body, from, motion, reach), gap, body, reach);
     ASSERT_FALSE(HasFatalFailure()) << "query " << q;
@@ -113,7 +113,7 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
   Random random(9);
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
-  const double farthest = GetParam().lossless ? kFarthestLossless : kFarthest;
+  const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
   std::vector<roam::Contact> contacts(mesh.triangles.size() + 1);
   for (int q = 0; q < 100; ++q) {
     const Body body{random.between(0.0, 0.02) * c.half, q % 2 == 0 ? 0.0 : random.between(0.0, 0.1) * c.half};
@@ -133,7 +133,7 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
     }
     for (std::size_t t = 0; t < found.size(); ++t) {
       if (found[t]) continue;
-      ASSERT_GE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach - kNearest)
+      ASSERT_GE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach - nearest_allowed)
           << "query " << q << " triangle " << t;
     }
     const std::size_t few = std::min<std::size_t>(count, 3);
@@ -202,7 +202,7 @@ TEST(World, SweepsAreNeverLateWhereSeveralTilesAreMet) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const Box& box = boxes[i];
       if (glm::any(glm::lessThan(way.upper, box.lower)) || glm::any(glm::lessThan(box.upper, way.lower))) continue;
-      ASSERT_GE(oracle::least_distance(body, from, motion, s.time, mesh.triangle(i)), body.radius - kNearest)
+      ASSERT_GE(oracle::least_distance(body, from, motion, s.time, mesh.triangle(i)), body.radius - nearest_allowed)
           << "query " << q;
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "build_notes.h"
 #include "exit_status.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -131,8 +132,8 @@ Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double s
   return json;
 }
 
-void tell_notes(const StoreBuildReport& report) {
-  for (const std::string& note : report.notes) tell("note: " + note);
+void tell_notes(const BuildVerb& verb, const StoreBuildReport& report) {
+  for (const std::string& note : told_notes(report, verb.output)) tell("note: " + note);
 }
 
 /// What is to be done after a plan.
@@ -182,7 +183,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
     if (verb.plan) {
       const std::uint64_t count = plan_store(options, report);
       if (!report.unchanged) {
-        tell_notes(report);
+        tell_notes(verb, report);
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
           json["shards_to_build"] = count;
@@ -207,7 +208,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
       report = build_store(options);
     }
   }
-  tell_notes(report);
+  tell_notes(verb, report);
   tell_store(verb, report, seconds());
   return done;
 }

@@ -23,19 +23,23 @@ namespace {
 /// For children to end in order: Xvfb removes its lock and its socket.
 constexpr std::chrono::milliseconds grace_of_children{100};
 
+/// Nanoseconds after the first signal, in which the watchdog ends the program in any case.
+constexpr std::int64_t patience_with_watchdog = 2'000'000'000;
+
 std::atomic<int> signal_came = 0;      ///< its number
 std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
 sem_t signals;                         ///< one for each that came
 
 extern "C" void take_signal(int number) {
   const int error = errno;
-  // The third does what signals do, should the watchdog itself be stuck.
-  if (signal_came != 0) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t moment = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  if (signal_came == 0) {
+    came_at = moment;
+  } else if (moment - came_at > patience_with_watchdog) {
+    // The next does what signals do, should the watchdog itself be stuck.
     std::signal(number, SIG_DFL);
-  } else {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    came_at = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
   }
   signal_came = number;
   sem_post(&signals);
@@ -100,13 +104,15 @@ void catch_signals() {
   action.sa_handler = take_signal;
   // No SA_RESTART, so that a read from a terminal ends.
   sigemptyset(&action.sa_mask);
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     // A shell that runs a job in the background, or nohup, wants it ignored.
     if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(number, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  // A file that grows beyond `ulimit -f` cannot be written, which is said.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return signal_came != 0; }

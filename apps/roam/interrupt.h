@@ -10,9 +10,9 @@ namespace roam::app {
 /// From the signal to the program's end, at most, but for what the watchdog itself then does.
 inline constexpr std::chrono::milliseconds longest_good_order{800};
 
-/// Catches SIGINT and SIGTERM from now on, and lets a closed standard output be an error instead of a signal. Ending at
-/// once is ending the children, removing the unfinished files (files/unfinished.h), and then what the signal does to a
-/// program that does not catch it.
+/// Catches SIGINT, SIGTERM and SIGHUP from now on, and lets a closed standard output, or a file that is too large, be
+/// an error instead of a signal. Ending at once is ending the children, removing the unfinished files
+/// (files/unfinished.h), and then what the signal does to a program that does not catch it.
 void catch_signals();
 
 /// A signal came: what runs should end.

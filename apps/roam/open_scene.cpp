@@ -1,6 +1,9 @@
 #include "open_scene.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -10,12 +13,12 @@
 
 #include "exit_status.h"
 #include "interrupt.h"
-#include "loose_triangles.h"
 #include "progress.h"
 #include "store/build/fingerprint.h"
 #include "store/opened.h"
 #include "store_start.h"
 #include "tell.h"
+#include "verify_stored.h"
 
 namespace roam::app {
 namespace {
@@ -26,47 +29,18 @@ constexpr double longest_wait = 60.0;
 /// How long a thread of the pager may take to name what is not known; where all of them wait for reads it is not named.
 constexpr std::chrono::milliseconds longest_naming{200};
 
-/// Metres and triangles. Pieces of a way are checked against a store together as long as they stay so near to each
-/// other that what lies around them fits in memory.
-constexpr double stretch = 100.0;
-constexpr std::uint64_t most_triangles = 50'000'000;
-
-Box box_of(std::span<const Piece> pieces) {
-  Box box;
-  for (const Piece& piece : pieces) {
-    const double reach = std::max(piece.body.radius, piece.clearance) + piece.body.half_height;
-    box.include(Box{glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}.grown(reach));
-  }
-  return box;
+/// From now on what is large goes back to the system when it is freed, and leaves no holes.
+void keep_no_large_block() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+#endif
 }
 
-/// `missing` as of Store::for_each_triangle.
-Mesh read_triangles(const Store& store, const Box& box, const std::function<void(const std::string&)>& missing) {
-  Mesh mesh;
-  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
-    stop_if_interrupted();
-    append(mesh, triangles);
-    if (mesh.triangles.size() > most_triangles) {
-      throw Error(fmt::format("{}: more than {} triangles lie around this way; look at a shorter part of it",
-                              store.name(), short_count(static_cast<double>(most_triangles))));
-    }
-  };
-  store.for_each_triangle(box, take, missing);
-  return mesh;
-}
-
-/// The pieces from `begin` on that stay near to each other. Never part of a step.
-std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
-  Box box;
-  std::size_t end = begin;
-  for (std::size_t i = begin; i < pieces.size(); ++i) {
-    box.include(pieces[i].from);
-    box.include(pieces[i].to);
-    const Vec3 size = box.size();
-    if (end > begin && std::max({size.x, size.y, size.z}) > stretch) return end;
-    if (i + 1 == pieces.size() || pieces[i + 1].step != pieces[i].step) end = i + 1;
-  }
-  return pieces.size();
+/// What was freed goes back to the system: it is not to be resident beside what comes next.
+void return_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64_t memory) {
@@ -95,9 +69,11 @@ std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std
 
 }  // namespace
 
-OpenScene::OpenScene(const SceneOptions& options, Source source) : store_(open_store(options, options.store_memory())) {
+OpenScene::OpenScene(const SceneOptions& options, Source source)
+    : memory_(options.store_memory()), store_(open_store(options, memory_)) {
   if (store_) {
-    pager_ = make_pager(store_, options.store_memory());
+    keep_no_large_block();
+    pager_ = make_pager(store_, memory_);
     return;
   }
   loaded_ = load(options, source);
@@ -119,8 +95,19 @@ std::optional<PagerStats> OpenScene::paging() const {
   return pager_->stats();
 }
 
-Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) const {
-  return store_ ? store_start(*store_, settings, mode) : wander_start(loaded_.world, settings, mode, loaded_.floors);
+Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
+  if (!store_) return wander_start(loaded_.world, settings, mode, loaded_.floors);
+  // The pager's memory, and that of what is looked through, are not there at the same time.
+  leave();
+  const Vec3 place = store_start(*store_, memory_, settings, mode);
+  return_memory();
+  pager_ = make_pager(store_, memory_);
+  return place;
+}
+
+void OpenScene::leave() {
+  pager_.reset();
+  return_memory();
 }
 
 void OpenScene::wait_at(const Body& body, const Vec3& place) {
@@ -159,27 +146,8 @@ std::string OpenScene::why_unknown(TriangleId unknown) const {
   return why;
 }
 
-Mesh OpenScene::stored_triangles(std::span<const Piece> pieces, double reach) const {
-  return read_triangles(*store_, box_of(pieces).grown(reach),
-                        [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); });
-}
-
-Verification OpenScene::verified(std::span<const Piece> pieces,
-                                 const std::function<bool(std::uint64_t)>& progress) const {
-  if (!store_) return verify(loaded_.meshes, pieces, progress);
-  Verification all;
-  all.scene = bounds();
-  for (std::size_t begin = 0; begin < pieces.size();) {
-    const std::size_t end = end_of_stretch(pieces, begin);
-    const auto part = pieces.subspan(begin, end - begin);
-    Verification found;
-    const Mesh mesh = read_triangles(*store_, box_of(part), [&](const std::string& w) { found.unread.push_back(w); });
-    found.add(verify({&mesh, 1}, part));
-    all.add(found);
-    begin = end;
-    if (progress && !progress(begin)) throw Cancelled();
-  }
-  return all;
+Verification OpenScene::verified(const PieceLog& pieces, const std::function<bool(std::uint64_t)>& progress) const {
+  return store_ ? verify(*store_, pieces, progress) : verify(loaded_.meshes, pieces, progress);
 }
 
 void read_as(SceneOptions& scene, const Store& store) {
@@ -203,21 +171,37 @@ void check_against(const SceneOptions& scene) {
   scene.check_there();
 }
 
-Verification verify_against(const SceneOptions& scene, std::uint64_t triangles, std::span<const Piece> pieces,
+Verification verify_against(const SceneOptions& scene, const OpenScene& walked, const PieceLog& pieces,
                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  Verifier verifier(pieces);
-  ImportOptions reading = scene.import_options();
-  reading.progress = [&](const ImportProgress& p) { return progress(p.bytes_read, p.bytes_total); };
-  TriangleId first = 0;
-  stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
-    verifier.check({&piece, 1}, first);
-    first += piece.triangles.size();
-  });
-  if (first != triangles) {
-    tell(fmt::format("note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?", scene.names(),
-                     first, triangles));
-  }
-  return verifier.result();
+  // Half of the memory for pieces: more than the walk of an hour, in 64 MiB.
+  const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(Piece)));
+  const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);
+  Verification all;
+  std::uint64_t bytes = 0, reading_number = 0;  // that were read before
+  const auto check = [&](std::span<const Piece> some) {
+    Verifier verifier(some);
+    ImportOptions reading = scene.import_options();
+    std::uint64_t total = 0;
+    reading.progress = [&](const ImportProgress& p) {
+      total = p.bytes_total;
+      return progress(bytes + p.bytes_read, p.bytes_total * std::max(readings, reading_number + 1));
+    };
+    TriangleId first = 0;
+    stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
+      verifier.check({&piece, 1}, first);
+      first += piece.triangles.size();
+    });
+    if (first != walked.triangles() && reading_number == 0) {
+      tell(fmt::format("note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?",
+                       scene.names(), first, walked.triangles()));
+    }
+    bytes += total;
+    ++reading_number;
+    all.add(verifier.result());
+  };
+  pieces.each(together, check);
+  if (pieces.size() == 0) check({});
+  return all;
 }
 
 }  // namespace roam::app

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "piece_log.h"
 #include "roam/pager.h"
 #include "roam/walker.h"
 #include "scene_options.h"
-#include "verification.h"
 
 namespace roam::app {
 
@@ -23,14 +23,21 @@ class OpenScene {
   [[nodiscard]] const Space& space() const;
   [[nodiscard]] std::uint64_t triangles() const;
   [[nodiscard]] Box bounds() const;
+  /// Of what bodies move in, which a world stores a little off.
+  [[nodiscard]] Box walked_bounds() const { return store_ ? bounds() : loaded_.world.bounds(); }
   /// Null where the scene was read whole.
   [[nodiscard]] const Store* store() const { return store_.get(); }
   [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  /// Bytes that a store may take.
+  [[nodiscard]] std::uint64_t memory() const { return memory_; }
   /// Of the pager; nothing where the scene was read whole.
   [[nodiscard]] std::optional<PagerStats> paging() const;
 
   /// A free place to start from, see wander_start.
-  [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode) const;
+  /// To be called before space().
+  [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode);
+  /// After the last step: gives a pager's memory back, for what follows. space() is gone then.
+  void leave();
   /// Waits until a body there has ground to stand on, where it must be waited for.
   void wait_at(const Body& body, const Vec3& place);
   /// Waits until what a body can reach within a second at this velocity is known or cannot be read, `seconds` at most.
@@ -48,14 +55,12 @@ class OpenScene {
   /// Why the unknown that a contact names is not known; waits a moment for what is found out beside.
   [[nodiscard]] std::string why_unknown(TriangleId unknown) const;
 
-  /// The triangles of the store, as stored, around these pieces. There must be a store. What cannot be read is left
-  /// out, and told on standard error.
-  [[nodiscard]] Mesh stored_triangles(std::span<const Piece> pieces, double reach) const;
   /// Every piece against every triangle: of the scene as read, of the store as stored, as far as that can be read.
-  [[nodiscard]] Verification verified(std::span<const Piece> pieces,
-                                      const std::function<bool(std::uint64_t)>& progress) const;
+  /// Of a store, after leave().
+  [[nodiscard]] Verification verified(const PieceLog& pieces, const std::function<bool(std::uint64_t)>& progress) const;
 
  private:
+  std::uint64_t memory_;  ///< bytes for a store
   LoadedScene loaded_;
   std::shared_ptr<const Store> store_;
   std::unique_ptr<Pager> pager_;
@@ -69,11 +74,10 @@ void read_as(SceneOptions& scene, const Store& store);
 /// roam::Error for a scene that is not there.
 void check_against(const SceneOptions& scene);
 
-/// Every piece against every triangle of a scene that is read piece by piece, however large it is. Where it has not as
-/// many as `triangles`, which the store was made of, a note on standard error says so. `progress` as of verify, but
-/// with bytes done and in all.
-[[nodiscard]] Verification verify_against(const SceneOptions& scene, std::uint64_t triangles,
-                                          std::span<const Piece> pieces,
+/// Every piece against every triangle of a scene that is read piece by piece, however large it is. It is read once for
+/// as many pieces as fit in half of the memory. Where it has not as many triangles as the store that was `walked`, a
+/// note on standard error says so. `progress` as of verify, but with bytes done and in all.
+[[nodiscard]] Verification verify_against(const SceneOptions& scene, const OpenScene& walked, const PieceLog& pieces,
                                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
 
 }  // namespace roam::app

@@ -1,50 +1,19 @@
 #include "paged_sweep.h"
 
 #include <algorithm>
-#include <chrono>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <thread>
 
+#include "arrivals.h"
 #include "roam/error.h"
 
 namespace roam::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Metres. What lies along so little fits into the least memory.
 constexpr double least_part = 0.5;
-/// Seconds for which it is waited at a time.
-constexpr double slice = 0.02;
-/// Seconds without anything that came: memory is full, and the rest does not come.
-constexpr double full_after = 0.1;
 /// Seconds until what does not come of the least part, and what cannot be read, is given up.
 constexpr double late_after = 60.0, broken_after = 3.0;
-
-/// Waits while something comes.
-class Arrivals {
- public:
-  explicit Arrivals(OpenScene& scene) : scene_(scene), loads_(scene.paging()->loads) {}
-
-  /// Seconds since anything came. What is wanted is what a body could reach that moves at `velocity` from `place`.
-  double wait(const Body& body, const Vec3& place, const Vec3& velocity) {
-    settled_ = scene_.wait_along(body, place, velocity, slice);
-    if (settled_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const std::uint64_t now = scene_.paging()->loads;
-    if (now != loads_) last_ = Clock::now();
-    loads_ = now;
-    return std::chrono::duration<double>(Clock::now() - last_).count();
-  }
-  /// Whether all is there, but for what cannot be read.
-  [[nodiscard]] bool settled() const { return settled_; }
-
- private:
-  OpenScene& scene_;
-  std::uint64_t loads_;
-  Clock::time_point last_ = Clock::now();
-  bool settled_ = false;
-};
 
 }  // namespace
 
@@ -61,7 +30,7 @@ std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
       if (!why.empty()) given_up_.insert(why);
       return answer;
     }
-    if (may_part && quiet > full_after) return std::nullopt;
+    if (may_part && quiet > Arrivals::full_after) return std::nullopt;
     if (quiet > late_after)
       throw Error("what lies along this way does not come; give --memory more, or wait for the disk");
   }
@@ -75,7 +44,7 @@ double PagedSweep::gap(const SweepQuery& part) {
     Arrivals arrivals(scene_);
     Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     while (nearest.unknown && !arrivals.settled() &&
-           arrivals.wait(part.body, part.from, ahead * (length + reach)) < full_after) {
+           arrivals.wait(part.body, part.from, ahead * (length + reach)) < Arrivals::full_after) {
       nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     }
     // The sweep has certified at least 0, whatever the grid takes off here; what is unknown only makes it less.

@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
+#include <sstream>
 
+#include "files/whole_file.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "picture/draw.h"
@@ -38,17 +39,18 @@ struct ProbeOptions {
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
 };
 
+/// Bytes of a file of sizes, at most.
+constexpr std::uint64_t longest_matrix = 1 << 20;
+
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw Error(file.string() + ": cannot be read; may you read it?");
+  std::istringstream in(files::read_named(file, longest_matrix));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number));
     sizes.insert(sizes.end(), more.begin(), more.end());
   }
-  if (in.bad()) throw Error(file.string() + ": cannot be read to its end; is its disk well?");
   return sizes;
 }
 
@@ -124,10 +126,10 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
 
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},      {"triangles", scene.survey.triangles()},
-               {"mode", name(o.question.mode)}, {"from", to_json(o.question.from)},
-               {"to", to_json(o.question.to)},  {"step", o.question.step},
-               {"slope", o.slope_degrees()},    {"support_radius", o.question.support_radius},
+  Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
+               {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
+               {"to", to_json(o.question.to)},       {"step", o.question.step},
+               {"slope", o.slope_degrees()},         {"support_radius", o.question.support_radius},
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));

@@ -145,7 +145,7 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
   overview.way = answer.passage.way;
   if (answer.limit) overview.marks.push_back({answer.limit->point, words::text_of(*answer.limit), answer.wide_enough});
   if (answer.walk && !answer.passable)
-    overview.marks.push_back({answer.walk->at, std::string("walker ") + name(answer.walk->outcome), false});
+    overview.marks.push_back({answer.walk->at, std::string("walker ") + to_string(answer.walk->outcome), false});
   if (overview.way.empty()) {
     ProbeQuestion asked = question;
     asked.progress = [](std::uint64_t) { return !interrupted(); };

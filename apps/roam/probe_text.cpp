@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "exit_status.h"
+#include "text/printable.h"
 #include "words/measures.h"
 #include "words/probe.h"
 
@@ -37,7 +38,9 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
     bool good = is_number(item.substr(0, cross), size.radius);
     size.height = 2.0 * size.radius;
     if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
-    if (!good) throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where, item));
+    if (!good)
+      throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where,
+                                   printable(item, longest_excerpt)));
     sizes.push_back(size);
     i = end;
   }
@@ -59,7 +62,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   if (answer.limit) {
     const ProbeLimit& limit = *answer.limit;
     Json& opening = json["opening"];
-    opening = {{"kind", name(limit.kind)}, {"point", to_json(limit.point)}};
+    opening = {{"kind", to_string(limit.kind)}, {"point", to_json(limit.point)}};
     if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
     const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
                              : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
@@ -77,7 +80,7 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   json["complete"] = p.complete;
   json["places"] = p.places;
   json["walked"] = nullptr;
-  if (answer.walk) json["walked"] = {{"outcome", name(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
+  if (answer.walk) json["walked"] = {{"outcome", to_string(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
   return json;
 }
 
@@ -93,7 +96,7 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
     if (is_unknown(answer))
       what = "the search ended";
     else if (answer.walk && !answer.passable)
-      what = fmt::format("walker {} at {}", name(answer.walk->outcome), at(answer.walk->at));
+      what = fmt::format("walker {} at {}", to_string(answer.walk->outcome), at(answer.walk->at));
     else if (answer.limit)
       what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
     else if (!p.found)

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <locale>
 #include <sstream>
 
+#include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -16,7 +17,7 @@ constexpr const char* mark = "# roam: mode ";
 
 std::optional<Mode> parse_mode(const std::string& text) {
   for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
-    if (text == name(mode)) return mode;
+    if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
 }
@@ -37,12 +38,8 @@ std::string describe(double radius, double height) {
                                : fmt::format("a sphere of radius {:g} m", radius);
 }
 
-}  // namespace
-
-std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, name(mode)); }
-
-std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
-  std::ifstream in(file);
+std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
+  std::istringstream in(text);
   std::optional<RecordedBody> body;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -65,14 +62,14 @@ std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
       good = value != nullptr && words >> *value;
     }
     if (!good) {
-      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", file.string(),
-                              number, line, body_line({}, Mode::walk)));
+      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", name_of_file,
+                              number, printable(line), body_line({}, Mode::walk)));
     }
     if (!body) {
       try {
         check(settings_of(read));
       } catch (const Error& error) {
-        throw Error(fmt::format("{}:{}: {}; correct or remove the line", file.string(), number, error.what()));
+        throw Error(fmt::format("{}:{}: {}; correct or remove the line", name_of_file, number, error.what()));
       }
       body = read;
       body->mode = *mode;
@@ -82,6 +79,24 @@ std::optional<RecordedBody> recorded_body(const std::filesystem::path& file) {
     body->ghost |= *mode == Mode::ghost;
   }
   return body;
+}
+
+}  // namespace
+
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
+
+RecordedPath load_recorded_path(const std::filesystem::path& file) {
+  RecordedPath path;
+  if (file.empty()) return path;
+  try {
+    const std::string text = files::read_named(file, longest_path_file);
+    std::istringstream in(text);
+    path.places = read_path(in, file.string());
+    path.body = recorded_body(text, file.string());
+  } catch (const Error& error) {
+    path.problem = error.what();
+  }
+  return path;
 }
 
 std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode) {
@@ -101,7 +116,7 @@ std::string compare(const RecordedBody& recorded, const WalkerSettings& settings
                        recorded.support_radius, settings.support_radius);
   }
   if (recorded.mode == mode) return {};
-  return fmt::format("the path was recorded in mode {}; this is mode {}", name(recorded.mode), name(mode));
+  return fmt::format("the path was recorded in mode {}; this is mode {}", to_string(recorded.mode), to_string(mode));
 }
 
 }  // namespace roam::app

@@ -11,7 +11,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/walker.h"
 
@@ -28,9 +30,22 @@ struct RecordedBody {
 /// A further line; the first is body_line() of path_file.h.
 [[nodiscard]] std::string mode_line(Mode mode);
 
-/// None when the file does not say it, or cannot be opened: load_path says that, after wrong options were refused.
-/// Throws roam::Error naming file and line for a line that begins like those above and goes on otherwise.
-[[nodiscard]] std::optional<RecordedBody> recorded_body(const std::filesystem::path& file);
+/// A path, and the body that recorded it, where the file says it.
+struct RecordedPath {
+  std::vector<Waypoint> places;
+  std::optional<RecordedBody> body;
+  std::string problem;  ///< why there are none
+
+  /// The places, once wrong options are refused. Throws roam::Error as load_path does, and naming file and line for a
+  /// line that begins like those above and goes on otherwise.
+  [[nodiscard]] const std::vector<Waypoint>& waypoints() const {
+    if (!problem.empty()) throw Error(problem);
+    return places;
+  }
+};
+
+/// Reads both at once: the file may be a pipe. Empty for no file.
+[[nodiscard]] RecordedPath load_recorded_path(const std::filesystem::path& file);
 
 /// A sentence when another body, or in another mode, is sent along the way; empty when it is the same.
 [[nodiscard]] std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode);

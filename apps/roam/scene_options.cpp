@@ -19,14 +19,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Scene read(const SceneOptions& options) {
+ImportedScene read(const SceneOptions& options) {
   ImportOptions how = options.import_options();
   Progress progress("reading " + options.names(), "B");
   how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
   return import_scene(options.scenes, how);
 }
 
-World index(const SceneOptions& options, const Scene& scene) {
+World index(const SceneOptions& options, const ImportedScene& scene) {
   Progress progress("indexing", "triangles");
   BuildOptions build;
   build.threads = options.threads;
@@ -119,7 +119,7 @@ std::string SceneOptions::names() const {
 LoadedScene load(const SceneOptions& options, Source source) {
   options.check_there();
   const auto start = std::chrono::steady_clock::now();
-  Scene scene = read(options);
+  ImportedScene scene = read(options);
   for (const std::string& note : scene.report.notes) tell("note: " + note);
   LoadedScene loaded;
   loaded.read_seconds = seconds_since(start);

@@ -1,36 +1,45 @@
 #include "store_start.h"
 
+#include <algorithm>
+
 #include "floors.h"
 #include "loose_triangles.h"
+#include "roam/error.h"
 #include "roam/world.h"
+#include "triangles_around.h"
 
 namespace roam::app {
 namespace {
 
-/// Places that are looked at, metres around each, and triangles in all.
+/// Places that are looked at, metres around each, and what is looked at there.
 constexpr std::uint64_t places = 16;
 constexpr double around = 30.0;
-constexpr std::size_t most_triangles = 4'000'000;
+constexpr std::size_t floors_each = 64;
+constexpr int columns_each = 8;
+
+/// Bytes that a triangle takes while it is looked at: its corners, once more for the index, the index, and what
+/// building that needs.
+constexpr std::uint64_t bytes_a_triangle = 400;
 
 }  // namespace
 
-Vec3 store_start(const Store& store, const WalkerSettings& settings, Mode mode, const std::function<bool()>& goes_on) {
-  std::vector<Mesh> meshes;
-  std::size_t triangles = 0;
+std::size_t indexed_in(std::uint64_t memory) { return static_cast<std::size_t>(memory / bytes_a_triangle); }
+
+Vec3 store_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
+                 const std::function<bool()>& goes_on) {
+  const std::size_t most = indexed_in(memory);
+  Start best;
   for (const Vec3& place : store.sample(places)) {
-    if (goes_on && !goes_on()) throw Cancelled();
-    if (triangles > most_triangles) break;
     Mesh mesh;
     // Where something cannot be read one may still begin beside it.
-    store.for_each_triangle(
-        {place - around, place + around},
-        [&](std::span<const Triangle> found, std::span<const TriangleId>) { append(mesh, found); },
-        [](const std::string&) {});
-    triangles += mesh.triangles.size();
-    meshes.push_back(std::move(mesh));
+    append(mesh, triangles_around(store, place, around, most, [&] { return !goes_on || goes_on(); }).triangles);
+    const World world = World::build({&mesh, 1});
+    const auto floors = floor_samples({&mesh, 1}, floors_each);
+    const Start start = best_start(world, settings, mode, floors, columns_each, goes_on);
+    if (start.room > best.room) best = start;
   }
-  const World world = World::build(meshes);
-  return wander_start(world, settings, mode, floor_samples(meshes), goes_on);
+  if (best.room < 0.0) fail_to_start(settings);
+  return best.place;
 }
 
 }  // namespace roam::app

@@ -67,7 +67,7 @@ std::vector<Mesh> read_scene(const SceneOptions& options) {
   ImportOptions how = options.import_options();
   Progress progress("reading " + options.names(), "B");
   how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
-  Scene scene = import_scene(options.scenes, how);
+  ImportedScene scene = import_scene(options.scenes, how);
   for (const std::string& note : scene.report.notes) tell("note: " + note);
   return std::move(scene.meshes);
 }

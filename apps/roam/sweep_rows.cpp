@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -40,15 +41,17 @@ Fields split(std::string_view row) {
   }
 }
 
+std::string excerpt(std::string_view field) { return printable(field, longest_excerpt); }
+
 double number(std::string_view field, std::string_view column) {
   double value = 0.0;
   const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-    throw Error(fmt::format("column {}: '{}' is no number; {}", column, field, form));
+    throw Error(fmt::format("column {}: '{}' is no number; {}", column, excerpt(field), form));
   }
   if (status != std::errc() || !std::isfinite(value)) {
-    throw Error(fmt::format("column {}: '{}' is not a finite number", column, field));
+    throw Error(fmt::format("column {}: '{}' is not a finite number", column, excerpt(field)));
   }
   return value;
 }
@@ -67,7 +70,8 @@ bool is_query_header(std::string_view row) {
   }
   bool known = fields.count == needed_columns || fields.count == columns.size();
   for (std::size_t i = 0; known && i < fields.count; ++i) known = fields.text[i] == columns[i];
-  if (!known) throw Error(fmt::format("'{}' is neither a query nor the header of queries; {}", trimmed(row), form));
+  if (!known)
+    throw Error(fmt::format("'{}' is neither a query nor the header of queries; {}", excerpt(trimmed(row)), form));
   return true;
 }
 
@@ -93,7 +97,7 @@ void append_answer(std::string& rows, const Impact& answer) {
   fmt::format_to(out, FMT_COMPILE("1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g}\n"),
                  answer.time, answer.point.x, answer.point.y, answer.point.z, answer.normal.x, answer.normal.y,
                  answer.normal.z, static_cast<std::int64_t>(answer.unknown ? no_triangle : answer.triangle),
-                 answer.unknown ? "unknown" : name(answer.feature), answer.distance);
+                 answer.unknown ? "unknown" : to_string(answer.feature), answer.distance);
 }
 
 }  // namespace roam::app

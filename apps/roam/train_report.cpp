@@ -24,7 +24,7 @@ Json json_of(const TrainedPath& path) {
   for (const Trial& t : path.trials) {
     trials.push_back({{"radius", t.radius},
                       {"support_radius", t.support_radius},
-                      {"outcome", roam::name(t.outcome)},
+                      {"outcome", roam::to_string(t.outcome)},
                       {"at", to_json(t.at)}});
   }
   Json way = Json::array();
@@ -40,7 +40,7 @@ std::string trials_line(const Training& t) {
   for (const TrainedPath& path : t.paths) {
     for (const Trial& trial : path.trials) {
       ++trials;
-      ++outcomes[roam::name(trial.outcome)];
+      ++outcomes[roam::to_string(trial.outcome)];
     }
   }
   std::string text = fmt::format("{} paths, {} trials", t.paths.size(), trials);
@@ -79,7 +79,7 @@ Json json_report(const TrainReport& report) {
   Json paths = Json::array(), decisive = Json::array(), regions = Json::array(), cracks = Json::array();
   for (const TrainedPath& path : t.paths) paths.push_back(json_of(path));
   for (const Decisive& d : t.decisive) {
-    decisive.push_back({{"kind", name(d.kind)},
+    decisive.push_back({{"kind", to_string(d.kind)},
                         {"point", to_json(d.point)},
                         {"width_m", d.width},
                         {"direction", to_json(d.direction)}});
@@ -89,7 +89,7 @@ Json json_report(const TrainReport& report) {
         {{"bounds", to_json(r.bounds)}, {"radius", r.radius}, {"support_radius", r.support_radius}, {"why", r.why}});
   }
   for (const Crack& c : t.cracks) {
-    cracks.push_back({{"kind", name(c.kind)},
+    cracks.push_back({{"kind", to_string(c.kind)},
                       {"point", to_json(c.point)},
                       {"width_m", 2.0 * c.radius},
                       {"direction", to_json(c.direction)},
@@ -108,8 +108,8 @@ Json json_report(const TrainReport& report) {
   }
   Json json = {{"scene", report.scene},
                {"triangles", report.triangles},
-               {"mode", roam::name(report.options.mode)},
-               {"method", name(report.options.method)},
+               {"mode", roam::to_string(report.options.mode)},
+               {"method", to_string(report.options.method)},
                {"seed", report.options.seed},
                {"answer", words::answer(t, report.options)},
                {"radius", t.radius},
@@ -142,7 +142,7 @@ std::string text_report(const TrainReport& report) {
     text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
   std::string body =
-      fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::name(report.options.mode), t.radius, t.height);
+      fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::to_string(report.options.mode), t.radius, t.height);
   if (t.support_radius > 0.0) body += fmt::format(", foot {:.3f} m", t.support_radius);
   line("body", body);
   if (!t.paths.empty()) {
@@ -152,9 +152,10 @@ std::string text_report(const TrainReport& report) {
   }
   if (t.trapped_radius > 0.0)
     line("trapped", fmt::format("a rolling sphere below {:.3f} m cannot climb out of that crack", t.trapped_radius));
-  for (const Decisive& d : t.decisive) line(name(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
+  for (const Decisive& d : t.decisive)
+    line(to_string(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
   std::map<std::string, std::size_t> kinds;
-  for (const Crack& c : t.cracks) ++kinds[name(c.kind)];
+  for (const Crack& c : t.cracks) ++kinds[to_string(c.kind)];
   for (const auto& [kind, count] : kinds) line(kind.c_str(), fmt::format("{}", count));
   for (const SizeRegion& r : t.regions)
     line("region", fmt::format("radius {:.3f} m at {}: {}", r.radius, at(r.bounds.center()), r.why));

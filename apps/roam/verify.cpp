@@ -1,6 +1,7 @@
 // roam verify: is every byte of a store what was written?
 #include <fmt/format.h>
 
+#include "build_notes.h"
 #include "exit_status.h"
 #include "progress.h"
 #include "report.h"
@@ -97,7 +98,7 @@ std::uint64_t repair(const VerifyOptions& options) {
     };
     report = repair_store(build);
   }
-  for (const std::string& note : report.notes) tell("note: " + note);
+  for (const std::string& note : told_notes(report, options.store)) tell("note: " + note);
   return report.shards_built;
 }
 

@@ -12,6 +12,7 @@
 #include "roam/error.h"
 #include "tell.h"
 #include "verbs.h"
+#include "verify_stored.h"
 #include "view/notices.h"
 #include "view/session.h"
 
@@ -41,7 +42,7 @@ std::string keys_of(const ViewSettings& settings) {
 /// The scene's profile, where the radius is left out.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
   if (options.no_profile || options.radius) return std::nullopt;
-  const std::string mode = options.mode.value_or(name(recorded ? recorded->mode : Mode::walk));
+  const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   return find_scene_profile(options.scene,
                             mode == "ghost" ? Mode::ghost
                             : mode == "fly" ? Mode::fly
@@ -53,10 +54,7 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
 Verification verified(const ViewReport& report, const ViewOptions& options,
                       const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
-  SceneOptions store;
-  store.scenes = {report.store};
-  store.memory = options.scene.memory;
-  return OpenScene(store, Source::release).verified(report.pieces, progress);
+  return verify(*Store::open(report.store, options.scene.store_memory()), report.pieces, progress);
 }
 
 ExitStatus view(const ViewOptions& options) {
@@ -68,9 +66,9 @@ ExitStatus view(const ViewOptions& options) {
     return done;
   }
   if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
-  std::optional<RecordedBody> recorded;
-  if (!options.path.empty()) recorded = recorded_body(options.path);
-  const ViewPlan plan = make_plan(options, settings, recorded, profile_for(options, recorded));
+  const RecordedPath path = load_recorded_path(options.path);
+  ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
+  plan.path = path.waypoints();
   std::optional<tbb::global_control> limit;
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));

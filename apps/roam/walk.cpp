@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "arrivals.h"
+#include "histogram.h"
 #include "interrupt.h"
 #include "open_scene.h"
 #include "picture/picture.h"
@@ -16,6 +18,7 @@
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
+#include "stored_meshes.h"
 #include "tell.h"
 #include "verbs.h"
 #include "walk_options.h"
@@ -32,7 +35,7 @@ class Recorder {
   Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
       : options_(options),
         scene_(scene),
-        progress_(std::in_place, name(options.walker_mode()) + std::string("ing"), "steps"),
+        progress_(std::in_place, to_string(options.walker_mode()) + std::string("ing"), "steps"),
         expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
     if (!options.trace.empty()) trace_.emplace(options.trace);
   }
@@ -45,9 +48,7 @@ class Recorder {
     const auto begin = std::chrono::steady_clock::now();
     const StepReport& report = run();
     const auto took = std::chrono::steady_clock::now() - begin;
-    nanoseconds_.push_back(static_cast<std::uint32_t>(
-        std::min<std::int64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(took).count(),
-                               std::numeric_limits<std::uint32_t>::max())));
+    nanoseconds_.add(std::chrono::duration<double, std::nano>(took).count());
     const double begun = tally_.simulated;
     tally_.add_step(report);
     take(report, begun);
@@ -68,15 +69,17 @@ class Recorder {
                      tally_.simulated, tally_.steps, end.x, end.y, end.z,
                      trace_ ? "; " + options_.trace.string() + " has its trace" : ""));
   }
-  [[nodiscard]] StepTimes times() const { return summarize(nanoseconds_); }
-  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  [[nodiscard]] StepTimes times() const {
+    return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
+  }
+  [[nodiscard]] const PieceLog& pieces() const { return pieces_; }
   [[nodiscard]] const picture::Record& record() const { return record_; }
 
  private:
   /// `begun`: seconds when the step began.
   void take(const StepReport& report, double begun) {
     if (trace_) trace_->add(tally_.steps, begun, report);
-    if (options_.checks() || !options_.picture.empty()) append_pieces(pieces_, tally_.steps, report);
+    if (options_.checks()) append_pieces(pieces_, tally_.steps, report);
     if (!options_.picture.empty()) append(record_, report, tally_.steps == 0);
   }
 
@@ -85,8 +88,8 @@ class Recorder {
   std::optional<Progress> progress_;
   std::uint64_t expected_steps_;
   std::optional<TraceFile> trace_;
-  std::vector<std::uint32_t> nanoseconds_;
-  std::vector<Piece> pieces_;
+  Histogram nanoseconds_;
+  PieceLog pieces_;
   picture::Record record_;
   Tally tally_;
 };
@@ -154,18 +157,43 @@ std::string title(const WalkOptions& options) {
                         : text + " along " + options.path.filename().string();
 }
 
-Verification verified(const WalkOptions& options, const OpenScene& scene, const std::vector<Piece>& pieces) {
+Verification verified(const WalkOptions& options, const OpenScene& scene, const PieceLog& pieces) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
-    return verify_against(options.against, scene.triangles(), pieces,
+    return verify_against(options.against, scene, pieces,
                           [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
   }
   Progress progress("verifying", "pieces");
   return scene.verified(pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
 }
 
-/// Metres. How far around the way a picture of a part of a store looks.
-constexpr double picture_reach = 20.0;
+/// Bytes that a segment takes at most while a picture is made.
+constexpr std::uint64_t bytes_a_segment = 2048;
+
+picture::Measured measured(OpenScene& scene, const WalkReport& report, const picture::Record& record) {
+  Surroundings around(scene);
+  // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
+  const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
+  return picture::measure(scene.space(), report, record, scene.store() ? picture::Arrive(arrive) : picture::Arrive());
+}
+
+/// The sheet of what was measured. Of a store, after OpenScene::leave.
+picture::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
+                     const picture::Record& record, const picture::Measured& measured) {
+  const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
+    if (!scene.store()) return take(scene.loaded().meshes);
+    const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
+    each_mesh(
+        *scene.store(), box,
+        [&](const Mesh& mesh) {
+          take({&mesh, 1});
+        },
+        missing);
+  };
+  const auto fit = static_cast<std::size_t>(scene.memory() / bytes_a_segment);
+  return picture::make_sheet({title(options), report, record, measured, scene.walked_bounds(), triangles,
+                              scene.store() ? std::min(fit, picture::usual_segments) : picture::usual_segments});
+}
 
 ExitStatus walk(WalkOptions options) {
   if (!options.against.scenes.empty()) {
@@ -176,7 +204,8 @@ ExitStatus walk(WalkOptions options) {
     options.against.ignore = std::exchange(scene.ignore, {});
     check_against(options.against);
   }
-  if (!options.path.empty()) options.recorded = recorded_body(options.path);
+  const RecordedPath recorded = load_recorded_path(options.path);
+  options.recorded = recorded.body;
   take_profile(options);
   options.settings = walker_settings(options);
   check_outputs(options);
@@ -188,8 +217,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
   }
-  std::vector<Vec3> path;
-  if (!options.path.empty()) path = positions(load_path(options.path));
+  const std::vector<Vec3> path = positions(recorded.waypoints());
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
     if (!other.empty()) tell("note: " + other);
@@ -250,20 +278,15 @@ ExitStatus walk(WalkOptions options) {
   }
   report.paging = scene.paging();
   report.times = recorder.times();
+  std::optional<picture::Measured> seen;
+  if (drawing) seen = measured(scene, report, recorder.record());
+  scene.leave();
   if (options.checks()) {
     const auto begin = std::chrono::steady_clock::now();
     report.verified = verified(options, scene, recorder.pieces());
     report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
-  if (drawing) {
-    // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
-    std::vector<Mesh> around;
-    if (scene.store()) around.push_back(scene.stored_triangles(recorder.pieces(), picture_reach));
-    const World near = World::build(around);
-    const Space& space = scene.store() ? static_cast<const Space&>(near) : scene.space();
-    const std::span<const Mesh> meshes = scene.store() ? around : scene.loaded().meshes;
-    drawing->write(picture::make_sheet({title(options), report, recorder.record(), space, meshes}));
-  }
+  if (drawing) drawing->write(sheet(options, scene, report, recorder.record(), *seen));
   if (options.json) {
     print(json_report(report));
   } else {

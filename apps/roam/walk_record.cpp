@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
 #include "roam/error.h"
@@ -17,7 +16,7 @@ std::string joined_events(const StepReport& report) {
   std::string text;
   for (const Event& event : report.events) {
     if (!text.empty()) text += '+';
-    text += name(event.kind);
+    text += to_string(event.kind);
   }
   return text;
 }
@@ -41,12 +40,12 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
     row(step_start, report.to, report.radius, report.height, report.clearance, report.contacts.total(), events, true);
     return;
   }
-  for (const Corner& corner : report.corners) {
-    const bool last = &corner == &report.corners.back();
+  for (const Segment& corner : report.segments) {
+    const bool last = &corner == &report.segments.back();
     row(step_start + corner.time, corner.position, corner.radius, corner.height, corner.clearance,
         last ? report.contacts.total() : 0, last ? events : std::string(), corner.teleport);
   }
-  if (report.corners.empty()) {
+  if (report.segments.empty()) {
     row(step_start + report.elapsed, report.to, report.radius, report.height, report.clearance, report.contacts.total(),
         events, false);
   }
@@ -63,26 +62,16 @@ void TraceFile::close() {
   if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
 }
 
-void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report) {
+void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report) {
   Vec3 from = report.from;
-  for (const Corner& corner : report.corners) {
+  for (const Segment& corner : report.segments) {
     if (step == 0) break;
     if (corner.teleport) from = corner.position;
-    pieces.push_back({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
+    pieces.add({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.clearance});
     from = corner.position;
   }
   if (report.held && !(report.clearance > 0.0)) return;
-  pieces.push_back({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
-}
-
-StepTimes summarize(std::vector<std::uint32_t> nanoseconds) {
-  if (nanoseconds.empty()) return {};
-  std::sort(nanoseconds.begin(), nanoseconds.end());
-  const std::size_t last = nanoseconds.size() - 1;
-  const auto at = [&](double fraction) {
-    return static_cast<double>(nanoseconds[static_cast<std::size_t>(fraction * static_cast<double>(last))]);
-  };
-  return {at(0.5), at(0.99), at(1.0)};
+  pieces.add({step, report.to, report.to, Body::capsule(report.radius, report.height), report.clearance});
 }
 
 }  // namespace roam::app

@@ -1,15 +1,14 @@
 #pragma once
 /// \file
-/// What is kept of a walk while it goes on: its trace, the time of each step, and its pieces for --verify.
+/// What is kept of a walk while it goes on: its trace, and its pieces for --verify.
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
+#include "piece_log.h"
 #include "roam/walker.h"
-#include "verification.h"
 
 namespace roam::app {
 
@@ -35,16 +34,6 @@ class TraceFile {
 /// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
 /// place at the end, unless it is held there because it does not fit. Of the start, step 0, only the place where the
 /// body was put: the way out of a wall into which a path begins is no step.
-void append_pieces(std::vector<Piece>& pieces, std::uint64_t step, const StepReport& report);
-
-/// The times of steps in nanoseconds.
-struct StepTimes {
-  double median = 0.0;
-  double p99 = 0.0;
-  double max = 0.0;
-};
-
-/// Zeros when there was no step.
-[[nodiscard]] StepTimes summarize(std::vector<std::uint32_t> nanoseconds);
+void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report);
 
 }  // namespace roam::app

@@ -177,15 +177,15 @@ Json json_report(const WalkReport& report) {
   }
   Json events = Json::array();
   for (const RouteEvent& e : result.events) {
-    events.push_back({{"step", e.step}, {"kind", name(e.event.kind)}, {"point", to_json(e.event.point)}});
+    events.push_back({{"step", e.step}, {"kind", to_string(e.event.kind)}, {"point", to_json(e.event.point)}});
   }
   Json json = {{"scene", report.scene},
                {"triangles", report.triangles},
-               {"mode", name(report.mode)},
+               {"mode", to_string(report.mode)},
                {"radius", report.settings.radius},
                {"height", report.settings.height},
                {"support_radius", report.settings.support_radius},
-               {"outcome", name(result.outcome)},
+               {"outcome", to_string(result.outcome)},
                {"why", explain(report)},
                {"length_m", result.length},
                {"steps", result.steps},
@@ -220,7 +220,7 @@ Json json_report(const WalkReport& report) {
 
 std::string text_report(const WalkReport& report) {
   const RouteResult& result = report.result;
-  std::string text = fmt::format("{}: {}\n", name(result.outcome), explain(report));
+  std::string text = fmt::format("{}: {}\n", to_string(result.outcome), explain(report));
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
@@ -229,7 +229,7 @@ std::string text_report(const WalkReport& report) {
          fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}", at(*freed)));
   }
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
-  line("body", fmt::format("{}, radius {:g} m, height {:g} m", name(report.mode), report.settings.radius,
+  line("body", fmt::format("{}, radius {:g} m, height {:g} m", to_string(report.mode), report.settings.radius,
                            report.settings.height));
   if (report.settings.support_radius > 0.0)
     line("", fmt::format("support radius {:g} m", report.settings.support_radius));

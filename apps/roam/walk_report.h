@@ -10,9 +10,15 @@
 #include "roam/pager.h"
 #include "roam/route.h"
 #include "verification.h"
-#include "walk_record.h"
 
 namespace roam::app {
+
+/// The times of steps, ns; zeros where there was no step.
+struct StepTimes {
+  double median = 0.0;  ///< to 1 %, as a Histogram says it
+  double p99 = 0.0;     ///< the same
+  double max = 0.0;
+};
 
 struct WalkReport {
   std::string scene;  ///< the file names

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "roam/error.h"
 
@@ -30,11 +32,14 @@ constexpr double cell_side = 1.0;  // m, a place that was visited
 // A body that moves by less than this share of free motion in this time is stuck.
 constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
+// However long it goes, it remembers no more: cells of some ten hours, then it begins anew.
+constexpr std::size_t most_visits = 1 << 15;
+constexpr std::ptrdiff_t most_events = 10'000, most_voids = 1'000;
 constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
 
-bool contains(const Box& box, const Vec3& p) {
-  return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && box.lower.z <= p.z &&
-         p.z <= box.upper.z;
+/// What a body flies in: the scene, and the air around it that takes the body over a roof and round an object.
+Box airspace(const Space& space, const WalkerSettings& settings) {
+  return space.bounds().grown(fly_height + settings.height + stride);
 }
 
 Vec3 level(int i, int count) {
@@ -69,7 +74,7 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
       const Impact ground = space.sweep(body, next, {0, 0, -down});
       if (!ground.hit) return;
       next.z -= ground.time * down;
-    } else if (!contains(space.bounds(), next)) {
+    } else if (!airspace(space, settings).holds(next)) {
       return;
     }
     visit(next, along.time * stride);
@@ -77,11 +82,6 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
     place = next;
   }
 }
-
-struct Start {
-  Vec3 place{0.0};
-  double room = -1.0;
-};
 
 /// A place on the floor at `floor`, or in the air above it, and how much room there is.
 Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
@@ -117,12 +117,21 @@ Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, co
   return start;
 }
 
+/// Metres from a place down to what lies below it, if that is within `depth`. A ray reaches no farther than a motion.
+std::optional<double> drop_from(const Space& space, const Vec3& place, double depth) {
+  for (double begin = 0.0; begin < depth; begin += Space::motion_limit) {
+    const double part = std::min(depth - begin, Space::motion_limit);
+    const Impact down = space.ray(place - Vec3(0, 0, begin), {0, 0, -part});
+    if (down.hit) return begin + down.time * part;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
-                  const std::function<bool()>& goes_on) {
+Start best_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+                 int columns, const std::function<bool()>& goes_on) {
   const Box& box = space.bounds();
-  if (box.empty()) throw Error("found no place to start from: the scene is empty");
   const Vec3 size = box.size();
   Start best;
   const auto consider = [&](const Vec3& floor) {
@@ -131,26 +140,34 @@ Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
     if (start.room > best.room) best = start;
   };
   for (const Vec3& floor : floors) consider(floor);
-  for (int i = 0; i < columns_a_side; ++i) {
-    for (int j = 0; j < columns_a_side; ++j) {
-      Vec3 top{box.lower.x + size.x * (i + 0.5) / columns_a_side, box.lower.y + size.y * (j + 0.5) / columns_a_side,
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      Vec3 top{box.lower.x + size.x * (i + 0.5) / columns, box.lower.y + size.y * (j + 0.5) / columns,
                box.upper.z + 1.0};
       for (int level_below = 0; level_below < most_floors; ++level_below) {
-        const double depth = top.z - box.lower.z + 1.0;
-        const Impact down = depth > 0.0 ? space.ray(top, {0, 0, -depth}) : Impact{};
-        if (!down.hit) break;
-        top.z -= down.time * depth;
+        const std::optional<double> drop = drop_from(space, top, top.z - box.lower.z + 1.0);
+        if (!drop) break;
+        top.z -= *drop;
         consider(top);
         top.z -= floor_gap;
       }
     }
   }
-  if (best.room < 0.0) {
-    throw Error(
-        fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
-                    "Else take a smaller body, or lead it with --path",
-                    settings.radius, settings.height));
-  }
+  return best;
+}
+
+void fail_to_start(const WalkerSettings& settings) {
+  throw Error(
+      fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
+                  "Else take a smaller body, or lead it with --path",
+                  settings.radius, settings.height));
+}
+
+Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+                  const std::function<bool()>& goes_on) {
+  if (space.bounds().empty()) throw Error("found no place to start from: the scene is empty");
+  const Start best = best_start(space, settings, mode, floors, columns_a_side, goes_on);
+  if (best.room < 0.0) fail_to_start(settings);
   return best.place;
 }
 
@@ -244,7 +261,10 @@ const StepReport& Wander::advance() {
 void Wander::note(const StepReport& report) {
   result_.end = report.to;
   filter_.append(result_.events, result_.steps, report);
+  auto& events = result_.events;
+  if (std::ssize(events) > most_events) events.erase(events.begin() + (most_events - 1), events.end() - 1);
   const std::uint64_t here = cell(report.to);
+  if (visits_.size() >= most_visits) visits_.clear();
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;
 
@@ -252,6 +272,7 @@ void Wander::note(const StepReport& report) {
     // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
     voids_.push_back({report.to, heading_});
     voids_.push_back({leg_start_, heading_});
+    if (std::ssize(voids_) > most_voids) voids_.erase(voids_.begin(), voids_.begin() + 2);
     way_left_ = 0.0;
   }
   held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;
@@ -259,7 +280,8 @@ void Wander::note(const StepReport& report) {
     result_.outcome = Outcome::held;
     done_ = true;
   }
-  const Box& scene = walker_->space().bounds();
+  const bool flies = walker_->mode() == Mode::fly;
+  const Box scene = flies ? airspace(walker_->space(), walker_->settings()) : walker_->space().bounds();
   const Vec3 reach(walker_->settings().radius, walker_->settings().radius, 0.5 * report.height);
   const Vec3 low = report.to - reach;
   const Vec3 high = report.to + reach;

@@ -16,6 +16,18 @@
 
 namespace roam::app {
 
+/// A free place, and how much room there is.
+struct Start {
+  Vec3 place{0.0};
+  double room = -1.0;  ///< less than 0: there is none
+};
+
+/// The best place to start from, as wander_start: of `floors` and all floors under a grid of `columns` x `columns`.
+[[nodiscard]] Start best_start(const Space& space, const WalkerSettings& settings, Mode mode,
+                               std::span<const Vec3> floors, int columns, const std::function<bool()>& goes_on);
+/// Throws roam::Error: a body with these settings fits nowhere.
+[[noreturn]] void fail_to_start(const WalkerSettings& settings);
+
 /// A free place to start from: of `floors` (see floor_samples) and all floors under a grid of columns over the scene,
 /// the one from which the body can stride farthest in eight directions; the more walls are in sight the better. A place
 /// within walls and under a ceiling counts fourfold, so that one starts in a tunnel instead of on top of it, unless it
@@ -35,8 +47,8 @@ class Wander {
   void look();
   /// One step. Must not be called when done().
   const StepReport& advance();
-  /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before; `left_scene` as for
-  /// a route.
+  /// Its events are the first 10,000, the last of them the last of all. `reached` when the time is over; `held` when
+  /// the body cannot move then, or not for 2 s before; `left_scene` as for a route.
   [[nodiscard]] const RouteResult& result() const { return result_; }
 
  private:

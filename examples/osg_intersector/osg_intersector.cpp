@@ -37,7 +37,7 @@ int main() {
     }
     const auto hit = box->getFirstIntersection();
     std::printf("door open %.0f degrees: stops at y = %.3f m, before the %s of \"%s\"\n", degrees,
-                -2.0 + 4.0 * hit.time, roam::name(hit.feature), hit.drawable->getName().c_str());
+                -2.0 + 4.0 * hit.time, roam::to_string(hit.feature), hit.drawable->getName().c_str());
   }
   return 0;
 }

@@ -1,11 +1,11 @@
 // An ordinary viewer of OpenSceneGraph in which one line was replaced. W, A, S, D and the arrows fly, the mouse looks,
 // G walks, H tells of the other keys; no wall is ever crossed.
-#include <osgDB/ReadFile>
 #include <osgRoam/Manipulator.h>
-#include <osgViewer/Viewer>
-#include <osgViewer/ViewerEventHandlers>
 
 #include <cstdio>
+#include <osgDB/ReadFile>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
 
 int main(int argc, char** argv) {
   osg::ArgumentParser arguments(&argc, argv);

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const roam::Scene scene = roam::import_scene(argv[1]);
+    const roam::ImportedScene scene = roam::import_scene(argv[1]);
     for (const std::string& note : scene.report.notes) std::fprintf(stderr, "%s\n", note.c_str());
     const roam::World world = roam::World::build(scene.meshes);
 
@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
 
     roam::Walker walker(world, {.radius = 0.3, .height = 1.8}, roam::Mode::walk, path.front());
     const roam::RouteResult result = roam::follow(walker, path, {.speed = 5.0});
-    std::printf("%s after %.1f m, never nearer than %.4f m to anything\n", roam::name(result.outcome), result.length,
-                result.least_clearance);
+    std::printf("%s after %.1f m, never nearer than %.4f m to anything\n", roam::to_string(result.outcome),
+                result.length, result.least_clearance);
     if (result.blocked_at) {
       std::printf("blocked by \"%s\"\n", world.object_name(result.blocked_at->triangle).c_str());
     }

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     // Takes what has come into use between two steps, and waits where the body needs what has not.
     const roam::RouteResult walked = roam::follow(walker, pager, waypoints);
     const roam::PagerStats stats = pager.stats();
-    std::printf("%s after %.1f m, %.0f MB of memory\n", roam::name(walked.outcome), walked.length,
+    std::printf("%s after %.1f m, %.0f MB of memory\n", roam::to_string(walked.outcome), walked.length,
                 static_cast<double>(stats.memory) / (1 << 20));
     return walked.outcome == roam::Outcome::reached ? 0 : 3;
   } catch (const std::exception& error) {

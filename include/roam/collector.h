@@ -20,7 +20,8 @@
 namespace roam {
 namespace query {
 class FloorOnly;
-}
+struct Frame;
+}  // namespace query
 
 /// Keeps the nearest contacts in the memory of whoever asks, as a heap with the farthest on top.
 ///
@@ -48,11 +49,13 @@ class Collector {
   /// null. A space may find it by FirstImpact::place instead of looking for it.
   [[nodiscard]] const FirstImpact* only() const { return only_; }
 
-  /// A triangle, measured here.
+  /// A triangle, measured here. One of an object that the query ignores is passed over.
   void offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object = no_object);
   /// A contact that the space has measured: its distance is certified, and no more than `doubt` (m) less than the true
   /// one. Of Kind::floor_clearance, what is offered must be floor.
-  void offer(const Contact& contact, double doubt = 0.0);
+  void offer(const Contact& contact, double doubt = 0.0) {
+    frame_ == nullptr ? keep(contact, doubt) : keep_seen(contact, doubt);
+  }
   /// Something was not offered that comes no nearer than `gap` (m), which is certified and beyond enough().
   void left_out(double gap) { left_out_ = gap < left_out_ ? gap : left_out_; }
   /// Before anything is offered: a clearance is to be at most so much (m) less than the true one; 0: no less than need
@@ -68,6 +71,14 @@ class Collector {
   /// `repeats`: the same triangle may be offered twice, by pieces of one motion. Looking for it costs a scan.
   void expect_repeats() { repeats_ = true; }
   void take_floor_only(const query::FloorOnly& floor) { floor_ = &floor; }
+  /// The one contact that is wanted, of Kind::one_contact.
+  void take_only(const Contact& contact) {
+    if (frame_ != nullptr) return keep_seen(contact, 0.0);
+    out_[0] = contact;
+    count_ = 1;
+  }
+  /// What is offered from now on is seen in this frame; null: in the scene's.
+  void enter(const query::Frame* frame) { frame_ = frame; }
   /// Nearest first.
   void sort();
   /// The reach that it was made for.
@@ -83,12 +94,16 @@ class Collector {
   [[nodiscard]] bool takes_unknown(const Box& box, double radius, double margin) const;
 
  private:
+  void keep(const Contact& contact, double doubt);
+  /// The same of one that is seen in the frame.
+  void keep_seen(const Contact& contact, double doubt);
   [[nodiscard]] std::span<Contact>::iterator end() const { return out_.begin() + static_cast<std::ptrdiff_t>(count_); }
   /// Whether the triangle is in the list; a nearer contact with it replaces that one.
   [[nodiscard]] bool known(const Contact& contact);
 
   std::span<Contact> out_;
   const query::FloorOnly* floor_ = nullptr;
+  const query::Frame* frame_ = nullptr;
   const FirstImpact* only_ = nullptr;
   double asked_, reach_, enough_;
   double left_out_ = std::numeric_limits<double>::infinity();

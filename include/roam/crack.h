@@ -23,6 +23,6 @@ struct Crack {
 };
 
 /// "crack", "step_down" or "open_drop".
-[[nodiscard]] const char* name(Crack::Kind kind);
+[[nodiscard]] const char* to_string(Crack::Kind kind);
 
 }  // namespace roam

@@ -2,7 +2,7 @@
 /// \file
 /// Triangles out of other people's files.
 ///
-///     const roam::Scene scene = roam::import_scene("mine.dae");
+///     const roam::ImportedScene scene = roam::import_scene("mine.dae");
 ///     const roam::World world = roam::World::build(scene.meshes);
 ///     for (const std::string& note : scene.report.notes) std::cerr << note << "\n";
 ///
@@ -51,7 +51,7 @@ enum class LengthUnit : std::uint8_t { m, cm, mm, ft, in };
 struct ImportProgress {
   std::filesystem::path path;     ///< the file or folder being read, as it was passed
   std::uint64_t bytes_read = 0;   ///< of bytes_total; stands still while a foreign reader works on one large file
-  std::uint64_t bytes_total = 0;  ///< size of all files and folders that were passed
+  std::uint64_t bytes_total = 0;  ///< size of all files and folders that were passed; grows while they are counted
   std::uint64_t triangles = 0;    ///< received so far
 };
 
@@ -124,7 +124,7 @@ struct ImportReport {
 
 /// What was imported. Meshes come in the order of the paths and, within one, of the file; their triangles in the order
 /// of the file, polygons fanned from their first corner, quads as 0,1,2 and 0,2,3. Points and segments are kept.
-struct Scene {
+struct ImportedScene {
   std::vector<Mesh> meshes;
   ImportReport report;
 };
@@ -136,13 +136,13 @@ struct Scene {
 /// Throws roam::Error when a path is missing, of no known format, malformed, gives no triangle, makes its reader
 /// crash, or needs more memory or time than allowed; the message names the file, the cause and what to do.
 /// Throws roam::Cancelled when the progress callback says so. No child process is left behind either way.
-[[nodiscard]] Scene import_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options = {});
+[[nodiscard]] ImportedScene import_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options = {});
 
 /// The same for a list that is written out: import_scene({"mine.dae", "shaft.obj"}).
-[[nodiscard]] Scene import_scene(std::initializer_list<std::filesystem::path> paths, const ImportOptions& options = {});
+[[nodiscard]] ImportedScene import_scene(std::initializer_list<std::filesystem::path> paths, const ImportOptions& options = {});
 
 /// The same for one path.
-[[nodiscard]] Scene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
+[[nodiscard]] ImportedScene import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Takes a scene piece by piece, in the order of import_scene: at most piece_triangles triangles and the vertices that
 /// they use. `continues`: the piece goes on with the object of the piece before. The mesh is only valid during the

@@ -22,6 +22,7 @@ struct Mesh {
   std::string name = {};                                     ///< of the object, for people; may be empty
   std::vector<Vec3> vertices = {};                           ///< metres, scene frame
   std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< indices into vertices; either winding
+  std::uint64_t user_data = 0;  ///< of the program's own; Space::object() returns it
 
   [[nodiscard]] Triangle triangle(std::size_t i) const {
     const auto& t = triangles[i];

@@ -4,7 +4,7 @@
 ///
 ///     if (walker.report().blocked)
 ///       if (const auto opening = roam::measure_opening(walker, ahead))
-///         std::cout << name(opening->kind) << " " << opening->width << " m\n";
+///         std::cout << to_string(opening->kind) << " " << opening->width << " m\n";
 ///
 /// passage.h finds the narrowest opening of the widest way between two places.
 
@@ -31,7 +31,7 @@ struct Opening {
 };
 
 /// "door", "lintel" or "gap".
-[[nodiscard]] const char* name(Opening::Kind kind);
+[[nodiscard]] const char* to_string(Opening::Kind kind);
 
 /// The contact that stands most against `way` among all that a step touched, the ground included; null where nothing
 /// was touched.

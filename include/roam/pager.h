@@ -84,8 +84,9 @@ class Pager final : public LiveSpace {
   /// of against it. `ready` is how far around the body everything is known (PagerStats::ready_m), `latency` how long a
   /// read takes that is asked for now, s, and dt a step of 1/60 s. Slow, never through.
   [[nodiscard]] SpaceFacts facts() const override;
-  /// Asks a loading thread and answers "" until it knows: ask again later. Of what is unknown: why.
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  /// The name alone. It is read by a loading thread: "" until it is there, so call again later. For what is unknown it is
+  /// the reason.
+  [[nodiscard]] Object object(TriangleId triangle) const override;
 
   [[nodiscard]] const Store& store() const;
   [[nodiscard]] PagerStats stats() const;

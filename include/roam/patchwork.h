@@ -22,10 +22,10 @@
 /// An unknown box is kept away from by Patchwork::margin beyond its surface, so that whatever comes to light in it, and
 /// is stored as inexactly as World::build may, leaves a body beside it free.
 ///
-/// expect(), deliver(), fail() and stats() may be called from any thread at any time. Everything else belongs to the
-/// thread that moves the body: queries may run at the same time as each other, but not during update(). Queries never
-/// lock, never wait, never allocate. Their answers depend on which patches are in use and on nothing else: not on the
-/// order in which these came, nor on what was there before, to the last bit.
+/// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. Everything else belongs
+/// to the thread that moves the body: queries may run at the same time as each other, but not during update(). Queries
+/// never lock, never wait, never allocate. Their answers depend on which patches are in use and on nothing else: not on
+/// the order in which these came, nor on what was there before, to the last bit.
 
 #include <cstdint>
 #include <memory>
@@ -91,6 +91,14 @@ class Patchwork final : public LiveSpace {
   /// or was delivered.
   void fail(PatchId patch, const std::string& reason);
 
+  /// Forgets what was delivered, to free its memory: its box is unknown again, and the same patch may be delivered
+  /// again. That waits while the body is in the box or within Patchwork::margin of it; an update() without a body does
+  /// not wait. Nothing happens where finer patches have replaced it. Throws roam::Error for a number that was not
+  /// expected, or that was not delivered or is forgotten already.
+  /// What is delivered again while that waits takes its place at once: what
+  /// sticks out may come upon the body, as if it had been put there.
+  void forget(PatchId patch);
+
   /// Takes into use what has been delivered. `body` at `place` is where a finer patch must leave room. Returns whether
   /// any triangle or unknown box came or went. Holds the lock that deliver() takes only to swap lists. Costs next to
   /// nothing when nothing came and nothing waits, else a few looks for the nearest triangle, and some microseconds for
@@ -104,12 +112,14 @@ class Patchwork final : public LiveSpace {
 
   /// The largest error is error_limit.
   [[nodiscard]] SpaceFacts facts() const override;
-  /// Of what is unknown: why, where fail() said it, else "not loaded yet". A number whose patch has gone gives "".
+  /// For what is unknown the name is the reason: what fail() gave, else "not loaded yet". A number whose patch has gone
+  /// belongs to no object.
   ///
   /// The number of a triangle is that of its patch times 2^32, and its number in the patch's world: the same for as
-  /// long as the patch is in use and never used again. The sides of an unknown box have numbers of their own. To
-  /// Space::contacts() such a box is one contact: where it is nearest. Objects are numbered in each patch's world.
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  /// long as the patch is in use; another patch never has it, the same one again after forget(). The sides of an
+  /// unknown box have numbers of their own. To Space::contacts() such a box is one contact: where it is nearest.
+  /// Objects are numbered in each patch's world.
+  [[nodiscard]] Object object(TriangleId triangle) const override;
 
   /// The patch that a triangle, or the side of an unknown box, belongs to, and its number in the patch's world.
   [[nodiscard]] static PatchId patch(TriangleId triangle) { return PatchId{triangle >> 32}; }

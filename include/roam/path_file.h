@@ -7,6 +7,8 @@
 /// One file holds one of the two kinds. Library target roam::files.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -19,6 +21,11 @@
 #include "roam/walker_settings.h"
 
 namespace roam {
+
+/// What a path file holds at most.
+inline constexpr std::size_t most_waypoints = 1'000'000;
+inline constexpr std::uint64_t longest_path_file = 128ull << 20;  ///< bytes
+inline constexpr std::size_t longest_path_line = 4096;            ///< bytes
 
 /// Where the camera of an animation path was at its moment, and how it looked.
 struct PathPose {
@@ -34,11 +41,11 @@ struct Waypoint {
 };
 
 /// Reads a path. `name` stands for the file in messages. Throws roam::Error naming the line for anything but numbers,
-/// for a wrong count of them, for numbers that are not finite or a time that runs backwards, and for a path of fewer
-/// than two waypoints.
+/// for a wrong count of them, for numbers that are not finite or a time that runs backwards; for a path of fewer than
+/// two waypoints, and for what is beyond the limits above.
 [[nodiscard]] std::vector<Waypoint> read_path(std::istream& in, const std::string& name);
 
-/// The same from a file. Throws roam::Error also when it cannot be opened.
+/// The same from a file, or from a pipe. Throws roam::Error also when it cannot be read.
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
 
 /// The comment by which a path file says whose centre went there, without an end of line:
@@ -46,8 +53,8 @@ struct Waypoint {
 [[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
 
 /// Writes a path that load_path reads back to the last bit: places of the centre of `body`, which is told in a comment
-/// where it is given. Throws roam::Error for fewer than two places, for one that load_path would refuse, and when the
-/// file cannot be written.
+/// where it is given. Throws roam::Error for fewer than two places, for places that load_path would refuse, and when
+/// the file cannot be written.
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
                Mode mode = Mode::walk);
 

@@ -7,7 +7,7 @@
 ///     if (answer.passable) {
 ///       go(roam::probed_path(survey, question, answer));
 ///     } else if (answer.limit) {
-///       std::cout << name(answer.limit->kind) << " " << answer.limit->size << " m\n";  // "door 0.52 m"
+///       std::cout << to_string(answer.limit->kind) << " " << answer.limit->size << " m\n";  // "door 0.52 m"
 ///     }
 ///
 /// passage.h says how wide the widest way is; this says what that means to one body, or to many in one search. A yes is
@@ -92,7 +92,7 @@ struct ProbeLimit {
 };
 
 /// "door", "lintel", "gap", "edge", "end" (of both), "height", "step" or "apart".
-[[nodiscard]] const char* name(ProbeLimit::Kind kind);
+[[nodiscard]] const char* to_string(ProbeLimit::Kind kind);
 
 struct ProbeAnswer {
   ProbedSize size;

@@ -2,7 +2,7 @@
 /// \file
 /// What training found out about a scene, kept beside it, so that everybody who roams there has a body that fits.
 ///
-///     const roam::Scene scene = roam::import_scene("dam.ply");
+///     const roam::ImportedScene scene = roam::import_scene("dam.ply");
 ///     const auto profile = roam::find_profile("dam.ply", roam::identity_of(scene.meshes));  // reads dam.ply.roam.json
 ///     if (profile) {
 ///       settings = roam::apply(*profile, settings);   // and, once there is a walker:

@@ -7,7 +7,7 @@
 ///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, path[0]);
 ///     roam::Route route(walker, path, {.speed = 1.4});
 ///     while (!route.done()) route.advance();
-///     std::cout << roam::name(route.result().outcome) << "\n";
+///     std::cout << roam::to_string(route.result().outcome) << "\n";
 ///
 /// The body heads straight for one waypoint after the other and slides along what it meets: a route is followed, not
 /// searched. Deterministic as the Walker is.
@@ -62,7 +62,7 @@ enum class Outcome : std::uint8_t {
 };
 
 /// "reached", "blocked", "left_scene", "fell" or "held".
-[[nodiscard]] const char* name(Outcome outcome);
+[[nodiscard]] const char* to_string(Outcome outcome);
 
 /// What a body was blocked by.
 struct Blockage {

@@ -16,14 +16,16 @@
 /// | how near the nearest comes, and which it is | clearance(), floor_clearance() |
 /// | how near the nearest comes, in less time | gap() |
 /// | whether the body has room | fits() |
+/// | what was met | object() |
 ///
 /// Space is *hit*, *free* or *unknown*. Free is only what is certified free: with `radius` and triangles as the caller
 /// passed them and distances measured in exact arithmetic,
-///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle, unless it starts
-///     nearer: then it is a hit at time 0;
-///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. So a body that starts
-///     less than that from a wall may be answered a hit at time 0, whichever way it moves: keep a body that is to move
-///     on at least 2 * largest_error() from what it touches, as Walker does;
+///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle. A body that starts
+///     nearer is answered a hit at time 0;
+///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. A body that
+///     starts with a gap of less than 2 mm may be answered a hit at time 0, even when it moves away.
+///     Keep a body that is to move on at least 2 * largest_error() from what it touches, as Walker
+///     does;
 ///   - a gap() that is more than 0 certifies the same of its whole way;
 ///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
 ///     `unknown`.
@@ -38,6 +40,7 @@
 /// the answers are the same bits and raise no signal. Callbacks, and spaces of the host's own, run in the default one
 /// too.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -67,17 +70,39 @@ using ObjectId = std::uint32_t;
 /// The number of no object: of a miss, of what is unknown, and of every hit in a Pager, which has not read the objects.
 inline constexpr ObjectId no_object = ~ObjectId{0};
 
+/// What is known of the object that a triangle belongs to.
+struct Object {
+  ObjectId id = no_object;      ///< no_object: there is no such triangle, or its object is not numbered
+  std::string name;             ///< for people; may be empty
+  std::uint64_t user_data = 0;  ///< as the program gave it: Mesh::user_data
+};
+
+/// Objects that a query passes over. Filtered (roam/filtered.h) is a space without them, for a body that moves.
+struct ObjectFilter {
+  std::span<const ObjectId> objects;   ///< ascending
+  const ObjectFilter* also = nullptr;  ///< more of them
+
+  [[nodiscard]] bool ignores(ObjectId object) const {
+    for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
+      if (std::binary_search(f->objects.begin(), f->objects.end(), object)) return true;
+    }
+    return false;
+  }
+};
+
 /// A body and its straight way.
 struct Query {
   Body body;         ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};    ///< metres: where the centre is at time 0
   Vec3 motion{0.0};  ///< metres, each component at most Space::motion_limit: where the centre is at time 1, less `from`
+  /// Objects that are passed over, by the numbers that hits have; null: none. What is unknown is not passed over.
+  const ObjectFilter* ignored = nullptr;
 };
 
-/// The first impact of a sweep, or none (`hit` is false: then `distance` is 0, for Space::clearance says how free the
-/// way is, and the rest is as it was made). See SweepResult for the other members, with this difference: because a
-/// space stores to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on
-/// the triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
+/// The first impact of a sweep. On a miss `time` is 1, `distance` is 0 (Space::clearance measures how free the way is),
+/// and the rest keeps its default. See SweepResult for the other members, with this difference: because a space stores
+/// to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on the triangle
+/// as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct Impact : SweepResult {
   TriangleId triangle = no_triangle;  ///< that is touched first, of a hit; means nothing where `unknown`
   ObjectId object = no_object;        ///< that the triangle belongs to
@@ -133,9 +158,8 @@ struct SpaceFacts {
   /// The farthest that any stored vertex lies from where the caller put it, metres. Does not grow in the life of a
   /// space.
   double largest_error = 0.0;
-  /// Another number whenever something came or went. A body that is held then looks for a way out again; while it stays
-  /// the same, Walker goes where gap() was found free before without a new query. None: the space may change without
-  /// notice, and a body counts on no earlier answer.
+  /// Another number whenever something came or went. A body that is held then looks for a way out again. While the
+  /// number stays the same, Walker reuses earlier answers of gap(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
   /// Metres per second that a body should not exceed now, so that what it comes to is known by then; Walker slows down
   /// to it. Going faster is safe too: the body stops before what is unknown. No limit where everything is known.
@@ -168,22 +192,21 @@ class Space {
 
   /// How near the body comes to anything on its way (zero motion: at the place), looking no farther than `reach` (m)
   /// from its surface. `distance` is a certified lower bound of the gap to every triangle over the whole way, at most
-  /// 2 mm less than the true one; of a gap that is larger than that it has the sign. The triangle that is named, and
-  /// where it is touched, may be of another that comes as near to within 2 mm, as among the thousands of a fine wall:
-  /// contacts() tells which is the nearest.
+  /// 2 mm less than the true one. If the true gap is more than 2 mm, it is positive. Among triangles whose distances
+  /// differ by less than 2 mm, any may be named; contacts() names the nearest.
   [[nodiscard]] Clearance clearance(const Query& query, double reach) const;
 
-  /// The clearance of a body at rest where nothing but floor is there to be met: walls and steep things are passed
-  /// over. With a band, parts of triangles are measured, and a vertical capsule that is as high as the band answers how
-  /// far the floor is seen from above. What is unknown counts as floor where it may hold some: of a band, where the box
-  /// that is not known reaches into it near the body. The answer says `unknown` then: a caller who must know floor from
-  /// a guess has to wait. Throws roam::Error also for a `floor` that is out of range.
+  /// The clearance of a body at rest, of floor alone: walls and steep things are passed over. With a band, only the
+  /// part of a triangle inside it is measured; a vertical capsule as high as the band measures the horizontal distance.
+  /// What is unknown counts as floor where it may hold some: of a band, where the unknown box reaches into it near the
+  /// body. The answer says `unknown` then: a caller who must know floor from a guess has to wait. Throws roam::Error
+  /// also for a `floor` that is out of range.
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const;
 
-  /// What a moving body needs to know at every step, for a fraction of the cost of clearance(): of the same gap a
-  /// certified lower bound alone, metres, at most `reach`, and `reach` where nothing comes as near. Where the answer is
-  /// between 0 and `reach`, the true gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free.
-  /// A value <= 0 means touching or overlapping; it is not a depth, and may be minus the radius where the axis meets
+  /// A certified lower bound of the gap that clearance() measures, metres, for a fraction of its cost: what a moving
+  /// body needs at every step. `reach` where nothing comes as near. Where the answer is between 0 and `reach`, the true
+  /// gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free. A value <= 0 means touching or
+  /// overlapping, or a gap of less than 2 mm; it is not a depth, and may be minus the radius where the axis meets
   /// something.
   [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
@@ -228,8 +251,9 @@ class Space {
   [[nodiscard]] virtual SpaceFacts facts() const = 0;
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }
-  /// The name of the object that a triangle belongs to; may be empty, and is for a number that no triangle here has.
-  [[nodiscard]] virtual std::string object_name(TriangleId triangle) const = 0;
+  /// The object that a triangle belongs to; Object{} for a number that no triangle here has. Allocates.
+  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;
+  [[nodiscard]] std::string object_name(TriangleId triangle) const { return object(triangle).name; }
 
  protected:
   // For authors of spaces: the two questions that all of the above come down to. That no body passes a wall rests on
@@ -237,14 +261,14 @@ class Space {
   // may be null, is where a body that asks again from nearly the same place keeps what this library's spaces have found
   // around it: other spaces leave it alone.
 
-  /// What is met first: the earliest impact, as the head of this file promises. One at time 0 names what the body is
-  /// deepest in, of all that it touches there.
+  /// What is met first: the earliest impact, as the head of this file promises. At time 0 it names the triangle with
+  /// the most negative distance. Objects that `query.ignored` ignores are passed over.
   [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
   /// What comes near: offers the collector (roam/collector.h) all that comes within its reach of the body on its way.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
-  // A space that is made of others asks them by these. It hands on the vicinity where it changes nothing of what one
-  // other space answers, else null.
+  // A space that is made of others asks them by these. Pass the vicinity on to one of them at most, with the same body
+  // and way, else pass null.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);
   }

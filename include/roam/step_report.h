@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a Walker tells of one step: the way it went, corner by corner, what it touched and what happened.
+/// What a Walker tells of one step: the way it went, segment by segment, what it touched and what happened.
 
 #include <array>
 #include <cstddef>
@@ -24,13 +24,13 @@ enum class EventKind : std::uint8_t {
   crouched,      ///< became low to pass under something, or on command
   stood,         ///< found head-room and stood up again
   placed,        ///< put at a place by the caller
-  freed,         ///< was put where it did not fit and moved, by a checked way, to where it does; not said of the few
-                 ///< millimetres that part a body put exactly in touch from what it touches
-  held,         ///< cannot move: does not fit here and no checked way leads out, or has nowhere to stand (see put_back)
-  put_back,     ///< fell below everything, and was put back to where it last had ground below; also said `held` where
-                ///< it has nothing below there either, or has fallen from there before without standing anywhere
-  returned,     ///< left ghost mode inside a wall and was put to the nearest safe place
-  throttled,    ///< the step needed more corners than fit in a report and ended early; see StepReport::elapsed
+  freed,     ///< was put where it did not fit and moved, by a checked way, to where it does; not said of a correction
+             ///< of a few millimetres
+  held,      ///< is stuck: does not fit and cannot be freed, or has nothing below it (see put_back)
+  put_back,  ///< fell below everything, and was put back to where it last had ground below; `held` follows where it has
+             ///< nothing below there either, or falls from there again
+  returned,  ///< left ghost mode inside a wall and was put to the nearest safe place
+  throttled,    ///< the step needed more segments than fit in a report and ended early; see StepReport::elapsed
   met_unknown,  ///< touched, stands on (its foot, too) or is in what is not known yet (see space.h): solid until it is
                 ///< known
   slowed,       ///< the wish was faster than SpaceFacts::speed_limit and was followed at that speed
@@ -40,7 +40,7 @@ enum class EventKind : std::uint8_t {
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
-[[nodiscard]] const char* name(EventKind kind);
+[[nodiscard]] const char* to_string(EventKind kind);
 
 /// Something that happened, and where.
 struct Event {
@@ -76,22 +76,22 @@ class InlineList {
   std::size_t total_ = 0;
 };
 
-/// The end of one straight piece of a move.
-struct Corner {
-  Vec3 position{0.0};  ///< of the centre, metres
-  /// The body's whole height, metres, all along the piece that ends here. A change of height shows as a piece of its
+/// One straight piece of a move, from where the one before ends.
+struct Segment {
+  Vec3 position{0.0};  ///< of the centre at its end, metres
+  /// The body's whole height, metres, all along it. A change of height shows as a piece of its
   /// own: crouching lowers the centre with the new, lower body (inside the old one); standing up raises the centre with
-  /// the old body and then has a corner at the same position with the new one.
+  /// the old body and then has a segment that ends at the same position with the new one.
   double height = 0.0;
-  /// The body's radius, metres, all along the piece that ends here. A change of radius shows likewise: a smaller body
+  /// The body's radius, metres, all along it. A change of radius shows likewise: a smaller body
   /// goes from the old centre to its own, inside the old body; a larger one has the old body go to its centre, and then
-  /// a corner at the same position with the new one.
+  /// a segment that ends at the same position with the new one.
   double radius = 0.0;
   double time = 0.0;  ///< seconds since the step began
-  /// Certified lower bound of the clearance all along the piece that ends here, metres; 0 where none is known (ghost,
-  /// and a body that is being freed). Never less than radius - 1e-6 otherwise; it may be less than the true clearance,
-  /// by a quarter of the gap, two skins and 2 mm at most on a free way: Space::clearance tells more. What is merged of
-  /// many ways in one direction has the least of theirs.
+  /// Certified lower bound of the clearance all along it, metres; 0 where none is known (ghost,
+  /// and a body that is being freed). Never less than radius - 1e-6 otherwise. On a free way it is too low by at most a
+  /// quarter of the gap, two skins and 2 mm: Space::clearance measures more closely. A merged piece has the least of
+  /// its parts.
   double clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is said about the way
 };
@@ -100,31 +100,33 @@ struct Corner {
 struct StepReport {
   /// Of the move, in order; empty when the body did not move. Pieces in one direction are merged. A step that would
   /// need more ends early: see `elapsed`.
-  InlineList<Corner, 64> corners;
-  /// What was touched on the way, each feature of a triangle once, the last touched last; of more than 8 the first 7
-  /// and the last. `distance` is the gap to the plane of the contact where the body stopped.
+  InlineList<Segment, 64> segments;
+  /// What was touched on the way, each feature of a triangle once, the last touched last. If more than 8: the
+  /// first 7 and the last. `distance` is the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
   /// What happened, in order. Of a very long step some slides and steps may be left out; what ends a step never is.
   InlineList<Event, 24> events;
   Vec3 from{0.0};       ///< the centre before, metres
-  Vec3 to{0.0};         ///< the centre now, metres: the last corner, if there is one
+  Vec3 to{0.0};         ///< the centre now, metres: the end of the last segment, if there is one
   double height = 0.0;  ///< the body's whole height now, metres
   double radius = 0.0;  ///< the body's radius now, metres
   /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the way which
-  /// ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded, or something has
-  /// come upon it of which the next step frees it).
+  /// ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded, or something that
+  /// moved overlaps it until the next step frees it).
   double clearance = 0.0;
   double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
   double least_gap = 0.0;
   double elapsed = 0.0;  ///< seconds that were simulated: dt, or less when throttled
-  /// Metres per second, downward, at which it came to ground in this step, of several times the fastest; 0: it did not.
+  /// Metres per second, downward: the fastest landing of this step; 0: none.
   double landing_speed = 0.0;
-  bool grounded = false;     ///< stands on something (walk mode)
-  bool carried = false;      ///< stands on its foot over a crack: see WalkerSettings::support_radius
-  bool blocked = false;      ///< could not go on in the wished direction in this step; contacts.back() is why
-  bool held = false;         ///< see EventKind::held: the same as Walker::held()
-  bool put_back = false;     ///< see EventKind::put_back
+  Vec3 ground_velocity{
+      0.0};               ///< metres per second, of the ground that moves under the body: see Stance::ground_velocity
+  bool grounded = false;  ///< stands on something (walk mode)
+  bool carried = false;   ///< stands on its foot over a crack: see WalkerSettings::support_radius
+  bool blocked = false;   ///< could not go on in the wished direction in this step; contacts.back() is why
+  bool held = false;      ///< see EventKind::held: the same as Walker::held()
+  bool put_back = false;  ///< see EventKind::put_back
   bool met_unknown = false;  ///< see EventKind::met_unknown
 
   /// Metres that the centre moved, placing not counted.

@@ -43,7 +43,7 @@ struct Body {
 enum class Feature : std::uint8_t { face, edge, vertex };
 
 /// "face", "edge" or "vertex".
-[[nodiscard]] const char* name(Feature feature);
+[[nodiscard]] const char* to_string(Feature feature);
 
 /// The answer to a sweep. When `hit` is false only `distance` means anything besides `time`.
 struct SweepResult {

@@ -35,7 +35,7 @@ namespace roam {
 enum class Method : std::uint8_t { interval, paper };
 
 /// "interval" or "paper".
-[[nodiscard]] const char* name(Method method);
+[[nodiscard]] const char* to_string(Method method);
 
 /// What is being done, in the order in which it is.
 enum class TrainStage : std::uint8_t {
@@ -96,7 +96,7 @@ struct Decisive {
 };
 
 /// "opening" or "split".
-[[nodiscard]] const char* name(Decisive::Kind kind);
+[[nodiscard]] const char* to_string(Decisive::Kind kind);
 
 /// Why a part of the scene was left out.
 enum class LeftOut : std::uint8_t {

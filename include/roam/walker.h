@@ -9,10 +9,10 @@
 /// What is promised, for any speed and any time step, in fly and walk mode:
 ///   - the body only moves along straight pieces that the space has certified free: in this step or, in a space that
 ///     has a revision, in an earlier one. So at every instant its axis is at least radius - 1e-6 m from every
-///     triangle. The report has the corners between the pieces, each with its own certified bound;
+///     triangle. The report has the segments of the way, each with its own certified bound;
 ///   - the one exception is a body that is *put* where it does not fit: it is freed by a way that is checked as far as
-///     such a way can be (see Walker::place), or held where it is, and the report says which. Corners to which a body
-///     was put and not moved are marked as teleports;
+///     such a way can be (see Walker::place), or held where it is, and the report says which. Segments by which
+///     a body was put and not moved are marked as teleports;
 ///   - the same space, settings and calls give the same bits on every run.
 ///
 /// *Clearance* is the distance, in metres, of the body's axis (a sphere: its centre) from the nearest triangle; the gap
@@ -112,12 +112,13 @@ class Walker {
   [[nodiscard]] bool held() const;
   /// Upward speed in the air, m/s; 0 on the ground and outside walk mode.
   [[nodiscard]] double rise_speed() const;
-  /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put.
+  /// Metres per second, on average over the last call: 0 when it did not move the body, and without what it was put. Of
+  /// a step: with what move_instances() moved the body before it.
   /// What LiveSpace::update wants to know.
   [[nodiscard]] Vec3 velocity() const;
   /// Metres per second, at the end of the last step, horizontal in walk mode: where the next wish goes on from that has
-  /// limits of acceleration. What the last wish had become by then, along what the body slid, and 0 where it was
-  /// stopped, held or put.
+  /// limits of acceleration, and relative to ground that moves. What the last wish had become by then, along what the
+  /// body slid, and 0 where it was stopped, held or put.
   [[nodiscard]] Vec3 pace() const;
   /// What the last call did.
   [[nodiscard]] const StepReport& report() const;
@@ -135,6 +136,7 @@ class Walker {
   class State;
   /// For the rooms of this library alone.
   [[nodiscard]] const State& state() const { return *state_; }
+  [[nodiscard]] State& state() { return *state_; }
 
  private:
   std::unique_ptr<State> state_;  ///< null when it was moved from

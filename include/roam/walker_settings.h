@@ -18,7 +18,7 @@ namespace roam {
 enum class Mode : std::uint8_t { fly, walk, ghost };
 
 /// "fly", "walk" or "ghost".
-[[nodiscard]] const char* name(Mode mode);
+[[nodiscard]] const char* to_string(Mode mode);
 
 /// What the body is and what it can do. The defaults are a grown person on foot.
 struct WalkerSettings {
@@ -99,7 +99,8 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 
 /// What a person wishes for one step.
 struct WalkerInput {
-  /// Metres per second, finite. Walk mode takes the horizontal part; in the air it steers as on the ground.
+  /// Metres per second, finite. Walk mode takes the horizontal part; in the air it steers as on the ground. On ground
+  /// that moves (roam/move_instances.h), and in the air after it, it is relative to that.
   Vec3 velocity{0.0};
   bool jump = false;  ///< walk mode: jump, when on the ground. A level, not an edge: while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch, and stay so. Low ceilings make the body crouch without being told.

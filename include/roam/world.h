@@ -65,19 +65,17 @@ class World final : public Space {
   /// No two worlds of a process that were built have the same revision, so that one which another is assigned to is
   /// known to have changed. The number itself means nothing.
   [[nodiscard]] SpaceFacts facts() const override;
-  [[nodiscard]] std::string object_name(TriangleId triangle) const override;
+  [[nodiscard]] Object object(TriangleId triangle) const override;
 
   [[nodiscard]] const WorldStats& stats() const;
-  /// The object that a triangle belongs to. Throws roam::Error for a number that no triangle of this world has, such as
-  /// that of a miss.
-  [[nodiscard]] ObjectId object(TriangleId triangle) const;
 
  protected:
   [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
   void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
-  friend class Patchwork;  // asks many worlds as one
+  friend class Patchwork;  // these ask many worlds as one
+  friend class Instances;
 
   std::unique_ptr<const WorldData> data_;
 };

@@ -12,7 +12,7 @@
 
 namespace roam {
 
-const char* name(Crack::Kind kind) {
+const char* to_string(Crack::Kind kind) {
   switch (kind) {
     case Crack::Kind::crack:
       return "crack";
@@ -31,7 +31,7 @@ namespace roam::cracks {
 namespace {
 
 /// Of the work, by time: finding voids. Measuring them is the rest.
-constexpr double kFindShare = 0.8;
+constexpr double find_share = 0.8;
 /// m: depths that storing makes of one.
 constexpr double same_depth = 2e-3;
 
@@ -93,8 +93,8 @@ std::vector<FoundCrack> find(const Survey& survey, RimEdges& edges,
   std::atomic<bool> ended{false};
   std::function<bool(double)> finding, measuring;
   if (goes_on) {
-    finding = [&](double done) { return goes_on(kFindShare * done); };
-    measuring = [&](double done) { return goes_on(kFindShare + (1.0 - kFindShare) * done); };
+    finding = [&](double done) { return goes_on(find_share * done); };
+    measuring = [&](double done) { return goes_on(find_share + (1.0 - find_share) * done); };
   }
   const std::vector<RimPlace> voids = find_voids(survey, options, probe, edges, is_reached, finding, ended);
   std::vector<RimPlace> open, rest;

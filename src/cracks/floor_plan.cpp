@@ -10,7 +10,7 @@ namespace roam::cracks {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double squared(double x, double y) { return x * x + y * y; }
 
@@ -48,7 +48,7 @@ std::optional<Vec3> nearest_of(const Polygon& polygon) {
   if (polygon.size == 0) return std::nullopt;
   bool left = false, right = false;
   Vec3 best = polygon.corners[0];
-  double least = kInfinite;
+  double least = infinite;
   for (int i = 0; i < polygon.size; ++i) {
     const Vec3& a = polygon.corners[static_cast<std::size_t>(i)];
     const Vec3& b = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.size)];
@@ -86,7 +86,7 @@ NearPlace FloorPlan::of(TriangleId floor, const Vec3& place) const {
   if (highest > band_) polygon = clipped(polygon, 1.0, band_);
   if (lowest < -band_) polygon = clipped(polygon, -1.0, band_);
   const std::optional<Vec3> at = nearest_of(polygon);
-  if (!at) return {kInfinite, place};
+  if (!at) return {infinite, place};
   return {std::sqrt(squared(at->x, at->y)), place + *at};
 }
 

@@ -18,12 +18,12 @@ namespace roam::cracks {
 
 namespace {
 
-constexpr double kWindow = 4.0;        ///< m around a rim's disc that one flood fills
-constexpr double kSpacingShare = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
-constexpr double kSinkMargin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
-constexpr double kFinest = 0.1 * VoidProbe::precision;  ///< m
-constexpr std::size_t kMostDiscs = 32;                  ///< of one flood that are grown
-constexpr std::size_t kMostBeside = 3;                  ///< likewise, up to where an open drop begins, which takes long
+constexpr double window = 4.0;         ///< m around a rim's disc that one flood fills
+constexpr double spacing_share = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
+constexpr double sink_margin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
+constexpr double finest = 0.1 * VoidProbe::precision;  ///< m
+constexpr std::size_t most_discs = 32;                 ///< of one flood that are grown
+constexpr std::size_t most_beside = 3;                 ///< likewise, up to where an open drop begins, which takes long
 
 /// A place of the lattice at the level of one void.
 struct Cell {
@@ -47,7 +47,7 @@ class Floods {
         drops_(drops),
         is_reached_(is_reached),
         ended_(ended),
-        spacing_(kSpacingShare * probe.radius()) {}
+        spacing_(spacing_share * probe.radius()) {}
 
   void add(const RimPlace& place) {
     if (drops_.cover(place.outside)) return;
@@ -128,7 +128,7 @@ class Floods {
     std::deque<Cell> open;
     std::vector<Cell> filled;
     const auto enter = [&](const Vec3& from, std::int64_t x, std::int64_t y) {
-      if (level_distance(place_of(x, y, seed.z), seed) > kWindow) return;
+      if (level_distance(place_of(x, y, seed.z), seed) > window) return;
       if (const std::optional<Cell> cell = entered(from, x, y, seed.z, flood)) {
         open.push_back(*cell);
         filled.push_back(*cell);
@@ -171,7 +171,7 @@ class Floods {
     const double least = probe_.radius() - half_diagonal();
     if (cell->distance < least) return std::nullopt;
     if (drops_.cover(place, cell->floor)) return std::nullopt;
-    const double sphere = std::min(cell->distance, probe_.radius()) - kSinkMargin;
+    const double sphere = std::min(cell->distance, probe_.radius()) - sink_margin;
     if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
     cell->level = level;
     cell->flood = flood;
@@ -249,7 +249,7 @@ class Floods {
     std::size_t again = 0;
     for (const Cell& cell : cells) {
       const double most = cell.distance + half_diagonal();
-      if (most <= std::max(best.radius, options_.smallest - VoidProbe::precision) || starts.size() == kMostDiscs) break;
+      if (most <= std::max(best.radius, options_.smallest - VoidProbe::precision) || starts.size() == most_discs) break;
       const Vec3 start = place_of(cell);
       Cell& marked = *find(cell.x, cell.y, cell.level);
       marked.drop = cell.floor >= probe_.open() || is_in(own_drops, start, cell.floor) ||
@@ -262,7 +262,7 @@ class Floods {
           beside.push_back(start);
           continue;
         }
-        disc = again++ < kMostBeside ? grown_beside(start, own_drops) : Disc{start, cell.distance};
+        disc = again++ < most_beside ? grown_beside(start, own_drops) : Disc{start, cell.distance};
       }
       starts.push_back(start);
       if (disc.radius > best.radius) best = disc;
@@ -290,7 +290,7 @@ class Floods {
     const auto in_reach = [&](const Vec3& to) {
       return level_distance(to, near.centre) <= about && !is_open(to, own_drops);
     };
-    const Disc body = grow(probe_.body(), near.centre, probe_.open(), kFinest,
+    const Disc body = grow(probe_.body(), near.centre, probe_.open(), finest,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && in_reach(to); });
     // Where it must stop before it is on the ridge it is that much nearer to a wall than to floor, and no wall decides.
     const double floor = probe_.floor().nearest(body.centre, probe_.open()).distance;
@@ -312,7 +312,7 @@ class Floods {
 
   /// The way between two places lies in the void.
   bool stays(const Vec3& from, const Vec3& to) const {
-    return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - kSinkMargin);
+    return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - sink_margin);
   }
 
   /// The largest body that goes in near `start` and where it may, and a foot that carries it there. Where walls leave
@@ -321,9 +321,9 @@ class Floods {
     constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
     constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
     const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
-    const Disc body = grow(probe_.body(), start, probe_.open(), kFinest, may_move);
+    const Disc body = grow(probe_.body(), start, probe_.open(), finest, may_move);
     if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
-    return grow(probe_.floor(), body.centre, probe_.open(), kFinest, [&](const Vec3& from, const Vec3& to) {
+    return grow(probe_.floor(), body.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
       const double room = widest_share * body.radius;
       return may_move(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
     });
@@ -367,7 +367,7 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
                                         const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
   std::vector<Vec3> seeds;
   for (const RimPlace& place : places) seeds.push_back(place.outside);
-  const std::vector<std::vector<std::size_t>> parts = apart(seeds, 2.0 * kWindow + 0.5);
+  const std::vector<std::vector<std::size_t>> parts = apart(seeds, 2.0 * window + 0.5);
   std::vector<std::vector<MeasuredVoid>> measured(parts.size());
   std::vector<std::vector<RimPlace>> left(parts.size());
   std::mutex mutex;

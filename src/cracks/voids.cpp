@@ -12,18 +12,18 @@ namespace roam::cracks {
 namespace {
 
 /// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
-constexpr double kStepSlack = 0.003;
+constexpr double step_slack = 0.003;
 /// Of the smallest gap that is looked for: the sphere that sinks into it, and the one that looks about at knee height.
-constexpr double kProbeShare = 0.9, kSightShare = 0.2 * kProbeShare;
+constexpr double probe_share = 0.9, sight_share = 0.2 * probe_share;
 /// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
-constexpr double kClimbPrecision = 0.004;
+constexpr double climb_precision = 0.004;
 /// Two corners of an edge nearer than this in the plan have no side.
-constexpr double kShortest = 1e-9;
+constexpr double shortest_way = 1e-9;
 
 }  // namespace
 
 bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double knee, double smallest) {
-  const double sphere = kSightShare * smallest;
+  const double sphere = sight_share * smallest;
   const Vec3 eye = from + Vec3(0.0, 0.0, knee);
   Impact met = world.sweep({sphere, 0.0}, eye, to - from);
   // A sphere that came to touch a wall may not be let go again: a smaller one is.
@@ -34,8 +34,8 @@ bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double k
 VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
     : survey_(survey),
       options_(options),
-      step_(options.step + kStepSlack),
-      radius_(kProbeShare * options.smallest),
+      step_(options.step + step_slack),
+      radius_(probe_share * options.smallest),
       outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
       floor_(survey, step_),
       body_(survey, floor_, options.knee) {}
@@ -95,7 +95,7 @@ class Rims {
   bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Asks& asks, const Take& take) const {
     const Vec3 along = b - a;
     const double level = std::hypot(along.x, along.y);
-    if (level < kShortest) return false;
+    if (level < shortest_way) return false;
     Vec3 out(along.y / level, -along.x / level, 0.0);
     if (out.x * (inner.x - a.x) + out.y * (inner.y - a.y) > 0.0) out = -out;
     const double length = std::hypot(level, along.z);
@@ -124,7 +124,7 @@ class Rims {
 };
 
 Disc climb(const VoidProbe& probe, const Vec3& outside) {
-  return grow(probe.floor(), outside, probe.open(), kClimbPrecision,
+  return grow(probe.floor(), outside, probe.open(), climb_precision,
               [&](const Vec3& from, const Vec3& to) { return probe.sees(from, to); });
 }
 

@@ -13,6 +13,10 @@ const char* advice(int error, bool reading) {
   if (reading && (error == EACCES || error == EPERM)) return "give yourself the right to read it";
   if (!reading && (error == ENOENT || error == ENOTDIR)) return "make its folder first or choose another place";
   switch (error) {
+    case EISDIR:
+      return "name a file";
+    case EFBIG:
+      return reading ? "is it the right file?" : "";
     case ENOENT:
       return "check its name";
     case ENOSPC:

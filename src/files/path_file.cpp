@@ -6,9 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <istream>
+#include <sstream>
 #include <string_view>
 
+#include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -18,6 +21,7 @@ constexpr double largest_number = 1e9;
 
 constexpr std::size_t waypoint_numbers = 3;
 constexpr std::size_t pose_numbers = 8;
+constexpr const char* form = "a line is 'x y z' or 't x y z qx qy qz qw'";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view blanks = " \t\r\v\f";
 
@@ -30,6 +34,41 @@ struct Numbers {
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
   throw Error(fmt::format("{}:{}: {}", name, line, what));
 }
+
+std::string excerpt(std::string_view word) { return printable(word, longest_excerpt); }
+
+/// Lines of a text, and how many bytes they had.
+class Lines {
+ public:
+  Lines(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+
+  /// The next line without its end; false when there is none.
+  bool next(std::string_view& text) {
+    ++number_;
+    in_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
+    const auto bytes = static_cast<std::size_t>(in_.gcount());
+    bytes_ += bytes;
+    if (bytes_ > longest_path_file) {
+      throw Error(fmt::format("{}: is larger than {} MiB; is it the right file?", name_, longest_path_file >> 20));
+    }
+    if (in_.bad()) throw Error(fmt::format("{}: reading failed; check the disk and the file's permissions", name_));
+    if (in_.fail() && bytes > 0) {
+      fail(name_, number_, fmt::format("the line is longer than {} bytes; {}", longest_path_line, form));
+    }
+    if (in_.fail()) return false;
+    // The end of a line is counted, where there is one.
+    text = {line_.data(), bytes - (in_.eof() ? 0 : 1)};
+    return true;
+  }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  std::istream& in_;
+  const std::string& name_;
+  std::array<char, longest_path_line + 1> line_;
+  std::uint64_t bytes_ = 0;
+  int number_ = 0;
+};
 
 Numbers parse(std::string_view text, const std::string& name, int line) {
   Numbers numbers;
@@ -44,14 +83,13 @@ Numbers parse(std::string_view text, const std::string& name, int line) {
     double value = 0.0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-      fail(name, line,
-           fmt::format("'{}' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment", word));
+      fail(name, line, fmt::format("'{}' is no number; {}, '#' begins a comment", excerpt(word), form));
     }
     if (status != std::errc() || !std::isfinite(value)) {
-      fail(name, line, fmt::format("'{}' is not a finite number; correct or remove the line", word));
+      fail(name, line, fmt::format("'{}' is not a finite number; correct or remove the line", excerpt(word)));
     }
     if (std::abs(value) > largest_number) {
-      fail(name, line, fmt::format("'{}' is beyond 1e9; correct or remove the line", word));
+      fail(name, line, fmt::format("'{}' is beyond 1e9; correct or remove the line", excerpt(word)));
     }
     if (numbers.count < pose_numbers) numbers.value[numbers.count] = value;
     ++numbers.count;
@@ -76,11 +114,11 @@ void demand_name(const std::filesystem::path& file) {
 
 std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
   std::vector<Waypoint> path;
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line) {
-    std::string_view view = text;
-    if (line == 1 && view.starts_with(byte_order_mark)) view.remove_prefix(byte_order_mark.size());
-    const Numbers numbers = parse(view, name, line);
+  Lines lines(in, name);
+  for (std::string_view text; lines.next(text);) {
+    const int line = lines.number();
+    if (line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    const Numbers numbers = parse(text, name, line);
     if (numbers.count == 0) continue;
     const Waypoint next = waypoint(numbers, name, line);
     if (!path.empty()) {
@@ -96,9 +134,12 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
         fail(name, line, fmt::format("the time runs backwards (line {} is later); sort the lines by time", last.line));
       }
     }
+    if (path.size() == most_waypoints) {
+      fail(name, line,
+           fmt::format("holds more than {} waypoints; leave some out, or go along it in parts", most_waypoints));
+    }
     path.push_back(next);
   }
-  if (in.bad()) throw Error(fmt::format("{}: reading failed; check the disk and the file's permissions", name));
   if (path.size() < 2) {
     throw Error(fmt::format("{}: holds {}; a path needs a start and at least one place to go to, one 'x y z' a line",
                             name, path.empty() ? "no waypoint" : "only one waypoint"));
@@ -108,28 +149,24 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
 
 std::vector<Waypoint> load_path(const std::filesystem::path& file) {
   demand_name(file);
-  std::ifstream in(file, std::ios::binary);
-  std::error_code none;
-  if (!in || std::filesystem::is_directory(file, none)) {
-    throw Error(fmt::format("cannot open the path file {}; check its name and permissions", file.string()));
-  }
+  std::istringstream in(files::read_named(file, longest_path_file));
   return read_path(in, file.string());
 }
 
 std::string body_line(const WalkerSettings& s, Mode mode) {
-  std::string line = fmt::format("# roam: mode {} radius {} height {} eye {} step {} slope {}", name(mode), s.radius,
-                                 s.height, s.eye, s.step, s.slope_degrees);
+  std::string line = fmt::format("# roam: mode {} radius {} height {} eye {} step {} slope {}", to_string(mode),
+                                 s.radius, s.height, s.eye, s.step, s.slope_degrees);
   if (s.support_radius > 0.0) line += fmt::format(" support {}", s.support_radius);
   return line;
 }
 
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body, Mode mode) {
   demand_name(file);
-  if (path.size() < 2)
+  if (path.size() < 2 || path.size() > most_waypoints)
     throw Error(
-        fmt::format("cannot write {}: a path needs a start and at least one place to go to, and this one has {} "
-                    "places",
-                    file.string(), path.size()));
+        fmt::format("cannot write {}: a path needs a start and at least one place to go to, at most {} in all, "
+                    "and this one has {} places",
+                    file.string(), most_waypoints, path.size()));
   std::string text;
   if (body != nullptr) text = body_line(*body, mode) + "\n";
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -57,6 +57,18 @@ Descriptor open_regular(const fs::path& file) {
   throw Error(fmt::format("cannot read {}: it is a pipe or a device; put a file there", file.string()));
 }
 
+std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uint64_t limit) {
+  std::string text;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t got = again([&] { return ::read(opened.number(), piece.data(), piece.size()); });
+    if (got == 0) return text;
+    if (got < 0) fail("read", file, errno);
+    text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > limit) fail("read", file, EFBIG);
+  }
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const fs::path& file, unsigned rights)
@@ -151,16 +163,14 @@ void write_whole(const fs::path& file, std::string_view text) {
 
 std::string read_whole(const fs::path& file, std::uint64_t limit) {
   demand_name(file);
-  const Descriptor opened = open_regular(file);
-  std::string text;
-  std::array<char, 65536> piece;
-  for (;;) {
-    const ssize_t got = again([&] { return ::read(opened.number(), piece.data(), piece.size()); });
-    if (got == 0) return text;
-    if (got < 0) fail("read", file, errno);
-    text.append(piece.data(), static_cast<std::size_t>(got));
-    if (text.size() > limit) fail("read", file, EFBIG);
-  }
+  return read_to_end(open_regular(file), file, limit);
+}
+
+std::string read_named(const fs::path& file, std::uint64_t limit) {
+  demand_name(file);
+  const Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC); }));
+  if (!opened.is_open()) fail("read", file, errno);
+  return read_to_end(opened, file, limit);
 }
 
 void sync_folder(int folder, const fs::path& path) {

@@ -64,6 +64,8 @@ void write_whole(const std::filesystem::path& file, std::string_view text);
 /// Reads a small file. Throws FileError, also for one of more than `limit` bytes, and roam::Error for one that is a
 /// link, a pipe or a device: its folder may come from a stranger.
 [[nodiscard]] std::string read_whole(const std::filesystem::path& file, std::uint64_t limit);
+/// The same of a file that the user named: a link is followed, and a pipe read to its end.
+[[nodiscard]] std::string read_named(const std::filesystem::path& file, std::uint64_t limit);
 
 /// fsync of an open folder, whose path is for messages. Throws FileError.
 void sync_folder(int folder, const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <osg/Image>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -22,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_waiting = 8;
+/// Bytes. A disk that has no more left has none for a film.
+constexpr std::uintmax_t full_disk = 1 << 20;
 constexpr int least_side = 16, largest_side = 8192;
 /// For what is left to be encoded after the last picture; x264 looks ahead some dozens of pictures.
 constexpr std::chrono::seconds ending_patience{120};
@@ -211,7 +214,10 @@ class Video::Encoder {
   [[noreturn]] void fail() {
     process_.wait(std::chrono::seconds(1));
     const std::string words = process_.last_words();
-    throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words));
+    std::error_code none;
+    const bool full = fs::space(file_.temporary(), none).available < full_disk;
+    throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words) +
+                (full ? "; the disk is full: make room there or choose another place" : ""));
   }
 
   const fs::path path_;

@@ -41,7 +41,7 @@ std::vector<T> joined(std::vector<std::vector<T>>& pieces) {
 
 }  // namespace
 
-Assembler::Assembler(Scene& scene, std::size_t ignore_patterns, std::uint64_t mesh_bytes)
+Assembler::Assembler(ImportedScene& scene, std::size_t ignore_patterns, std::uint64_t mesh_bytes)
     : StreamReceiver(scene.report, ignore_patterns, mesh_bytes), scene_(scene) {}
 
 void Assembler::take_content(FrameKind kind, std::span<const std::byte> payload) {

@@ -17,7 +17,7 @@ namespace roam::reader {
 class Assembler : public StreamReceiver {
  public:
   /// `mesh_bytes`: most bytes of vertices and triangles that this reader may still send.
-  Assembler(Scene& scene, std::size_t ignore_patterns, std::uint64_t mesh_bytes);
+  Assembler(ImportedScene& scene, std::size_t ignore_patterns, std::uint64_t mesh_bytes);
 
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
 
@@ -28,7 +28,7 @@ class Assembler : public StreamReceiver {
   void take_triangles(std::span<const std::byte> payload);
   void finish_mesh();
 
-  Scene& scene_;
+  ImportedScene& scene_;
   std::uint64_t vertices_ = 0, triangles_ = 0;
 
   // The mesh in the making, in the pieces it came in: joined once their number is known, never grown by copying.

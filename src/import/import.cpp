@@ -51,9 +51,9 @@ Confinement reader_confinement(const ImportOptions& options) {
   return reader::confinement_of(reader::find_reader(options.reader));
 }
 
-Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
+ImportedScene import_scene(std::span<const fs::path> paths, const ImportOptions& options) {
   const DefaultFloatingPoint guard;
-  Scene scene;
+  ImportedScene scene;
   reader::read_all(
       reader::sources(paths), options, scene.report, [&](reader::Reading& reading, std::vector<bool>& matched) {
         const std::uint64_t triangles_before = scene.report.triangles;
@@ -65,11 +65,11 @@ Scene import_scene(std::span<const fs::path> paths, const ImportOptions& options
   return scene;
 }
 
-Scene import_scene(std::initializer_list<fs::path> paths, const ImportOptions& options) {
+ImportedScene import_scene(std::initializer_list<fs::path> paths, const ImportOptions& options) {
   return import_scene(std::span(paths.begin(), paths.size()), options);
 }
 
-Scene import_scene(const fs::path& path, const ImportOptions& options) {
+ImportedScene import_scene(const fs::path& path, const ImportOptions& options) {
   return import_scene(std::span(&path, 1), options);
 }
 

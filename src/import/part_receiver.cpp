@@ -17,7 +17,11 @@ constexpr std::uint64_t reserve_limit = 256u << 20;
 
 PartReceiver::PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
                            std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give)
-    : StreamReceiver(report.import, ignore_patterns, part_bytes), display_(report), origin_(origin), give_(give) {}
+    : StreamReceiver(report.import, ignore_patterns, part_bytes),
+      display_(report),
+      origin_(origin),
+      give_(give),
+      part_bytes_(part_bytes) {}
 
 void PartReceiver::take_content(FrameKind kind, std::span<const std::byte> payload) {
   if (kind == FrameKind::part) return begin_part(payload);
@@ -57,6 +61,8 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
     }
   }
   if (origin_ && *origin_ != part_.origin) throw StreamDamaged{"parts of several origins"};
+  // The bytes of a part and what is made of them are there together for a moment.
+  if (header.bytes > (part_bytes_ - bytes_taken_) / 2) throw ContentTooLarge{};
   bytes_missing_ = header.bytes;
   // A header may promise more than ever comes.
   bytes_.clear();
@@ -65,7 +71,8 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
 
 void PartReceiver::finish_part() {
   decode(bytes_, part_);
-  bytes_.clear();
+  // Whoever takes the part makes something of it in turn.
+  std::vector<std::byte>().swap(bytes_);
   // Many small things take more where they are drawn than in the stream.
   count_bytes(part_.node_bytes());
   bytes_taken_ += part_.node_bytes();

@@ -18,7 +18,8 @@ namespace roam::reader {
 class PartReceiver : public StreamReceiver {
  public:
   /// `origin`: that of all parts, unset before the first. `part_bytes`: most bytes of parts that this reader may still
-  /// send. Throws Cancelled from `take` when `give` returns false.
+  /// send; one that is more than half of what is left is refused, because for a moment its bytes and what is made of
+  /// them are there together. Throws Cancelled from `take` when `give` returns false.
   PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
                std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give);
 
@@ -35,6 +36,7 @@ class PartReceiver : public StreamReceiver {
   DisplayReport& display_;
   std::optional<Vec3>& origin_;
   const std::function<bool(DisplayPart&&)>& give_;
+  const std::uint64_t part_bytes_;
   std::uint64_t triangles_ = 0;
 
   DisplayPart part_;

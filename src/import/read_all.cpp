@@ -17,16 +17,21 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t least_memory_limit = 64ull << 20;
 
-/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing.
-std::uint64_t bytes_in(const fs::path& path) {
+/// Entries of a folder after which the progress callback is served.
+constexpr std::uint64_t entries_in_between = 1000;
+
+/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing. `look_up` is called now and
+/// then with the bytes so far: a folder may be a whole disk.
+std::uint64_t bytes_in(const fs::path& path, const std::function<void(std::uint64_t)>& look_up) {
   std::error_code none;
   if (!fs::is_directory(path, none)) {
     const auto size = fs::file_size(path, none);
     return none ? 0 : size;
   }
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = 0, entries = 0;
   fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
+    if (++entries % entries_in_between == 0) look_up(bytes);
     std::error_code unseen;
     if (fs::is_regular_file(entry->symlink_status(unseen))) {
       const auto size = entry->file_size(unseen);
@@ -105,8 +110,17 @@ void read_all(std::span<const Source> sources, const ImportOptions& options, Imp
 
   ImportProgress progress;
   std::vector<std::uint64_t> sizes;
+  const auto tell = [&](const ImportProgress& so_far) {
+    if (options.progress && !options.progress(so_far)) throw Cancelled();
+  };
   for (const Source& source : sources) {
-    sizes.push_back(source.bytes ? *source.bytes : bytes_in(source.path));
+    progress.path = source.path;
+    const auto counted = [&](std::uint64_t bytes) {
+      ImportProgress so_far = progress;
+      so_far.bytes_total += bytes;
+      tell(so_far);
+    };
+    sizes.push_back(source.bytes ? *source.bytes : bytes_in(source.path, counted));
     progress.bytes_total += sizes.back();
   }
 
@@ -119,7 +133,7 @@ void read_all(std::span<const Source> sources, const ImportOptions& options, Imp
       progress.path = sources[i].path;
       progress.bytes_read = bytes_before + std::min(bytes, sizes[i]);
       progress.triangles = triangles_before + triangles;
-      if (options.progress && !options.progress(progress)) throw Cancelled();
+      tell(progress);
     };
     say(0, 0);
     Reading reading;

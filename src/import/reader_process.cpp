@@ -22,13 +22,16 @@ namespace {
 
 /// As much of the child's last words as a message can use.
 constexpr std::size_t complaint_limit = 8192;
+/// The remedy where neither the file nor the user is the cause.
+constexpr const char* try_again = "; open the scene again, with more memory free";
 /// Asked of the system for the stream, so that the child seldom waits for us; a smaller pipe works too.
 [[maybe_unused]] constexpr int pipe_bytes = 1 << 20;
 
 using files::Descriptor;
 
 [[noreturn]] void refuse_pipe() {
-  throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(errno));
+  throw Error(std::string("cannot open a pipe to the scene reader: ") + std::strerror(errno) +
+              "; close files or other programs, or raise the limit (ulimit -n)");
 }
 
 struct Ends {
@@ -125,7 +128,8 @@ void ReaderProcess::request(std::string_view bytes) {
   // One that does not take so little at once is not waiting for it.
   const ssize_t n = send(requests_.number(), message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n != static_cast<ssize_t>(message.size())) {
-    throw Error(std::string("the scene reader takes no request: ") + std::strerror(n < 0 ? errno : EAGAIN));
+    throw Error(std::string("the scene reader takes no request: ") + std::strerror(n < 0 ? errno : EAGAIN) +
+                "; open the scene again");
   }
 }
 
@@ -138,7 +142,7 @@ ReaderProcess::Arrival ReaderProcess::receive(std::span<std::byte> buffer, int m
   received = 0;
   std::array<pollfd, 2> wait{{{stream_.number(), POLLIN, 0}, {complaint_pipe_.number(), POLLIN, 0}}};
   if (poll(wait.data(), wait.size(), milliseconds) < 0 && errno != EINTR) {
-    throw Error(std::string("cannot wait for the scene reader: ") + std::strerror(errno));
+    throw Error(std::string("cannot wait for the scene reader: ") + std::strerror(errno) + try_again);
   }
   drain_complaints();
   const ssize_t n = read(stream_.number(), buffer.data(), buffer.size());
@@ -148,7 +152,7 @@ ReaderProcess::Arrival ReaderProcess::receive(std::span<std::byte> buffer, int m
   }
   if (n == 0) return Arrival::end;
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return Arrival::nothing;
-  throw Error(std::string("cannot read from the scene reader: ") + std::strerror(errno));
+  throw Error(std::string("cannot read from the scene reader: ") + std::strerror(errno) + try_again);
 }
 
 void ReaderProcess::drain_complaints() {

@@ -10,9 +10,9 @@
 namespace roam::index {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int bin_count = 16;
 /// Up to this many items every split position is tried instead of bins.
-constexpr std::uint32_t kExactBelow = 64;
+constexpr std::uint32_t exact_below = 64;
 
 /// All axes at once, in g++ and clang. A vector of lower bounds ends with, one of upper bounds begins with a number
 /// that means nothing.
@@ -92,7 +92,7 @@ class Builder {
       open.pop_back();
       const BinaryNode n = tree_.nodes[index];
       if (fits_leaf(n)) continue;
-      if (n.end - n.begin <= kExactBelow && depth < kSahDepth) {
+      if (n.end - n.begin <= exact_below && depth < sah_depth) {
         Few few(*this, n);
         few.divide(index, depth, few.all());
         continue;
@@ -125,7 +125,7 @@ class Builder {
 
   /// Reorders the items of `n` in two halves and returns where the second begins.
   std::uint32_t divide(const BinaryNode& n, int depth) {
-    if (depth < kSahDepth) {
+    if (depth < sah_depth) {
       const Split split = best_binned(n);
       if (split.axis >= 0) {
         const auto first = tree_.order.begin() + n.begin;
@@ -156,7 +156,7 @@ class Builder {
   class Few {
    public:
     /// Items by their centres on each axis: numbers of boxes_, in the low bits of the centre.
-    using Sorted = std::array<std::array<std::uint64_t, kExactBelow>, 3>;
+    using Sorted = std::array<std::array<std::uint64_t, exact_below>, 3>;
 
     Few(Builder& builder, const BinaryNode& n) : builder_(builder) {
       count_ = n.end - n.begin;
@@ -169,7 +169,7 @@ class Builder {
         const std::int64_t least = 2 * std::int64_t{n.box.lower[axis]};
         for (std::uint32_t i = 0; i < count_; ++i) {
           const std::int64_t centre = std::int64_t{boxes_[i].lower[axis]} + boxes_[i].upper[axis];
-          keys[i] = static_cast<std::uint64_t>(centre - least) << kBits | i;
+          keys[i] = static_cast<std::uint64_t>(centre - least) << bit_count | i;
         }
         std::sort(keys.begin(), keys.begin() + count_);
       }
@@ -184,7 +184,7 @@ class Builder {
       std::uint32_t* const order = builder_.tree_.order.data() + n.begin;
       std::uint64_t right = 0;
       for (std::uint32_t i = 0; i < count; ++i) {
-        const auto number = sorted[axis][i] & kMask;
+        const auto number = sorted[axis][i] & mask;
         order[i] = items_[number];
         right |= std::uint64_t{i >= position} << number;
       }
@@ -192,7 +192,7 @@ class Builder {
       for (const std::int32_t child : {left, left + 1}) {
         const BinaryNode half = builder_.tree_.nodes[child];
         if (builder_.fits_leaf(half)) continue;
-        if (depth + 1 == kSahDepth) {
+        if (depth + 1 == sah_depth) {
           builder_.build_below(child, depth + 1);
           continue;
         }
@@ -201,7 +201,7 @@ class Builder {
           std::uint32_t found = 0;
           for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint64_t key = sorted[k][i];
-            if ((right >> (key & kMask) & 1U) == std::uint64_t(child - left)) its[k][found++] = key;
+            if ((right >> (key & mask) & 1U) == std::uint64_t(child - left)) its[k][found++] = key;
           }
         }
         divide(child, depth + 1, its);
@@ -209,25 +209,25 @@ class Builder {
     }
 
    private:
-    static constexpr int kBits = 6;
-    static constexpr std::uint64_t kMask = (1U << kBits) - 1;
-    static_assert(kExactBelow <= 1U << kBits);
+    static constexpr int bit_count = 6;
+    static constexpr std::uint64_t mask = (1U << bit_count) - 1;
+    static_assert(exact_below <= 1U << bit_count);
 
     [[nodiscard]] std::pair<int, std::uint32_t> best(const Sorted& sorted, std::uint32_t count) const {
       const double margin = builder_.options_.margin;
-      std::array<double, kExactBelow> area_left{};
+      std::array<double, exact_below> area_left{};
       double best_cost = std::numeric_limits<double>::infinity();
       std::pair<int, std::uint32_t> best{0, count / 2};
       for (int axis = 0; axis < 3; ++axis) {
         const auto& keys = sorted[axis];
         Bounds bounds;
         for (std::uint32_t i = 0; i < count; ++i) {
-          bounds.include(boxes_[keys[i] & kMask]);
+          bounds.include(boxes_[keys[i] & mask]);
           area_left[i] = bounds.half_area(margin);
         }
         bounds = {};
         for (std::uint32_t i = count - 1; i > 0; --i) {
-          bounds.include(boxes_[keys[i] & kMask]);
+          bounds.include(boxes_[keys[i] & mask]);
           const double cost =
               area_left[i - 1] * builder_.tests(i) + bounds.half_area(margin) * builder_.tests(count - i);
           if (cost < best_cost) {
@@ -241,8 +241,8 @@ class Builder {
 
     Builder& builder_;
     std::uint32_t count_ = 0;
-    std::array<std::uint32_t, kExactBelow> items_;
-    std::array<StepBox, kExactBelow> boxes_;
+    std::array<std::uint32_t, exact_below> items_;
+    std::array<StepBox, exact_below> boxes_;
     Sorted all_;
   };
 
@@ -258,23 +258,23 @@ class Builder {
       Bounds box;
       std::uint32_t count = 0;
     };
-    std::array<std::array<Bin, kBins>, 3> bins{};
+    std::array<std::array<Bin, bin_count>, 3> bins{};
     std::array<double, 3> inverse{};
-    for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / double((upper[k] - lower[k]) / kBins + 1);
+    for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / double((upper[k] - lower[k]) / bin_count + 1);
     for (std::uint32_t i = n.begin; i < n.end; ++i) {
       const StepBox& box = boxes_[tree_.order[i]];
       const Four centres = centres_of(box) - lower;
       for (int k = 0; k < 3; ++k) {
-        Bin& bin = bins[k][std::min(kBins - 1, int(double(centres[k]) * inverse[k]))];
+        Bin& bin = bins[k][std::min(bin_count - 1, int(double(centres[k]) * inverse[k]))];
         bin.box.include(box);
         ++bin.count;
       }
     }
     for (int k = 0; k < 3; ++k) {
-      std::array<double, kBins> cost_left{};
+      std::array<double, bin_count> cost_left{};
       Bounds box;
       std::uint32_t count = 0;
-      for (int b = 0; b < kBins; ++b) {
+      for (int b = 0; b < bin_count; ++b) {
         box.include(bins[k][b].box);
         count += bins[k][b].count;
         cost_left[b] = count == 0 ? 0.0 : box.half_area(options_.margin) * tests(count);
@@ -282,7 +282,7 @@ class Builder {
       const std::uint32_t total = count;
       box = {};
       count = 0;
-      for (int b = kBins - 1; b > 0; --b) {
+      for (int b = bin_count - 1; b > 0; --b) {
         box.include(bins[k][b].box);
         count += bins[k][b].count;
         if (count == 0 || count == total) continue;

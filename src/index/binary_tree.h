@@ -27,7 +27,7 @@ struct BinaryTree {
 struct BinaryTreeOptions {
   /// The heuristic's cost of n items is that of n rounded up to a multiple of this, a power of two: what
   /// a leaf test costs.
-  std::uint32_t items_per_test = kWidth;
+  std::uint32_t items_per_test = node_width;
   /// Steps by which a query grows the boxes, in all: the chance of a visit goes with the area of the grown box. More
   /// than 0, or flat scenes leave the heuristic without a preference.
   double margin = 1.0;
@@ -37,9 +37,9 @@ struct BinaryTreeOptions {
 
 /// The depth below which splits are balanced, whatever they cost: it bounds the depth-first part of a traversal's
 /// stack.
-inline constexpr int kSahDepth = 40;
-/// No tree is deeper: at most 2^24 items, halved below kSahDepth.
-inline constexpr int kMaxDepth = kSahDepth + 24;
+inline constexpr int sah_depth = 40;
+/// No tree is deeper: at most 2^24 items, halved below sah_depth.
+inline constexpr int max_depth = sah_depth + 24;
 
 /// Deterministic: depends on the boxes and their order only. `boxes` holds 1 to 2^24 boxes, whose
 /// coordinates are from 0 to 2^30 - 1.

@@ -14,14 +14,14 @@
 namespace roam::index {
 
 /// Children of a node, triangles and vertices of a leaf: one lane each of the widest vector unit.
-inline constexpr int kWidth = 16;
+inline constexpr int node_width = 16;
 
 /// Sixteen child boxes on a grid of their own: child i spans origin + (lower[k][i] .. upper[k][i]) << shift[k] steps.
 /// The first inner_count children are nodes, consecutive from first_node; the others are leaves (tiles, in the tree
 /// over tiles), consecutive from first_leaf.
 struct Node {
-  std::uint8_t lower[3][kWidth];
-  std::uint8_t upper[3][kWidth];
+  std::uint8_t lower[3][node_width];
+  std::uint8_t upper[3][node_width];
   std::int32_t origin[3];
   std::uint32_t first_node;
   std::uint32_t first_leaf;
@@ -35,7 +35,7 @@ static_assert(sizeof(Node) == 128);
 /// Up to sixteen triangles over up to sixteen vertices. Corner k of triangle i is vertex number
 /// (corner[k][i / 8] >> 4 * (i % 8)) & 15. Unused triangles repeat the first one.
 struct Leaf {
-  std::uint16_t vertex[3][kWidth];
+  std::uint16_t vertex[3][node_width];
   std::uint32_t corner[3][2];
   std::uint8_t triangle_count;
   std::uint8_t id_bytes;  ///< bytes of each id in the tile's id stream, after a base of four
@@ -56,7 +56,7 @@ static_assert(sizeof(Block) == 128);
 
 /// The low 16 bits, with sign, of the vertices of one leaf of a fine tile: 1/65536 of the tile's step each.
 struct FineLeaf {
-  std::int16_t vertex[3][kWidth];
+  std::int16_t vertex[3][node_width];
 };
 
 /// A cube of space with its own grid: vertex v lies at origin + step * v.
@@ -66,13 +66,13 @@ struct Tile {
   float error;                ///< metres: no source vertex is farther from its stored one (16 bits)
   float fine_error;           ///< the same with the low 16 bits; equal to error where there are none
   bool fine;                  ///< the tile has low bits, and answers are decided with them
-  std::uint32_t nodes;        ///< first node in the arena: the root; kAbsent: the tile is not in memory
+  std::uint32_t nodes;        ///< first node in the arena: the root; absent_leaf: the tile is not in memory
   std::uint32_t leaves;       ///< first leaf in the arena
   std::uint64_t fine_leaves;  ///< first byte of its FineLeafs, when fine
   std::uint64_t ids;          ///< first byte of its id stream
 
-  static constexpr std::uint32_t kAbsent = UINT32_MAX;
-  [[nodiscard]] bool absent() const { return nodes == kAbsent; }
+  static constexpr std::uint32_t absent_leaf = UINT32_MAX;
+  [[nodiscard]] bool absent() const { return nodes == absent_leaf; }
 };
 static_assert(sizeof(Tile) == 64);
 

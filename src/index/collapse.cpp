@@ -9,13 +9,13 @@ namespace roam::index {
 namespace {
 
 /// Visiting one more node costs as much as this many mean leaf areas, whatever its size: nodes take memory too.
-constexpr double kLeavesPerNode = 4.0;
+constexpr double leaves_per_node = 4.0;
 
 /// For each binary node, the least cost of its subtree when it may fill up to k of its parent's slots.
 struct Plan {
-  std::array<float, kWidth + 1> cost{};         ///< cost[k], k = 1 .. 16
-  std::array<std::uint8_t, kWidth + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
-  std::uint8_t left_own = 0;                    ///< the left child's share of the sixteen slots of the node itself
+  std::array<float, node_width + 1> cost{};         ///< cost[k], k = 1 .. 16
+  std::array<std::uint8_t, node_width + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
+  std::uint8_t left_own = 0;                        ///< the left child's share of the sixteen slots of the node itself
 };
 
 std::vector<Plan> plan(const BinaryTree& tree, double margin) {
@@ -27,7 +27,7 @@ std::vector<Plan> plan(const BinaryTree& tree, double margin) {
       ++leaf_count;
     }
   }
-  const double per_node = kLeavesPerNode * leaf_area / double(leaf_count);
+  const double per_node = leaves_per_node * leaf_area / double(leaf_count);
   std::vector<Plan> plans(tree.nodes.size());
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parent
     const BinaryNode& n = tree.nodes[i];
@@ -43,11 +43,11 @@ std::vector<Plan> plan(const BinaryTree& tree, double margin) {
       }
       return best;
     };
-    const auto own = share(kWidth);
+    const auto own = share(node_width);
     p.left_own = static_cast<std::uint8_t>(own.second);
     p.cost[1] = static_cast<float>(n.box.half_area(margin) + per_node) + own.first;
-    for (int slots = 2; slots <= kWidth; ++slots) {
-      const auto shared = slots == kWidth ? own : share(slots);
+    for (int slots = 2; slots <= node_width; ++slots) {
+      const auto shared = slots == node_width ? own : share(slots);
       const bool open = shared.first < p.cost[1];
       p.cost[slots] = open ? shared.first : p.cost[1];
       p.left[slots] = static_cast<std::uint8_t>(open ? shared.second : 0);
@@ -87,7 +87,7 @@ WideTree collapse(const BinaryTree& tree, double margin) {
     } else {
       const int left = plans[index].left_own;
       gather(tree, plans, n.left, left, children);
-      gather(tree, plans, n.left + 1, kWidth - left, children);
+      gather(tree, plans, n.left + 1, node_width - left, children);
     }
     const auto first_leaf = std::stable_partition(children.begin(), children.end(),
                                                   [&](std::int32_t c) { return tree.nodes[c].left >= 0; });

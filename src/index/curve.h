@@ -15,7 +15,7 @@ namespace roam::index {
 /// 0 for ordinary triangles; each class above holds sixteen times wider ones. `extent`: the widest side of the box, m.
 inline std::uint32_t size_class(double extent) {
   std::uint32_t c = 0;
-  for (double limit = kOrdinaryTriangle; extent > limit && c < 15; limit = std::ldexp(limit, kClassFactorBits)) ++c;
+  for (double limit = ordinary_triangle; extent > limit && c < 15; limit = std::ldexp(limit, class_factor_bits)) ++c;
   return c;
 }
 
@@ -40,10 +40,10 @@ inline std::uint64_t gather(std::uint64_t x) {
 /// The curve over one scene in memory: 2^20 cells along the scene's widest side.
 struct SceneCurve {
   using Key = std::uint64_t;
-  static constexpr int kAxisBits = 20;
-  static constexpr int kClassShift = 3 * kAxisBits;
-  static constexpr Key kAxis = 0x1249249249249249ULL;                     ///< the bits of the first axis
-  static constexpr std::uint32_t kTileTriangles = index::kTileTriangles;  ///< no tile holds more
+  static constexpr int axis_bits = 20;
+  static constexpr int class_shift = 3 * axis_bits;
+  static constexpr Key axis_mask = 0x1249249249249249ULL;                           ///< the bits of the first axis
+  static constexpr std::uint32_t most_tile_triangles = index::most_tile_triangles;  ///< no tile holds more
   static Key spread(std::uint64_t x) { return index::spread(x); }
   static std::uint64_t gather(Key place) { return index::gather(place); }
 };

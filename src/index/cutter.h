@@ -15,24 +15,24 @@ namespace roam::index {
 /// `Curve`: see curve.h. Items have a `key` and ascend by it; `reach(item)` is half the widest side of a triangle's
 /// box, rounded up, in metres: how far it may stick out of the cells of its run.
 ///
-/// A run that holds more than Curve::kTileTriangles is always divided at the first bit of the keys that divides it. So
-/// cutting the cells of such a division one by one gives the same tiles as cutting the whole.
+/// A run that holds more than Curve::most_tile_triangles is always divided at the first bit of the keys that divides
+/// it. So cutting the cells of such a division one by one gives the same tiles as cutting the whole.
 template <class Curve, class Item, class Reach>
 class Cutter {
  public:
   /// `cell`: side of the curve's smallest cell, m.
   Cutter(std::span<const Item> items, Reach reach, double cell, bool lossless)
-      : items_(items), reach_(reach), cell_(cell), widest_(lossless ? kWidestLossless : kWidest) {}
+      : items_(items), reach_(reach), cell_(cell), widest_(lossless ? widest_lossless : widest_box) {}
 
   /// Calls out(begin, end) for each tile of items[begin, end), which are of one size class and not empty.
   template <class Out>
   void cut(std::uint32_t begin, std::uint32_t end, Out&& out) const {
-    cut(begin, end, Curve::kClassShift - 1, out);
+    cut(begin, end, Curve::class_shift - 1, out);
   }
 
   /// Where the cutter would divide items[begin, end): at the first bit that does, else in the middle.
   [[nodiscard]] std::uint32_t middle(std::uint32_t begin, std::uint32_t end) const {
-    int bit = Curve::kClassShift - 1;
+    int bit = Curve::class_shift - 1;
     const std::uint32_t at = divide(begin, end, bit);
     return at == end ? begin + (end - begin) / 2 : at;
   }
@@ -43,9 +43,9 @@ class Cutter {
   /// items[begin, end) agree in all key bits above `bit`.
   template <class Out>
   void cut(std::uint32_t begin, std::uint32_t end, int bit, Out& out) const {
-    const auto c = static_cast<int>(items_[begin].key >> Curve::kClassShift);
+    const auto c = static_cast<int>(items_[begin].key >> Curve::class_shift);
     const std::uint32_t count = end - begin;
-    if (count <= Curve::kTileTriangles && width(begin, end) <= limit(count <= kSparseTriangles ? c + 1 : c)) {
+    if (count <= Curve::most_tile_triangles && width(begin, end) <= limit(count <= sparse_triangles ? c + 1 : c)) {
       out(begin, end);
       return;
     }
@@ -56,8 +56,8 @@ class Cutter {
       return;
     }
     // More triangles than a tile holds in one cell of the curve.
-    for (; end - begin > Curve::kTileTriangles; begin += Curve::kTileTriangles)
-      out(begin, begin + Curve::kTileTriangles);
+    for (; end - begin > Curve::most_tile_triangles; begin += Curve::most_tile_triangles)
+      out(begin, begin + Curve::most_tile_triangles);
     out(begin, end);
   }
 
@@ -76,7 +76,7 @@ class Cutter {
 
   /// The widest side that a tile of the class may have.
   [[nodiscard]] double limit(int c) const {
-    return std::min(widest_, std::ldexp(kOrdinaryStep * double(kGridSteps - 4), kClassFactorBits * c));
+    return std::min(widest_, std::ldexp(ordinary_step * double(grid_steps - 4), class_factor_bits * c));
   }
 
   /// An upper bound of the widest side of the box of a run.
@@ -88,10 +88,10 @@ class Cutter {
     }
     float reach = 0.0F;
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Key key = items_[i].key & ((Key{1} << Curve::kClassShift) - 1);
+      const Key key = items_[i].key & ((Key{1} << Curve::class_shift) - 1);
       for (int k = 0; k < 3; ++k) {
         // Interleaved bits of one axis compare as the coordinate does.
-        const Key place = key >> k & Curve::kAxis;
+        const Key place = key >> k & Curve::axis_mask;
         lower[k] = std::min(lower[k], place);
         upper[k] = std::max(upper[k], place);
       }

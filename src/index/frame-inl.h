@@ -28,9 +28,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 4>;
 using S = hn::Rebind<float, D>;
 using W = hn::Rebind<std::int32_t, D>;
-inline constexpr int kAxes = static_cast<int>(hn::MaxLanes(D{}));
+inline constexpr int axis_lanes = static_cast<int>(hn::MaxLanes(D{}));
 
-/// Axes k .. k + kAxes - 1, of four: the last repeats the third.
+/// Axes k .. k + axis_lanes - 1, of four: the last repeats the third.
 HWY_INLINE hn::Vec<D> axes_of(const Vec3& v, [[maybe_unused]] int k) {
 #if HWY_MAX_BYTES >= 32
   const hn::Half<D> half;
@@ -52,10 +52,10 @@ struct Frame {
     // 1 / grid_step, of a power of two.
     const auto exact = std::bit_cast<double>(0x7fe0000000000000U - std::bit_cast<std::uint64_t>(grid_step));
     inverse = static_cast<float>(exact);
-    for (int k = 0; k < 4; k += kAxes) {
+    for (int k = 0; k < 4; k += axis_lanes) {
       // A start too far away for whole steps can not matter: at the limit it is 4095 m away at least, out of any reach.
       const auto steps = hn::Mul(hn::Sub(axes_of(start, k), axes_of(origin, k)), hn::Set(D{}, exact));
-      const auto at = hn::Min(hn::Max(steps, hn::Set(D{}, -kFarthestSteps)), hn::Set(D{}, kFarthestSteps));
+      const auto at = hn::Min(hn::Max(steps, hn::Set(D{}, -farthest_steps)), hn::Set(D{}, farthest_steps));
       const auto nearest = hn::Floor(hn::Add(at, hn::Set(D{}, 0.5)));
       hn::Store(hn::DemoteTo(W{}, nearest), W{}, whole + k);
       hn::Store(hn::DemoteTo(S{}, hn::Sub(at, nearest)), S{}, rest + k);
@@ -68,7 +68,7 @@ struct Frame {
 };
 
 /// A float that is no less than x, which is not negative.
-HWY_INLINE float round_up(double x) { return static_cast<float>(x) * (1.0F + 4.0F * kUnit); }
+HWY_INLINE float round_up(double x) { return static_cast<float>(x) * (1.0F + 4.0F * float_unit); }
 
 /// A piece of motion in single precision.
 struct Motion {
@@ -76,16 +76,16 @@ struct Motion {
   // Node tests mirror the axes along which the body moves backwards, so that it enters every box by its lower planes.
   alignas(16) float mirror[4];      ///< 1 or -1
   alignas(16) float forward[4];     ///< |way[k]|
-  alignas(16) float inverse[4];     ///< 1 / forward[k], at most kHugeInverse
+  alignas(16) float inverse[4];     ///< 1 / forward[k], at most huge_inverse
   std::uint32_t entry[3], exit[3];  ///< where in a node the planes begin by which axis k is entered and left
   float longest;                    ///< of |way[k]|
   float half_height;                ///< rounded up
 
   HWY_INLINE Motion(const Vec3& motion, double h) : half_height(round_up(h)) {
-    const auto zero = hn::Zero(S{}), one = hn::Set(S{}, 1.0F), huge = hn::Set(S{}, kHugeInverse);
-    for (int k = 0; k < 4; k += kAxes) {
+    const auto zero = hn::Zero(S{}), one = hn::Set(S{}, 1.0F), huge = hn::Set(S{}, huge_inverse);
+    for (int k = 0; k < 4; k += axis_lanes) {
       const auto along = hn::DemoteTo(S{}, axes_of(motion, k)), size = hn::Abs(along);
-      const auto some = hn::Gt(size, hn::Set(S{}, 1.0F / kHugeInverse));
+      const auto some = hn::Gt(size, hn::Set(S{}, 1.0F / huge_inverse));
       hn::Store(along, S{}, way + k);
       hn::Store(hn::IfThenElse(hn::Lt(along, zero), hn::Neg(one), one), S{}, mirror + k);
       hn::Store(size, S{}, forward + k);
@@ -94,8 +94,8 @@ struct Motion {
     longest = std::max(std::max(forward[0], forward[1]), forward[2]);
     for (int k = 0; k < 3; ++k) {
       const bool back = way[k] < 0.0F;
-      const auto lower = static_cast<std::uint32_t>(offsetof(Node, lower) + kWidth * k);
-      const auto upper = static_cast<std::uint32_t>(offsetof(Node, upper) + kWidth * k);
+      const auto lower = static_cast<std::uint32_t>(offsetof(Node, lower) + node_width * k);
+      const auto upper = static_cast<std::uint32_t>(offsetof(Node, upper) + node_width * k);
       entry[k] = back ? upper : lower;
       exit[k] = back ? lower : upper;
     }
@@ -108,8 +108,8 @@ struct Reach {
 
   HWY_INLINE Reach(const Vec3& motion, double radius, double half_height) {
     const auto zero = hn::Zero(D{}), flat = hn::Set(D{}, radius), high = hn::Set(D{}, radius + half_height);
-    const auto up = hn::Set(S{}, 1.0F + 4.0F * kUnit);
-    for (int k = 0; k < 4; k += kAxes) {
+    const auto up = hn::Set(S{}, 1.0F + 4.0F * float_unit);
+    for (int k = 0; k < 4; k += axis_lanes) {
       const auto around = hn::IfThenElse(hn::FirstN(D{}, static_cast<std::size_t>(std::max(0, 2 - k))), flat, high);
       const auto way = axes_of(motion, k);
       const auto down = hn::Sub(around, hn::Min(way, zero));
@@ -130,8 +130,8 @@ struct Swept {
     // tile; in the tree over tiles none is so long. No sum of these and an origin overflows.
     const auto farthest = hn::Set(W{}, (1 << 30) - (1 << 18)), end = hn::Set(W{}, 1 << 30), two = hn::Set(W{}, 2);
     const auto longest = hn::Set(S{}, 0x1p30F - 0x1p17F), wider = hn::Set(S{}, more);
-    const auto steps = hn::Set(S{}, frame.inverse * (1.0F + kTimeRoundings * kUnit));
-    for (int k = 0; k < 4; k += kAxes) {
+    const auto steps = hn::Set(S{}, frame.inverse * (1.0F + time_roundings * float_unit));
+    for (int k = 0; k < 4; k += axis_lanes) {
       const auto whole = hn::Min(hn::Max(hn::Load(W{}, frame.whole + k), hn::Neg(farthest)), farthest);
       const auto low = hn::Mul(hn::Sub(hn::Load(S{}, reach.lower + k), wider), steps);
       const auto high = hn::Mul(hn::Add(hn::Load(S{}, reach.upper + k), wider), steps);
@@ -157,8 +157,8 @@ struct Way {
       longest = std::max(longest, std::abs(way[k]));
     }
     const float flat = way[0] * way[0] + way[1] * way[1], whole = flat + way[2] * way[2];
-    inverse_flat = flat > kShortest * kShortest ? 1.0F / flat : 0.0F;
-    inverse_square = whole > kShortest * kShortest ? 1.0F / whole : 0.0F;
+    inverse_flat = flat > shortest_way * shortest_way ? 1.0F / flat : 0.0F;
+    inverse_square = whole > shortest_way * shortest_way ? 1.0F / whole : 0.0F;
     moves = longest > 0.0F;
   }
 };

@@ -27,7 +27,7 @@ class Gathering {
   bool run() {
     const float margin = round_up(margin_of(index_));
     const Swept swept(Frame(index_.grid.origin, index_.grid.step, from_), reach_, margin);
-    std::array<std::uint32_t, kOpen> open{0};
+    std::array<std::uint32_t, open_limit> open{0};
     int count = 1;
     while (count > 0) {
       const Node& node = index_.top[open[--count]].node;
@@ -36,7 +36,7 @@ class Gathering {
         if (i >= node.inner_count) {
           if (!tile(node.first_leaf + (i - node.inner_count))) return false;
         } else {
-          if (count == kOpen) return false;
+          if (count == open_limit) return false;
           open[count++] = node.first_node + i;
         }
       }
@@ -53,14 +53,14 @@ class Gathering {
   };
 
   /// Nodes over tiles that wait; boxes that meet more are none to stay in.
-  static constexpr int kOpen = 64;
+  static constexpr int open_limit = 64;
 
   bool tile(std::uint32_t number) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return false;
     const Swept swept(Frame(t.origin, t.step, from_), reach_, t.error);
     const Block* nodes = index_.blocks + t.nodes;
-    std::array<Part, kWidth> parts;
+    std::array<Part, node_width> parts;
     int count = 0;
     count = open(nodes[0].node, swept, parts, count);
     // Level by level, as long as what takes a node's place has room.
@@ -72,7 +72,7 @@ class Gathering {
       }
       const Node& node = nodes[part.number].node;
       const int met = std::popcount(met_children(node, swept));
-      if (count - 1 + met > kWidth) {
+      if (count - 1 + met > node_width) {
         ++at;
         continue;
       }
@@ -80,13 +80,13 @@ class Gathering {
       count = open(node, swept, parts, count - 1);
     }
     if (count == 0) return true;
-    if (out_.count == Roots::kMost) return false;
+    if (out_.count == Roots::most_roots) return false;
     make(out_.root[out_.count++], number, parts, count);
     return true;
   }
 
   /// Adds what of a node's children meets the box.
-  static int open(const Node& node, const Swept& swept, std::array<Part, kWidth>& parts, int count) {
+  static int open(const Node& node, const Swept& swept, std::array<Part, node_width>& parts, int count) {
     for (std::uint32_t met = met_children(node, swept); met != 0; met &= met - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(met));
       Part& part = parts[count];
@@ -106,8 +106,8 @@ class Gathering {
     return count;
   }
 
-  void make(Root& root, std::uint32_t tile, const std::array<Part, kWidth>& parts, int count) const {
-    std::array<StepBox, kWidth> boxes;
+  void make(Root& root, std::uint32_t tile, const std::array<Part, node_width>& parts, int count) const {
+    std::array<StepBox, node_width> boxes;
     root.tile = tile;
     root.owner = owner_;
     root.node = {};

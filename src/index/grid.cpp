@@ -9,12 +9,12 @@ namespace roam::index {
 
 Grid Grid::fitting(const Box& box) {
   const double extent = largest(box.size());
-  int exponent = kFinestExponent;
+  int exponent = finest_exponent;
   for (;; ++exponent) {
     Grid grid;
     grid.step = std::ldexp(1.0, exponent);
     // One step is lost to rounding the origin down, and one to rounding the far side up.
-    if (extent > grid.step * double(kGridSteps - 2)) continue;
+    if (extent > grid.step * double(grid_steps - 2)) continue;
     for (int k = 0; k < 3; ++k) grid.origin[k] = std::floor(box.lower[k] / grid.step) * grid.step;
     return grid;
   }
@@ -40,7 +40,7 @@ StepBox Grid::steps(const Box& box) const {
 std::array<std::int64_t, 3> Grid::fine(const Vec3& p) const {
   std::array<std::int64_t, 3> f{};
   // Both are powers of two: the product is the quotient, to the last bit.
-  const double per_metre = double(kFineSteps) / step;
+  const double per_metre = double(fine_steps) / step;
   for (int k = 0; k < 3; ++k) {
     // llround of numbers below 2^52, without the call: the greatest double below 1/2 carries just what rounds up.
     const double x = (p[k] - origin[k]) * per_metre;

@@ -14,15 +14,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-using F = hn::CappedTag<float, kWidth>;
+using F = hn::CappedTag<float, node_width>;
 using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 using MF = hn::Mask<F>;
 inline constexpr F kF{};
 inline constexpr I kI{};
-/// Lanes of one vector; a block takes kWidth / kLanes of them.
-inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(F{}));
+/// Lanes of one vector; a block takes node_width / lane_count of them.
+inline constexpr int lane_count = static_cast<int>(hn::MaxLanes(F{}));
 
 struct V3 {
   VF x, y, z;
@@ -46,7 +46,7 @@ HWY_INLINE VF largest(const V3& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Ab
 
 /// The children of a node that cannot be left out, and a lower bound of the time (sweep) or distance (near) of each.
 struct Children {
-  alignas(64) float key[kWidth];
+  alignas(64) float key[node_width];
   std::uint32_t mask;
 
   /// Takes those that are in `met`, of none of which more is known than that.
@@ -56,7 +56,7 @@ struct Children {
   }
 };
 
-/// Bounds of kLanes boxes, in steps of their node's grid.
+/// Bounds of lane_count boxes, in steps of their node's grid.
 HWY_INLINE VF bounds_of(const std::uint8_t* bounds) {
   const hn::Rebind<std::uint8_t, F> bytes;
   return hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
@@ -74,7 +74,7 @@ struct Boxes {
       scale[k] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(step) + (std::uint32_t{node.shift[k]} << 23));
     }
   }
-  /// Plane `k` of kLanes boxes.
+  /// Plane `k` of lane_count boxes.
   [[nodiscard]] HWY_INLINE VF plane(const std::uint8_t* bounds, int k) const {
     // The product is exact: fused or not gives the same bits.
     return hn::MulAdd(bounds_of(bounds), set(scale[k]), set(at[k]));
@@ -84,18 +84,18 @@ struct Boxes {
 /// How far child boxes are to be grown, so that no rounding in a node test can lose a child: metres. `extent` is the
 /// widest that a node of this frame can be.
 HWY_INLINE float grown_radius(float radius, float half_height, float longest, float extent, float step) {
-  return radius * (1.0F + kRadiusRoundings * kUnit) +
-         kNodeRoundings * kUnit * (extent + longest + radius + half_height) + 2.0F * kFractionRounding * step;
+  return radius * (1.0F + radius_roundings * float_unit) +
+         node_roundings * float_unit * (extent + longest + radius + half_height) + 2.0F * fraction_rounding * step;
 }
 
 HWY_INLINE std::uint32_t bits_of(MF mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(kF, mask, bits);
-  return std::uint32_t{bits[0]} | std::uint32_t{kLanes > 8 ? bits[1] : std::uint8_t{0}} << 8;
+  return std::uint32_t{bits[0]} | std::uint32_t{lane_count > 8 ? bits[1] : std::uint8_t{0}} << 8;
 }
 
-/// The planes across axis `k` by which the centre of a body enters and leaves kLanes child boxes, which are higher and
-/// lower by its half height.
+/// The planes across axis `k` by which the centre of a body enters and leaves lane_count child boxes, which are higher
+/// and lower by its half height.
 struct Slabs {
   VF lower, upper;
 
@@ -116,9 +116,9 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
   const Boxes boxes(node, frame, motion.mirror);
   const VF zero = hn::Zero(kF), r = set(grown), end = set(t_max);
   const VF r2 = hn::Mul(r, r);
-  const VF later = set(1.0F + kTimeRoundings * kUnit), earlier = set(1.0F - kTimeRoundings * kUnit);
+  const VF later = set(1.0F + time_roundings * float_unit), earlier = set(1.0F - time_roundings * float_unit);
   out.mask = 0;
-  for (int first = 0; first < kWidth; first += kLanes) {
+  for (int first = 0; first < node_width; first += lane_count) {
     VF enter = zero, exit = end;
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
@@ -151,7 +151,7 @@ HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motio
   const Boxes boxes(node, frame, motion.mirror);
   const VF zero = hn::Zero(kF), r = set(grown);
   std::uint32_t met = 0;
-  for (int first = 0; first < kWidth; first += kLanes) {
+  for (int first = 0; first < node_width; first += lane_count) {
     const VF time = hn::Load(kF, out.key + first);
     VF squared = zero, towards = zero;
     for (int k = 0; k < 3; ++k) {
@@ -162,11 +162,11 @@ HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motio
       towards = hn::Add(towards, hn::Mul(w, forward));
     }
     const VF length = hn::Sqrt(squared), slack = hn::Sub(squared, hn::Mul(r, length));
-    const VF speed = hn::Add(towards, hn::Mul(set(kSpeedRoundings * kUnit * motion.longest), length));
+    const VF speed = hn::Add(towards, hn::Mul(set(speed_roundings * float_unit * motion.longest), length));
     const MF apart = hn::Gt(slack, zero), closing = hn::Gt(speed, zero);
     const MF later = hn::And(apart, closing);
     const VF step =
-        hn::Mul(hn::Div(slack, hn::IfThenElse(later, speed, set(1.0F))), set(1.0F - kTimeRoundings * kUnit));
+        hn::Mul(hn::Div(slack, hn::IfThenElse(later, speed, set(1.0F))), set(1.0F - time_roundings * float_unit));
     const VF key = hn::IfThenElse(later, hn::Add(time, step), time);
     hn::Store(key, kF, out.key + first);
     const MF never = hn::Or(hn::AndNot(closing, apart), hn::Ge(key, set(t_max)));
@@ -194,7 +194,7 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 #else
   const hn::FixedTag<std::int32_t, 4> axes;
   const hn::FixedTag<std::uint8_t, 4> few;
-  const hn::FixedTag<std::uint8_t, kWidth> bytes;
+  const hn::FixedTag<std::uint8_t, node_width> bytes;
   // On the node's own grid, of which the boxes lie within 0 to 255: the conversion to bytes saturates.
   const auto origin = hn::LoadU(axes, node.origin), shift = hn::PromoteTo(axes, hn::LoadU(few, node.shift));
   const auto on_grid = [&](const std::int32_t* plane) {
@@ -220,11 +220,11 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 /// |w| - max(t w.m, (t - 1) w.m) / |w| from the whole way m: that is what the plane across w says.
 HWY_INLINE void near_node(const Node& node, const Frame& frame, const Way& way, float margin, float reach, VF& left,
                           Children& out) {
-  static constexpr float kAsIs[3] = {1.0F, 1.0F, 1.0F};
-  const Boxes boxes(node, frame, kAsIs);
+  static constexpr float as_is[3] = {1.0F, 1.0F, 1.0F};
+  const Boxes boxes(node, frame, as_is);
   const VF zero = hn::Zero(kF), one = set(1.0F);
   out.mask = 0;
-  for (int first = 0; first < kWidth; first += kLanes) {
+  for (int first = 0; first < node_width; first += lane_count) {
     VF lower[3], upper[3];
     for (int k = 0; k < 3; ++k) {
       lower[k] = boxes.plane(node.lower[k] + first, k);
@@ -254,10 +254,10 @@ HWY_INLINE void near_node(const Node& node, const Frame& frame, const Way& way, 
       along = hn::Add(along, hn::Mul(w, m));
     }
     const VF length = hn::Sqrt(squared);
-    VF least = hn::Sub(hn::Mul(length, set(1.0F - kTimeRoundings * kUnit)), set(margin));
+    VF least = hn::Sub(hn::Mul(length, set(1.0F - time_roundings * float_unit)), set(margin));
     if (way.moves) {
       const VF lost = hn::Max(hn::Mul(time, along), hn::Mul(hn::Sub(time, one), along));
-      least = hn::Sub(least, hn::Div(lost, hn::Max(length, set(kShortest))));
+      least = hn::Sub(least, hn::Div(lost, hn::Max(length, set(shortest_way))));
     }
     const MF child = hn::FirstN(kF, static_cast<std::size_t>(std::max(0, node.child_count - first)));
     const MF out_of_reach = hn::And(child, hn::Gt(least, set(reach)));

@@ -33,7 +33,7 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
     p.z = clamp(clamp(p.z, foot, head), lowest, highest);
     s.away = t.away(p);
     // Where the nearest place of the axis does not change, nothing does any more.
-    for (int i = 0; i < kProjections; ++i) {
+    for (int i = 0; i < projection_count; ++i) {
       const VF nearest = clamp(hn::Sub(p.z, s.away.z), lowest, highest);
       if (hn::AllTrue(kF, hn::Eq(nearest, p.z))) break;
       p.z = nearest;
@@ -52,20 +52,21 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
 
 /// The triangles of a leaf that are not certainly missed.
 struct Met {
-  alignas(64) float time[kWidth];  ///< free until then
-  std::uint32_t arrived;           ///< the body is within the arrival distance then: a hit
-  std::uint32_t open;              ///< to be decided in double precision, from then on
+  alignas(64) float time[node_width];  ///< free until then
+  std::uint32_t arrived;               ///< the body is within the arrival distance then: a hit
+  std::uint32_t open;                  ///< to be decided in double precision, from then on
 };
 
 /// Metres that a computed bound may be wrong by, for each triangle, with the body `way` metres along.
 HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float half_height) {
-  return hn::Add(hn::Mul(set(kLeafRoundings * kUnit), hn::Add(hn::Max(t.farthest, way), set(half_height))),
-                 set(4.0F * kFractionRounding * frame.step));
+  return hn::Add(hn::Mul(set(leaf_roundings * float_unit), hn::Add(hn::Max(t.farthest, way), set(half_height))),
+                 set(4.0F * fraction_rounding * frame.step));
 }
 
 /// The times by which bodies that are slower than `speed` (times length) have used up their slack, where `active`.
 HWY_INLINE VF advanced(VF time, VF slack, VF speed, MF active) {
-  const VF step = hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - kTimeRoundings * kUnit));
+  const VF step =
+      hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - time_roundings * float_unit));
   return hn::IfThenElse(active, hn::Add(time, step), time);
 }
 
@@ -81,8 +82,8 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
   VF slack = hn::Sub(hn::Max(above, below), hn::Mul(hn::Add(keep, error), length));
   if (half_height != 0.0F) slack = hn::Sub(slack, hn::Mul(set(half_height), hn::Abs(n.z)));
   const VF speed = hn::Add(hn::IfThenElse(hn::Gt(above, below), hn::Neg(along), along),
-                           hn::Mul(set(kSpeedRoundings * kUnit * longest), length));
-  const MF apart = hn::And(hn::Gt(slack, hn::Zero(kF)), hn::Gt(length, set(kShortest)));
+                           hn::Mul(set(speed_roundings * float_unit * longest), length));
+  const MF apart = hn::And(hn::Gt(slack, hn::Zero(kF)), hn::Gt(length, set(shortest_way)));
   const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
   active = hn::AndNot(missed, active);
   time = advanced(time, slack, speed, hn::And(active, apart));
@@ -96,11 +97,11 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
                            float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
-  const VF keep = set(radius * (1.0F + kRadiusRoundings * kUnit));
+  const VF keep = set(radius * (1.0F + radius_roundings * float_unit));
   const VF end = set(t_max), zero = hn::Zero(kF);
-  for (int first = 0; first < leaf.triangle_count; first += kLanes) {
+  for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
-    if constexpr (Line::kIs) {
+    if constexpr (Line::is_ray) {
       active = pierced(leaf, frame, line, first, active);
       if (hn::AllFalse(kF, active)) continue;
     }
@@ -109,23 +110,23 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
     keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
                     motion.longest, motion.half_height, time, active);
     if (hn::AllFalse(kF, active)) continue;
-    if (Line::kIs && hit_limit < 0.0F) {  // no round could settle what is left
+    if (Line::is_ray && hit_limit < 0.0F) {  // no round could settle what is left
       hn::Store(time, kF, out.time + first);
       out.open |= bits_of(active) << first;
       continue;
     }
     t.prepare();
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < round_count; ++round) {
       const V3 centre = scale(way, time);
       const Support s = support(t, centre, motion.half_height);
       const VF error = leaf_error(t, hn::Mul(time, set(motion.longest)), frame, motion.half_height);
       const VF slack = hn::Sub(s.bound, hn::Mul(hn::Add(keep, error), s.length));
-      const VF speed = hn::Sub(hn::Mul(set(kSpeedRoundings * kUnit * motion.longest), s.length), dot(s.away, way));
-      const MF apart = hn::And(hn::Ge(slack, zero), hn::Gt(s.length, set(kShortest)));
+      const VF speed = hn::Sub(hn::Mul(set(speed_roundings * float_unit * motion.longest), s.length), dot(s.away, way));
+      const MF apart = hn::And(hn::Ge(slack, zero), hn::Gt(s.length, set(shortest_way)));
       const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
       active = hn::AndNot(missed, active);
-      const VF reached = hn::Min(hn::Add(keep, hn::Add(set(kArrival), hn::Add(error, error))), set(hit_limit));
+      const VF reached = hn::Min(hn::Add(keep, hn::Add(set(arrival_tolerance), hn::Add(error, error))), set(hit_limit));
       // At time 0 a body that is not certainly apart may be touching: that is for double precision to say.
       const MF near = hn::And(hn::Le(hn::Add(s.most, error), reached), hn::Or(apart, hn::Gt(time, zero)));
       const MF hit = hn::And(active, near);
@@ -144,18 +145,18 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   }
 }
 
-/// A bound that is kSettled below its distance at most is tight.
+/// A bound that is settled_gap below its distance at most is tight.
 struct Tight {
-  static constexpr bool kLoose = false;
+  static constexpr bool is_loose = false;
   Tight(double, double, double, double) {}
   /// The farthest distances for which a bound is good enough.
-  [[nodiscard]] HWY_INLINE VF enough(VF bound) const { return hn::Add(bound, set(kSettled)); }
+  [[nodiscard]] HWY_INLINE VF enough(VF bound) const { return hn::Add(bound, set(settled_gap)); }
 };
 
 /// Of what the distance to the stored triangle and the tile's error leave beside the radius, a bound must be 1 - part
 /// at least, as long as that is within `reach`; else what is not as near as that might be told to be.
 struct Slack {
-  static constexpr bool kLoose = true;
+  static constexpr bool is_loose = true;
   float factor, less, farthest;
 
   Slack(double part, double radius, double error, double reach)
@@ -164,7 +165,7 @@ struct Slack {
         farthest(static_cast<float>(radius + reach - error)) {}
   [[nodiscard]] HWY_INLINE VF enough(VF bound) const {
     const VF loose = hn::Min(hn::Sub(hn::Mul(bound, set(factor)), set(less)), set(farthest));
-    return hn::Max(hn::Add(bound, set(kSettled)), loose);
+    return hn::Max(hn::Add(bound, set(settled_gap)), loose);
   }
 };
 
@@ -177,9 +178,9 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
   const VF length = hn::Sqrt(dot(n, n));
   VF off = hn::Max(above, below);
   if (half_height != 0.0F) off = hn::Sub(off, hn::Mul(set(half_height), hn::Abs(n.z)));
-  const MF known = hn::Gt(length, set(kShortest));
+  const MF known = hn::Gt(length, set(shortest_way));
   return hn::Mul(hn::Div(hn::IfThenElseZero(known, off), hn::IfThenElse(known, length, set(1.0F))),
-                 set(1.0F - kTimeRoundings * kUnit));
+                 set(1.0F - time_roundings * float_unit));
 }
 
 /// Which triangles may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
@@ -195,16 +196,16 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
   const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};
-  const int rounds = way.moves || way.half_height > 0.0F ? kNearRounds : 1;
-  for (int first = 0; first < leaf.triangle_count; first += kLanes) {
+  const int rounds = way.moves || way.half_height > 0.0F ? near_rounds : 1;
+  for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     Triangles t = load_triangles(leaf, frame, first);
-    const VF error =
-        hn::Add(leaf_error(t, set(way.longest), frame, way.half_height), set(kSpeedRoundings * kUnit * way.longest));
+    const VF error = hn::Add(leaf_error(t, set(way.longest), frame, way.half_height),
+                             set(speed_roundings * float_unit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     MF active = triangle;
     VF least = zero;
     // Where a part may be given up, planes settle most leaves, and spoil nothing.
-    if constexpr (Bounds::kLoose) {
+    if constexpr (Bounds::is_loose) {
       least = hn::Sub(off_planes(t, m, way.half_height), error);
       const MF beyond = hn::And(triangle, hn::Gt(least, set(reach)));
       left = hn::Min(left, hn::IfThenElse(beyond, least, left));
@@ -252,9 +253,9 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
       VF bound = hn::Min(hn::Min(dot(w, centre - t.a), dot(w, centre - t.b)), dot(w, centre - t.c));
       if (way.half_height > 0.0F) bound = hn::Sub(bound, hn::Mul(h, hn::Abs(w.z)));
       bound = hn::Sub(bound, lost);
-      const MF sure = hn::And(unsettled, hn::Gt(length, set(kShortest)));
+      const MF sure = hn::And(unsettled, hn::Gt(length, set(shortest_way)));
       const VF apart = hn::Sub(
-          hn::Mul(hn::Div(bound, hn::IfThenElse(sure, length, one)), set(1.0F - kTimeRoundings * kUnit)), error);
+          hn::Mul(hn::Div(bound, hn::IfThenElse(sure, length, one)), set(1.0F - time_roundings * float_unit)), error);
       least = hn::IfThenElse(hn::And(sure, hn::Gt(apart, least)), apart, least);
       active = hn::AndNot(hn::Gt(least, set(reach)), active);
       if (round + 1 == rounds) break;

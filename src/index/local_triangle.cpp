@@ -19,7 +19,7 @@ certified::LocalTriangle local_triangle(const Index& index, const Place& place, 
     const int v = leaf.vertex_of(c, static_cast<int>(place.triangle));
     for (int k = 0; k < 3; ++k) {
       const double whole = step * leaf.vertex[k][v];
-      const double fraction = low ? step / double(kFineSteps) * low->vertex[k][v] : 0.0;
+      const double fraction = low ? step / double(fine_steps) * low->vertex[k][v] : 0.0;
       out.corner[c][k] = offset[k] + (whole + fraction);
       largest = std::max(largest, std::max(std::abs(offset[k]), std::abs(out.corner[c][k])));
     }

@@ -63,7 +63,7 @@ class NearTraversal {
             return tile(e.number);
           }
           Children children;
-          const Node& node = look_at(index_.top, e.number, frame, around, margin(kTopSteps, frame), axis_reach(more),
+          const Node& node = look_at(index_.top, e.number, frame, around, margin(top_steps, frame), axis_reach(more),
                                      few_tiles(index_), passed, children);
           push_children(node, children, index_.top, nullptr, stack);
           prefetch_tiles(index_, node, children);
@@ -101,7 +101,7 @@ class NearTraversal {
     float reach;
   };
   [[nodiscard]] HWY_INLINE Around around_of(const Frame& frame, float reach) const {
-    if (!Bounds::kLoose || !boxed_) return {Swept(), reach};
+    if (!Bounds::is_loose || !boxed_) return {Swept(), reach};
     return {Swept(frame, Reach(piece_.motion, double(reach), piece_.body.half_height), 0.0F), reach};
   }
 
@@ -111,7 +111,7 @@ class NearTraversal {
                                  float grown, float reach, int few, Passed& passed, Children& children) const {
     std::uint32_t met = ~0U;
     const Node* node = &nodes[at].node;
-    if (Bounds::kLoose && boxed_) {
+    if (Bounds::is_loose && boxed_) {
       passed.entry = std::min(passed.entry, around.reach);  // what the boxes leave out is farther than that
       for (;;) {
         met = met_children(*node, around.box);
@@ -141,9 +141,9 @@ class NearTraversal {
                         frame.step);
   }
   void note(const Passed& passed, double error) {
-    alignas(64) float lanes[kLanes];
+    alignas(64) float lanes[lane_count];
     hn::Store(passed.lanes, kF, lanes);
-    const float least = std::min(passed.entry, *std::min_element(lanes, lanes + kLanes));
+    const float least = std::min(passed.entry, *std::min_element(lanes, lanes + lane_count));
     left_ = std::min(left_, double(least) - piece_.body.radius - error);
   }
 
@@ -161,7 +161,7 @@ class NearTraversal {
     const auto error = double(t.error);
     const Bounds bounds(part_, piece_.body.radius, error, asked_);
     float reach = axis_reach(error);
-    const float grown = margin(kTileSteps, frame);
+    const float grown = margin(tile_steps, frame);
     Passed passed;
     const auto beyond = [&](float key) { return passed.over(key, reach); };
     const Around around = around_of(frame, reach);
@@ -171,7 +171,7 @@ class NearTraversal {
     const auto look_at_leaf = [&](std::uint32_t leaf) {
       looked_ = true;
       Children triangles;
-      alignas(64) float most[kWidth];
+      alignas(64) float most[node_width];
       near_leaf(leaves[leaf].leaf, frame, way_, reach, bounds, passed.lanes, triangles, most);
       while (triangles.mask != 0) {
         const std::uint32_t nearest = nearest_of(triangles);
@@ -183,7 +183,7 @@ class NearTraversal {
     };
     if (gathered != nullptr) {
       begin(*gathered, frame, around, grown, reach, nodes, leaves, passed, beyond, look_at_leaf);
-    } else if (Bounds::kLoose && !looked_) {
+    } else if (Bounds::is_loose && !looked_) {
       dive(nodes, leaves, beyond, look, look_at_leaf);
     } else {
       stack_.start();
@@ -205,7 +205,7 @@ class NearTraversal {
                         const LookAtLeaf& look_at_leaf) {
     stack_.clear();
     std::uint32_t met = ~0U;
-    if (Bounds::kLoose && boxed_) {
+    if (Bounds::is_loose && boxed_) {
       passed.entry = std::min(passed.entry, around.reach);
       met = met_children(root.node, around.box);
       if (met == 0) return;
@@ -215,7 +215,7 @@ class NearTraversal {
     children.mask &= met;
     if (children.mask == 0) return;
     const std::uint32_t nearest = nearest_of(children);
-    if (Bounds::kLoose && nearest >= root.node.inner_count) {
+    if (Bounds::is_loose && nearest >= root.node.inner_count) {
       children.mask &= ~(1U << nearest);
       look_at_leaf(root.number[nearest]);
       leave_out(children, beyond);
@@ -230,9 +230,9 @@ class NearTraversal {
   template <class Beyond, class Look, class LookAtLeaf>
   HWY_INLINE void dive(const Block* nodes, const Block* leaves, const Beyond& beyond, const Look& look,
                        const LookAtLeaf& look_at_leaf) {
-    constexpr int kLevels = 4;
-    Children beside[kLevels];
-    const Node* of[kLevels];
+    constexpr int stack_levels = 4;
+    Children beside[stack_levels];
+    const Node* of[stack_levels];
     int depth = 0;
     stack_.clear();
     for (std::uint32_t at = 0;;) {
@@ -241,7 +241,7 @@ class NearTraversal {
       of[depth++] = &node;
       if (children.mask == 0) break;
       const std::uint32_t nearest = nearest_of(children);
-      if (depth == kLevels && nearest < node.inner_count) break;  // deeper trees are few: the stack does it
+      if (depth == stack_levels && nearest < node.inner_count) break;  // deeper trees are few: the stack does it
       children.mask &= ~(1U << nearest);
       if (nearest >= node.inner_count) {
         look_at_leaf(node.first_leaf + (nearest - node.inner_count));
@@ -261,7 +261,7 @@ class NearTraversal {
   Way way_;
   double asked_, reach_;
   double part_;
-  bool boxed_ = way_.longest <= kShortMotion;  ///< of a gap, boxes in whole numbers are asked first, as by a sweep
+  bool boxed_ = way_.longest <= short_motion;  ///< of a gap, boxes in whole numbers are asked first, as by a sweep
   double left_ = std::numeric_limits<double>::infinity();
   bool looked_ = false;  ///< at a leaf
   Visit visit_;

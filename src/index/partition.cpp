@@ -37,8 +37,8 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
   // Half the widest side of each triangle's box, rounded up: how far it may stick out of the cells of its run.
   std::vector<float> reach(count);
   std::vector<Item> items(count);
-  const double side = std::max(largest(soup.bounds().size()), kOrdinaryTriangle);
-  const double cell = side / double(1 << Curve::kAxisBits);
+  const double side = std::max(largest(soup.bounds().size()), ordinary_triangle);
+  const double cell = side / double(1 << Curve::axis_bits);
   for (std::size_t m = 0; m < soup.meshes().size(); ++m) {
     const Mesh& mesh = soup.meshes()[m];
     const auto first = static_cast<std::uint32_t>(soup.first()[m]);
@@ -46,9 +46,9 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
       const Box box = box_of(mesh.triangle(i));
       const double extent = largest(box.size());
       const Vec3 place = (box.center() - soup.bounds().lower) / cell;
-      std::uint64_t key = std::uint64_t{size_class(extent)} << Curve::kClassShift;
+      std::uint64_t key = std::uint64_t{size_class(extent)} << Curve::class_shift;
       for (int k = 0; k < 3; ++k) {
-        const auto c = static_cast<std::uint64_t>(std::clamp(place[k], 0.0, double((1 << Curve::kAxisBits) - 1)));
+        const auto c = static_cast<std::uint64_t>(std::clamp(place[k], 0.0, double((1 << Curve::axis_bits) - 1)));
         key |= Curve::spread(c) << k;
       }
       const auto number = first + static_cast<std::uint32_t>(i);
@@ -62,10 +62,10 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
   const auto reach_of = [&](const Item& item) { return reach[item.triangle]; };
   const Cutter<Curve, Item, decltype(reach_of)> cutter(items, reach_of, cell, lossless);
   for (std::uint32_t begin = 0; begin < count;) {
-    const std::uint64_t c = items[begin].key >> Curve::kClassShift;
+    const std::uint64_t c = items[begin].key >> Curve::class_shift;
     const auto end = static_cast<std::uint32_t>(
         std::partition_point(items.begin() + begin, items.end(),
-                             [&](const Item& i) { return i.key >> Curve::kClassShift == c; }) -
+                             [&](const Item& i) { return i.key >> Curve::class_shift == c; }) -
         items.begin());
     cutter.cut(begin, end, [&](std::uint32_t first, std::uint32_t last) { result.tiles.push_back({first, last}); });
     begin = end;

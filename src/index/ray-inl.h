@@ -15,7 +15,7 @@ namespace roam::index::HWY_NAMESPACE {
 
 /// What the tests of a ray use, beside what those of every motion do.
 struct Ray {
-  static constexpr bool kIs = true;
+  static constexpr bool is_ray = true;
   float early[3], late[3];  ///< 1 / forward[k], not more and not less, in 16 bits: times a bound of a node it is exact
   float across[2][3];       ///< across the way and, but for rounding, each other
   float length[2];          ///< of these, rounded up
@@ -46,8 +46,8 @@ struct Ray {
         square += across[i][k] * across[i][k];
         way += across[i][k] * motion.way[k];
       }
-      length[i] = std::sqrt(square) * (1.0F + kRadiusRoundings * kUnit);
-      drift[i] = std::abs(way) + kSpeedRoundings * kUnit * motion.longest * length[i];
+      length[i] = std::sqrt(square) * (1.0F + radius_roundings * float_unit);
+      drift[i] = std::abs(way) + speed_roundings * float_unit * motion.longest * length[i];
     }
   }
   /// To be called of a tile, which is at most `steps` wide.
@@ -56,15 +56,15 @@ struct Ray {
     for (int k = 0; k < 3; ++k) {
       farthest = std::max(farthest, (std::abs(static_cast<float>(frame.whole[k])) + steps) * frame.step);
     }
-    const float keep = radius * (1.0F + kRadiusRoundings * kUnit) + kRayRoundings * kUnit * farthest +
-                       8.0F * kFractionRounding * frame.step;
+    const float keep = radius * (1.0F + radius_roundings * float_unit) + ray_roundings * float_unit * farthest +
+                       8.0F * fraction_rounding * frame.step;
     for (int i = 0; i < 2; ++i) room[i] = keep * length[i] + drift[i];
   }
 };
 
 /// Stands for it where the body is none.
 struct NoRay {
-  static constexpr bool kIs = false;
+  static constexpr bool is_ray = false;
   explicit NoRay(const Motion&) {}
 };
 
@@ -74,7 +74,7 @@ HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& mot
   const Boxes boxes(node, frame, motion.mirror);
   const auto* planes = reinterpret_cast<const std::uint8_t*>(&node);
   out.mask = 0;
-  for (int first = 0; first < kWidth; first += kLanes) {
+  for (int first = 0; first < node_width; first += lane_count) {
     VF enter = hn::Zero(kF), exit = set(t_max);
     for (int k = 0; k < 3; ++k) {
       // The products with a bound are exact: fused or not gives the same bits.
@@ -85,9 +85,9 @@ HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& mot
       enter = hn::Max(enter, in);
       exit = hn::Min(exit, end);
     }
-    enter = hn::Mul(enter, set(1.0F - kTimeRoundings * kUnit));
+    enter = hn::Mul(enter, set(1.0F - time_roundings * float_unit));
     hn::Store(enter, kF, out.key + first);
-    out.mask |= bits_of(hn::Le(enter, hn::Mul(exit, set(1.0F + kTimeRoundings * kUnit)))) << first;
+    out.mask |= bits_of(hn::Le(enter, hn::Mul(exit, set(1.0F + time_roundings * float_unit)))) << first;
   }
   out.mask &= (1U << node.child_count) - 1;
 }

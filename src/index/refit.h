@@ -10,7 +10,7 @@
 
 namespace roam::index {
 
-/// Sets origin, shift, lower and upper of a node whose children have these boxes (1 to kWidth, in order), rounded
+/// Sets origin, shift, lower and upper of a node whose children have these boxes (1 to node_width, in order), rounded
 /// outwards to the node's own grid. Returns the box of all.
 inline StepBox set_boxes(Node& node, std::span<const StepBox> children) {
   StepBox all;

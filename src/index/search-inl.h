@@ -76,8 +76,8 @@ HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& vis
 }
 
 /// The widest node of a tile and of the tree over tiles, in steps.
-constexpr float kTileSteps = 0x1p16F;
-constexpr float kTopSteps = 0x1p29F;
+constexpr float tile_steps = 0x1p16F;
+constexpr float top_steps = 0x1p29F;
 
 /// How much farther than triangles the boxes of tiles matter, metres.
 HWY_INLINE double margin_of(const Index& index) { return index.absent ? index.absent->margin : 0.0; }
@@ -87,7 +87,7 @@ HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.a
 
 /// So many tiles may be visited in any order. Where tiles come and go, only one: behind what is met first it should not
 /// show in the last bits which have come.
-HWY_INLINE int few_tiles(const Index& index) { return index.absent ? 1 : kFewTiles; }
+HWY_INLINE int few_tiles(const Index& index) { return index.absent ? 1 : few_tile_count; }
 
 /// All tiles of which something was gathered.
 HWY_INLINE void prefetch_tiles(const Index& index, std::span<const Root> roots) {
@@ -104,8 +104,8 @@ HWY_INLINE void prefetch_tiles(const Index& index, const Node& node, const Child
 /// The roots of the tiles that come next, all of them while one is visited: their memory would be waited for one after
 /// the other.
 HWY_INLINE void prefetch_roots(const Index& index, const Stack& stack) {
-  constexpr int kAhead = 4;
-  for (int i = 0; i < std::min(kAhead, stack.size()); ++i) {
+  constexpr int levels_ahead = 4;
+  for (int i = 0; i < std::min(levels_ahead, stack.size()); ++i) {
     const Stack::Entry next = stack.next(i);
     if (!next.leaf) continue;
     const Tile& t = index.tiles[next.number];

@@ -15,8 +15,8 @@ namespace roam::index {
 /// before nodes, then lower numbers.
 ///
 /// The frontier of a best-first search has no useful bound: around a body in the middle of a dome every node is nearer
-/// than every leaf. So beyond kBestFirst entries the search goes on depth-first: children are put on top of everything,
-/// ordered among themselves only, until the stack has shrunk. Depth-first search needs kWidth - 1 entries a level.
+/// than every leaf. So beyond best_first entries the search goes on depth-first: children are put on top of everything,
+/// ordered among themselves only, until the stack has shrunk. Depth-first search needs node_width - 1 entries a level.
 class Stack {
  public:
   struct Entry {
@@ -40,7 +40,7 @@ class Stack {
   void begin_children() { floor_ = ordered() ? 0 : count_; }
 
   void push(float key, std::uint32_t number, bool leaf) {
-    assert(count_ < kCapacity);
+    assert(count_ < stack_capacity);
     const std::uint64_t e =
         std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | (leaf ? 0U : std::uint32_t{1} << 31) | number;
     int i = count_++;
@@ -63,15 +63,15 @@ class Stack {
   }
 
   /// After pop(): no remaining entry has a smaller key than the one that was popped.
-  [[nodiscard]] bool ordered() const { return count_ <= kBestFirst; }
+  [[nodiscard]] bool ordered() const { return count_ <= best_first; }
 
  private:
-  static constexpr int kBestFirst = 256;
-  static constexpr int kCapacity = kBestFirst + kWidth + kMaxDepth * (kWidth - 1) + 1;
+  static constexpr int best_first = 256;
+  static constexpr int stack_capacity = best_first + node_width + max_depth * (node_width - 1) + 1;
 
   int count_ = 0;
   int floor_ = 0;  ///< entries below it are left where they are
-  std::uint64_t entries_[kCapacity];
+  std::uint64_t entries_[stack_capacity];
 };
 
 }  // namespace roam::index

@@ -13,8 +13,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay.
-template <class Line>
+/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay. `skips`: whether the index
+/// passes triangles over.
+template <class Line, bool skips = false>
 class SweepTraversal {
  public:
   SweepTraversal(const Index& index, const Piece& piece, double until)
@@ -30,7 +31,7 @@ class SweepTraversal {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double radius = piece_.body.radius + margin_of(index_);
     const Swept swept(frame, reach_, round_up(margin_of(index_)));
-    const float grown = grown_for(round_up(radius), kTopSteps, frame);
+    const float grown = grown_for(round_up(radius), top_steps, frame);
     Stack stack;
     search(
         stack, [this](float key) { return key >= t_max_; },
@@ -65,13 +66,14 @@ class SweepTraversal {
     const Frame frame(t.origin, t.step, piece_.start);
     const Swept swept(frame, reach_, t.error);
     const float radius = round_up(piece_.body.radius + double(t.error));
-    const float grown = grown_for(radius, kTileSteps, frame);
+    const float grown = grown_for(radius, tile_steps, frame);
     // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
-    const bool exact = t.fine || piece_.body.radius > kWideBody;
-    const float hit_limit = exact ? -1.0F
-                                  : static_cast<float>(piece_.body.radius + double(kHitLimit) - double(t.error)) *
-                                        (1.0F - kRadiusRoundings * kUnit);
-    if constexpr (Line::kIs) line_.enter(frame, motion_, radius, kTileSteps);
+    const bool exact = t.fine || piece_.body.radius > wide_body;
+    const float hit_limit =
+        exact ? -1.0F
+              : static_cast<float>(piece_.body.radius + double(hit_limit_distance) - double(t.error)) *
+                    (1.0F - radius_roundings * float_unit);
+    if constexpr (Line::is_ray) line_.enter(frame, motion_, radius, tile_steps);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     const auto beyond = [this](float key) { return key >= t_max_; };
@@ -107,7 +109,7 @@ class SweepTraversal {
   HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
     sweep_node(node, frame, motion_, grown, t_max_, out);
     out.mask &= met;
-    if (std::popcount(out.mask) >= kManyChildren) delay_children(node, frame, motion_, grown, t_max_, out);
+    if (std::popcount(out.mask) >= many_children) delay_children(node, frame, motion_, grown, t_max_, out);
   }
 
   /// What is left below a node: a single leaf, or the children of one node.
@@ -126,13 +128,13 @@ class SweepTraversal {
     Descent out;
     out.single = false;
     out.node = &nodes[number].node;
-    if (!Line::kIs && !short_) {
+    if (!Line::is_ray && !short_) {
       sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
       return out;
     }
     for (;;) {
       const Node& node = *out.node;
-      if constexpr (Line::kIs) {
+      if constexpr (Line::is_ray) {
         ray_node(node, frame, motion_, line_, grown, t_max_, out.children);
       } else {
         out.children.mask = met_children(node, swept);
@@ -148,7 +150,7 @@ class SweepTraversal {
       }
       out.node = &nodes[node.first_node + child].node;
     }
-    if constexpr (!Line::kIs) {
+    if constexpr (!Line::is_ray) {
       const std::uint32_t met = out.children.mask;
       if (std::popcount(met) <= few) {
         out.children.take(met);
@@ -165,12 +167,20 @@ class SweepTraversal {
     sweep_leaf(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      take(double(met.time[i]), {tile_number, t.leaves + number, i});
+      const Place place{tile_number, t.leaves + number, i};
+      if constexpr (skips) {
+        if (index_.skip->skips(index_.skip->context, place)) continue;
+      }
+      take(double(met.time[i]), place);
     }
     for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       if (double(met.time[i]) >= best_.time) continue;
-      decide(t, {tile_number, t.leaves + number, i}, double(met.time[i]));
+      const Place place{tile_number, t.leaves + number, i};
+      if constexpr (skips) {
+        if (index_.skip->skips(index_.skip->context, place)) continue;
+      }
+      decide(t, place, double(met.time[i]));
     }
   }
 
@@ -178,7 +188,7 @@ class SweepTraversal {
     Body body = piece_.body;
     body.radius += double(t.fine_error);
     const auto triangle = local_triangle(index_, place, piece_.start);
-    const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, kArrivalExact);
+    const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, arrival_exact);
     if (s.hit) take(s.time, place);
   }
 
@@ -189,14 +199,14 @@ class SweepTraversal {
   }
 
   /// Metres. What double precision calls arrived: of no consequence beside the grid, small beside 1e-5 m.
-  static constexpr double kArrivalExact = 1e-6;
+  static constexpr double arrival_exact = 1e-6;
 
   const Index& index_;
   const Piece& piece_;
   Motion motion_;
   Reach reach_;
   Line line_{motion_};
-  bool short_ = motion_.longest <= kShortMotion;
+  bool short_ = motion_.longest <= short_motion;
   Impact best_;
   float t_max_ = 1.0F;
   Stack stack_;

@@ -13,7 +13,7 @@ namespace roam::index {
 namespace {
 
 /// Metres. What a query typically adds to the sides of a box: the body and the way of one step.
-constexpr double kQueryMargin = 0.2;
+constexpr double query_margin = 0.2;
 
 /// The three corners of a triangle in fine steps.
 using Corners = std::array<std::array<std::int64_t, 3>, 3>;
@@ -33,14 +33,14 @@ class TileBuilder {
       for (const Vec3& v : t) out_.bounds.include(v);
     }
     grid_ = Grid::fitting(out_.bounds);
-    fine_ = lossless || grid_.step > kOrdinaryStep;
+    fine_ = lossless || grid_.step > ordinary_step;
   }
 
   BuiltTile run() {
     quantize();
     BinaryTreeOptions options;
     options.fits_leaf = [this](std::span<const std::uint32_t> items) { return fits_leaf(items); };
-    options.margin = std::max(1.0, kQueryMargin / grid_.step);
+    options.margin = std::max(1.0, query_margin / grid_.step);
     const BinaryTree tree = build_binary_tree(boxes_, options);
     WideTree wide = collapse(tree, options.margin);
     out_.nodes = std::move(wide.nodes);
@@ -57,7 +57,7 @@ class TileBuilder {
     corners_.resize(triangles_.size());
     boxes_.resize(triangles_.size());
     double worst = 0.0, worst_fine = 0.0;  // squared
-    const double fine_step = grid_.step / double(kFineSteps);
+    const double fine_step = grid_.step / double(fine_steps);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
         const Vec3& v = triangles_[i][c];
@@ -100,7 +100,7 @@ class TileBuilder {
   }
 
   /// The distinct vertices of the triangles, in order of first use; false when there are more than a leaf holds.
-  bool distinct(std::span<const std::uint32_t> items, std::array<VertexKey, kWidth>& keys, int& count,
+  bool distinct(std::span<const std::uint32_t> items, std::array<VertexKey, node_width>& keys, int& count,
                 Leaf* leaf) const {
     count = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -109,7 +109,7 @@ class TileBuilder {
         int found = 0;
         while (found < count && keys[found] != v) ++found;
         if (found == count) {
-          if (count == kWidth) return false;
+          if (count == node_width) return false;
           keys[count++] = v;
         }
         if (leaf) leaf->corner[c][i / 8] |= static_cast<std::uint32_t>(found) << (4 * (i % 8));
@@ -119,36 +119,36 @@ class TileBuilder {
   }
 
   [[nodiscard]] bool fits_leaf(std::span<const std::uint32_t> items) const {
-    if (items.size() > kWidth) return false;
-    std::array<VertexKey, kWidth> keys;
+    if (items.size() > node_width) return false;
+    std::array<VertexKey, node_width> keys;
     int count = 0;
     return distinct(items, keys, count, nullptr);
   }
 
   void add_leaf(std::span<const std::uint32_t> unsorted) {
     // Ascending ids make small differences, and lane order a rule that does not depend on how the tree was built.
-    std::array<std::uint32_t, kWidth> items{};
+    std::array<std::uint32_t, node_width> items{};
     std::copy(unsorted.begin(), unsorted.end(), items.begin());
     std::sort(items.begin(), items.begin() + unsorted.size());
     const std::span<const std::uint32_t> triangles(items.data(), unsorted.size());
 
     Leaf leaf{};
     leaf.triangle_count = static_cast<std::uint8_t>(triangles.size());
-    std::array<VertexKey, kWidth> keys;
+    std::array<VertexKey, node_width> keys;
     int count = 0;
     distinct(triangles, keys, count, &leaf);
-    for (std::size_t i = triangles.size(); i < kWidth; ++i) {
+    for (std::size_t i = triangles.size(); i < node_width; ++i) {
       for (auto& c : leaf.corner) c[i / 8] |= (c[0] & 15U) << (4 * (i % 8));
     }
     FineLeaf low{};
-    for (int v = 0; v < kWidth; ++v) {
+    for (int v = 0; v < node_width; ++v) {
       const VertexKey& k = keys[v < count ? v : 0];
       const std::array<std::int64_t, 3> p{std::int64_t(k.xy >> 32), std::int64_t(k.xy & 0xffffffffU),
                                           std::int64_t(k.z)};
       for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t whole = fine_ ? Grid::whole(p[axis]) : p[axis];
         leaf.vertex[axis][v] = static_cast<std::uint16_t>(whole);
-        if (fine_) low.vertex[axis][v] = static_cast<std::int16_t>(p[axis] - whole * kFineSteps);
+        if (fine_) low.vertex[axis][v] = static_cast<std::int16_t>(p[axis] - whole * fine_steps);
       }
     }
     if (fine_) out_.fine_leaves.push_back(low);

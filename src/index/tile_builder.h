@@ -22,7 +22,7 @@ struct BuiltTile {
 };
 
 /// Builds a tile of the triangles whose numbers are given (ascending, 1 to 16384). The low bits are
-/// kept where the whole ones would move a vertex by more than kOrdinaryStep allows, and everywhere when `lossless`.
+/// kept where the whole ones would move a vertex by more than ordinary_step allows, and everywhere when `lossless`.
 [[nodiscard]] BuiltTile build_tile(const Soup& soup, std::span<const std::uint32_t> ids, bool lossless);
 
 /// The same for triangles wherever they come from; ids[i], ascending, is the number of triangles[i].

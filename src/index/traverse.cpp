@@ -30,7 +30,7 @@ bool Gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out)
 }
 
 Impact FirstImpactFrom(const Index& index, std::span<const Root> roots, const Piece& piece, double until) {
-  assert(!is_thin(piece.body) && roam::largest(piece.motion) <= double(kShortMotion));
+  assert(!is_thin(piece.body) && roam::largest(piece.motion) <= double(short_motion));
   return SweepTraversal<NoRay>(index, piece, until).run(roots);
 }
 

@@ -19,7 +19,7 @@
 namespace roam::index {
 
 /// Of the number of a triangle of an index without id streams: those that count in its tile.
-inline constexpr int kTileTriangleBits = 14;
+inline constexpr int tile_triangle_bits = 14;
 
 /// Answers for tiles that are not in memory, in the place of their triangles.
 struct Absent {
@@ -32,6 +32,19 @@ struct Absent {
   bool only = false;  ///< tiles that are in memory are passed over
 };
 
+/// Where a triangle is stored.
+struct Place {
+  std::uint32_t tile = 0;
+  std::uint32_t leaf = 0;  ///< block in the arena
+  std::uint32_t triangle = 0;
+};
+
+/// Which triangles are passed over.
+struct Skip {
+  bool (*skips)(const void* context, const Place& place);
+  const void* context;
+};
+
 /// A tree over tiles and the tiles, as one read-only view.
 struct Index {
   const Block* top = nullptr;     ///< top[0] is the root over all tiles; its leaves count in `tiles`
@@ -41,16 +54,10 @@ struct Index {
   const std::uint8_t* ids = nullptr;  ///< null: triangle i of a leaf of tile t is number t << 14 | leaf.ids + i
   Grid grid;                          ///< of the nodes over tiles
   const Absent* absent = nullptr;     ///< null where no tile is
+  const Skip* skip = nullptr;         ///< null where every triangle counts
 };
 
-/// Where a triangle is stored.
-struct Place {
-  std::uint32_t tile = 0;
-  std::uint32_t leaf = 0;  ///< block in the arena
-  std::uint32_t triangle = 0;
-};
-
-/// One straight piece of a motion, at most kLongestPiece long, from a start in reach of the index.
+/// One straight piece of a motion, at most longest_piece long, from a start in reach of the index.
 struct Piece {
   Body body;
   Vec3 start;
@@ -63,11 +70,12 @@ struct Impact {
   Place place;        ///< of which only `tile` means something where that is absent
 };
 
-/// The first impact before `until` with any stored triangle, each grown by its tile's error, or absent tile.
+/// Without Index::skip (see rest.h): the first impact before `until` with any stored triangle, each grown by its tile's
+/// error, or absent tile.
 [[nodiscard]] Impact first_impact(const Index& index, const Piece& piece, double until = 1.0);
 
 /// Spheres so thin are asked about as rays are.
-[[nodiscard]] inline bool is_thin(const Body& body) { return body.half_height == 0.0 && body.radius < kThinBody; }
+[[nodiscard]] inline bool is_thin(const Body& body) { return body.half_height == 0.0 && body.radius < thin_body; }
 
 /// Adds what of an index, which its caller calls by the number `owner`, meets a box of a few tens of metres at most, so
 /// that first_impact() and visit_near() of what stays in the box begin there. False where there are too many tiles or
@@ -75,7 +83,7 @@ struct Impact {
 [[nodiscard]] bool gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out);
 
 /// The first impact as above, beginning at the roots of this index that were gathered for a box in which the body stays
-/// with all errors of tiles. The piece is at most kShortMotion long, the body not thin.
+/// with all errors of tiles. The piece is at most short_motion long, the body not thin.
 [[nodiscard]] Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece,
                                   double until = 1.0);
 

@@ -45,35 +45,35 @@ HWY_INLINE V3 Triangles::away(const V3& p) const {
   return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
 }
 
-/// One coordinate of vertices from .. from + kLanes - 1 of a leaf, metres from the start.
+/// One coordinate of vertices from .. from + lane_count - 1 of a leaf, metres from the start.
 HWY_INLINE VF vertices_of(const Leaf& leaf, const Frame& frame, int k, int from) {
   const hn::Rebind<std::uint16_t, F> words;
   const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
   return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), set(frame.step));
 }
 
-/// Which vertices are the corners of triangles first .. first + kLanes - 1 of a leaf.
+/// Which vertices are the corners of triangles first .. first + lane_count - 1 of a leaf.
 class Corners {
  public:
   HWY_INLINE Corners(const Leaf& leaf, int first) {
-    alignas(64) static constexpr std::uint32_t kShifts[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28,
-                                                                  0, 4, 8, 12, 16, 20, 24, 28};
+    alignas(64) static constexpr std::uint32_t vertex_shifts[node_width] = {0, 4, 8, 12, 16, 20, 24, 28,
+                                                                            0, 4, 8, 12, 16, 20, 24, 28};
     const hn::RebindToUnsigned<F> u;
     for (int c = 0; c < 3; ++c) {
       auto packed = hn::Set(u, leaf.corner[c][first / 8]);
-      if constexpr (kLanes == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
-      at_[c] = hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, kShifts + first)), hn::Set(u, 15U)));
+      if constexpr (lane_count == 16) packed = hn::IfThenElse(hn::FirstN(u, 8), packed, hn::Set(u, leaf.corner[c][1]));
+      at_[c] = hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, vertex_shifts + first)), hn::Set(u, 15U)));
     }
   }
-  /// What `of(from)` says of vertices from .. from + kLanes - 1, for the three corners of each triangle.
+  /// What `of(from)` says of vertices from .. from + lane_count - 1, for the three corners of each triangle.
   template <class Of>
   HWY_INLINE void pick(const Of& of, VF (&out)[3]) const {
-    if constexpr (kLanes == 16) {
+    if constexpr (lane_count == 16) {
       const VF values = of(0);
       for (int c = 0; c < 3; ++c) out[c] = hn::TableLookupLanes(values, hn::IndicesFromVec(kF, at_[c]));
     } else {
-      alignas(64) float table[kWidth];
-      for (int from = 0; from < kWidth; from += kLanes) hn::Store(of(from), kF, table + from);
+      alignas(64) float table[node_width];
+      for (int from = 0; from < node_width; from += lane_count) hn::Store(of(from), kF, table + from);
       for (int c = 0; c < 3; ++c) out[c] = hn::GatherIndex(kF, table, at_[c]);
     }
   }
@@ -82,7 +82,7 @@ class Corners {
   VI at_[3];
 };
 
-/// Triangles first .. first + kLanes - 1 of a leaf.
+/// Triangles first .. first + lane_count - 1 of a leaf.
 HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int first) {
   const Corners corners(leaf, first);
   VF x[3], y[3], z[3];
@@ -103,7 +103,7 @@ HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int fi
 HWY_INLINE void Triangles::prepare() {
   bc = c - b;
   const VF ab2 = dot(ab, ab), ac2 = dot(ac, ac);
-  const VF floor = set(kShortest * kShortest), face_floor = set(kSmallestFace), one = set(1.0F);
+  const VF floor = set(shortest_way * shortest_way), face_floor = set(smallest_face), one = set(1.0F);
   const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor), long_bc = hn::Max(dot(bc, bc), floor);
   // The roundings of a sliver's normal would tilt its face along it: straight across the longer of two edges it is not.
   const V3 edge = select(hn::Gt(ac2, ab2), ac, ab);
@@ -111,15 +111,15 @@ HWY_INLINE void Triangles::prepare() {
   within_ab = cross(normal, ab);
   within_ac = cross(ac, normal);
   within_bc = cross(normal, bc);
-  // Two reciprocals from one division. Where a product overflows, in triangles some thousand kilometres wide, the closest
-  // point is not a number, or the place itself: bounds of gaps are weak there.
+  // Two reciprocals from one division. Where a product overflows, in triangles some thousand kilometres wide, the
+  // closest point is not a number, or the place itself: bounds of gaps are weak there.
   const VF long_normal = hn::Max(dot(normal, normal), face_floor);
   const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
   inv_ab2 = hn::Mul(long_ac, edges);
   inv_ac2 = hn::Mul(long_ab, edges);
   inv_bc2 = hn::Mul(long_normal, rest);
   inv_normal2 = hn::Mul(long_bc, rest);
-  const VF width = hn::Mul(set(kNarrow), farthest);  // against the height over the longest edge
+  const VF width = hn::Mul(set(narrow_limit), farthest);  // against the height over the longest edge
   const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
   narrow = hn::Le(long_normal, hn::Max(face_floor, hn::Mul(hn::Mul(width, width), longest)));
 }

@@ -35,14 +35,17 @@ struct FootAnswer {
 };
 
 struct Gait : Stance {
-  double rise_speed = 0.0;  ///< upward, m/s; 0 on the ground
+  double rise_speed = 0.0;  ///< upward, relative to `ground_velocity`, m/s; 0 on the ground
   /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
   FloorPlane floor;
   bool floor_seen = false;
-  FootAnswer foot;  ///< where it was asked last
-  DiscFound disc;   ///< where the foot last found room to fall
+  ObjectId floor_object = no_object;  ///< that of `floor`
+  FootAnswer foot;                    ///< where it was asked last
+  DiscFound disc;                     ///< where the foot last found room to fall
 
-  /// Nothing carries it from now on.
+  bool moved_along = false;  ///< move_instances() has moved it by that of the ground for the next step
+
+  /// Nothing carries it from now on. It keeps the velocity of the ground.
   void leave_ground() {
     footing = Footing::air;
     unknown = false;

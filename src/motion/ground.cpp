@@ -41,21 +41,25 @@ bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   return s.hit && s.distance >= 0.0 && s.normal.z >= m.slope_cosine - cosine_rounding;
 }
 
-std::optional<Ground> footing_on(const Move& m, const Gait& gait, const Proximity& contact, bool unknown) {
+std::optional<Ground> footing_on(const Move& m, const Gait& gait, const Contact& contact) {
   const double up = contact.normal.z;
   if (up < rim_cosine) return std::nullopt;
   const bool gentle = up >= m.slope_cosine - cosine_rounding;
   if (contact.feature == Feature::face) {
-    return gentle ? std::optional<Ground>({contact.normal, contact.point.z, true, false, unknown}) : std::nullopt;
+    return gentle
+               ? std::optional<Ground>({contact.normal, contact.point.z, true, false, contact.unknown, contact.object})
+               : std::nullopt;
   }
   if (gait.grounded() && contact.point.z > *gait.level + m.settings.step + 2.0 * m.skin) {
     return std::nullopt;
   }
   if (!gentle && !floor_behind(m, contact.point, contact.normal)) return std::nullopt;
-  return Ground{contact.normal, contact.point.z, gentle, true, unknown};
+  return Ground{contact.normal, contact.point.z, gentle, true, contact.unknown, contact.object};
 }
 
-Proximity as_proximity(const Impact& s) { return {s.point, s.normal, s.feature, s.distance}; }
+Contact as_contact(const Impact& s) {
+  return {{s.point, s.normal, s.feature, s.distance}, s.triangle, s.object, s.unknown};
+}
 
 /// Gravity along planes that leads down at less than the slope limit, so that they carry together. On a slope of angle
 /// a it leads down by sin(a)^2 of itself.
@@ -87,7 +91,7 @@ Below look_below(const Move& m, double horizontal, double reach) {
 }  // namespace
 
 std::optional<Ground> footing(const Move& move, const Gait& gait, const Impact& contact) {
-  return footing_on(move, gait, as_proximity(contact), contact.unknown);
+  return footing_on(move, gait, as_contact(contact));
 }
 
 std::optional<Ground> footing_here(const Move& move, const Gait& gait) {
@@ -98,17 +102,21 @@ std::optional<Ground> footing_here(const Move& move, const Gait& gait) {
   std::optional<Ground> best;
   double highest = move.feet();
   bool unknown = false;
+  ObjectId object = no_object;
   for (std::size_t i = 0; i < std::min(found, contacts.size()); ++i) {
     const Contact& c = contacts[i];
     if (!(c.normal.z > 0.0)) continue;
-    const std::optional<Ground> f = footing_on(move, gait, c, c.unknown);
+    const std::optional<Ground> f = footing_on(move, gait, c);
     if (f && (!best || f->normal.z > best->normal.z)) best = f;
     planes.add(c.normal);
     unknown |= c.unknown;
     highest = std::max(highest, c.point.z);
+    if (object == no_object) object = c.object;  // the nearest
   }
   if (best) return best;
-  if (planes.size() > 1 && carried_by(move, planes)) return Ground{Vec3(0.0, 0.0, 1.0), highest, false, false, unknown};
+  if (planes.size() > 1 && carried_by(move, planes)) {
+    return Ground{Vec3(0.0, 0.0, 1.0), highest, false, false, unknown, object};
+  }
   return std::nullopt;
 }
 
@@ -120,6 +128,9 @@ void stand_on(Move& move, Gait& gait, const Ground& ground) {
   gait.rise_speed = 0.0;
   gait.footing = ground.firm ? Footing::ground : Footing::rim;
   gait.unknown = ground.unknown;
+  if (gait.object == ground.object) return;
+  gait.object = ground.object;
+  gait.ground_velocity = Vec3(0.0);
 }
 
 namespace {

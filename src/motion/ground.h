@@ -17,6 +17,7 @@ struct Ground {
   bool firm = true;            ///< within the slope limit: not on a rim, not wedged
   bool edge = false;           ///< the contact is with an edge or a corner, where ground may begin
   bool unknown = false;        ///< it is what is not known yet that carries
+  ObjectId object = no_object;
 };
 
 /// Whether the body can stand on what it touches:

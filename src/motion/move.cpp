@@ -34,8 +34,8 @@ constexpr double way_weight = gap_part / (gap_part - told_part);                
 /// 6.4e6 m: this many stay far below world_tolerance.
 constexpr int merge_limit = 64;
 
-/// Corners that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
-constexpr std::size_t corners_at_once = 24;
+/// Segments that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
+constexpr std::size_t segments_at_once = 24;
 
 /// Frequent events that are noted in one step; the rest of the list is kept for a fall and for what ends a step.
 constexpr std::size_t events_of_motion = 16;
@@ -181,16 +181,16 @@ void Move::go(const Vec3& motion, double certified) {
   place += motion;
   known.nearest += length;
   const Vec3 direction = motion / length;
-  const bool straight_on = !report.corners.empty() && direction == last_direction_ && merged_ < merge_limit &&
-                           report.corners.back().height == height && report.corners.back().radius == settings.radius;
+  const bool straight_on = !report.segments.empty() && direction == last_direction_ && merged_ < merge_limit &&
+                           report.segments.back().height == height && report.segments.back().radius == settings.radius;
   if (straight_on) {
-    Corner& last = report.corners.back();
+    Segment& last = report.segments.back();
     last.position = place;
     last.time = time;
     last.clearance = std::min(last.clearance, certified);
     ++merged_;
   } else {
-    report.corners.push({place, height, settings.radius, time, certified, false});
+    report.segments.push({place, height, settings.radius, time, certified, false});
     last_direction_ = direction;
     merged_ = 0;
   }
@@ -209,7 +209,7 @@ void Move::resize(double new_height, const Vec3& new_place) {
   place = new_place;
   known.forget_place();
   known.clearance = certified;
-  report.corners.push({place, height, settings.radius, time, certified, false});
+  report.segments.push({place, height, settings.radius, time, certified, false});
   last_direction_ = Vec3(0.0);
 }
 
@@ -250,9 +250,9 @@ void Move::note(EventKind kind, const Vec3& point) {
 }
 
 Move::Mark Move::mark() const {
-  const Corner last = report.corners.empty() ? Corner{} : report.corners.back();
+  const Segment last = report.segments.empty() ? Segment{} : report.segments.back();
   return {
-      *this,           time,           last_direction_,   merged_, last, report.corners.size(), report.events.size(),
+      *this,           time,           last_direction_,   merged_, last, report.segments.size(), report.events.size(),
       report.contacts, report.blocked, report.met_unknown};
 }
 
@@ -261,14 +261,14 @@ void Move::undo(const Mark& m) {
   time = m.time;
   last_direction_ = m.direction;
   merged_ = m.merged;
-  report.corners.shorten(m.corners);
-  if (!report.corners.empty()) report.corners.back() = m.corner;
+  report.segments.shorten(m.segments);
+  if (!report.segments.empty()) report.segments.back() = m.segment;
   report.events.shorten(m.events);
   report.contacts = m.contacts;
   report.blocked = m.blocked;
   report.met_unknown = m.met_unknown;
 }
 
-bool Move::has_room() const { return report.corners.size() + corners_at_once <= report.corners.capacity; }
+bool Move::has_room() const { return report.segments.size() + segments_at_once <= report.segments.capacity; }
 
 }  // namespace roam::walking

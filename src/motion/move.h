@@ -67,8 +67,8 @@ class Move : public Mover, public Whereabouts {
     double time;
     Vec3 direction;
     int merged;
-    Corner corner;
-    std::size_t corners, events;
+    Segment segment;
+    std::size_t segments, events;
     InlineList<Contact, 8> contacts;
     bool blocked, met_unknown;
   };
@@ -88,7 +88,7 @@ class Move : public Mover, public Whereabouts {
   /// that is nearer than the skin already does not advance towards that plane; along it and away it does.
   [[nodiscard]] Advance probe(const Vec3& motion) const;
 
-  /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its corner. Does not note the
+  /// Makes the certified part of `motion`, which takes `seconds` in whole, and adds its segment. Does not note the
   /// contact.
   Advance advance(const Vec3& motion, double seconds);
   /// Certified lower bound of the gap over `motion`, metres, at most as far as clearances are told. Not positive where
@@ -103,6 +103,8 @@ class Move : public Mover, public Whereabouts {
   void measure();
   /// Goes along `motion`, part of a way that a sweep has found free, and measures how free that part is.
   void go(const Vec3& motion);
+  /// Goes along a way whose certified clearance is given, metres.
+  void go(const Vec3& motion, double certified);
   /// Where a touch left less than half the skin, restores it as far as there is room.
   void ease_off(const Advance& touch);
   /// A new height about the same feet or head, and the radius that is set; the caller has seen to it that the body fits
@@ -117,11 +119,10 @@ class Move : public Mover, public Whereabouts {
   [[nodiscard]] Mark mark() const;
   /// As if nothing had happened since the mark.
   void undo(const Mark& mark);
-  /// Whether another part of a step, which may add a handful of corners, still fits into the report.
+  /// Whether another part of a step, which may add a handful of segments, still fits into the report.
   [[nodiscard]] bool has_room() const;
 
  private:
-  void go(const Vec3& motion, double certified);
   /// gap_over(), as far as it was looked.
   [[nodiscard]] double look_along(const Vec3& motion);
 

@@ -62,7 +62,7 @@ const Contact* most_against(const StepReport& report, const Vec3& way) {
   return most;
 }
 
-const char* name(Opening::Kind kind) {
+const char* to_string(Opening::Kind kind) {
   switch (kind) {
     case Opening::Kind::door:
       return "door";

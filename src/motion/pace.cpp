@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "motion/state.h"
+
 namespace roam::walking {
 namespace {
 
@@ -82,3 +84,31 @@ Approach approach(double speed, double most, double goal, double until_rest, dou
 }
 
 }  // namespace roam::walking
+
+namespace roam {
+
+Vec3 Walker::State::moved() const {
+  Vec3 way(0.0), at = report_.from;
+  for (const Segment& c : report_.segments) {
+    if (!c.teleport) way += c.position - at;
+    at = c.position;
+  }
+  return way;
+}
+
+Vec3 Walker::State::velocity() const { return report_.elapsed > 0.0 ? (moved() + rode_) / report_.elapsed : Vec3(0.0); }
+
+Vec3 Walker::State::pace() const {
+  if (held() || report_.put_back) return Vec3(0.0);
+  Vec3 pace = in_the_end_;
+  Vec3 moved = report_.elapsed > 0.0 ? this->moved() / report_.elapsed : Vec3(0.0);
+  if (mode_ == Mode::walk) pace.z = moved.z = 0.0;
+  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
+  const double speed = glm::length(moved), most = glm::length(wished_);
+  if (!(speed > 0.0 && most > 0.0)) return Vec3(0.0);
+  // Along what it slides, and no more of it than of the way.
+  const Vec3 along = moved / speed;
+  return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
+}
+
+}  // namespace roam

@@ -99,7 +99,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing; follow a route in fly or walk mode");
 }
 
-const char* name(Outcome outcome) {
+const char* to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::reached:
       return "reached";
@@ -179,7 +179,7 @@ double Route::until_rest(const Vec3& way) const {
 const StepReport& Route::advance() {
   const DefaultFloatingPoint guard;
   if (done_)
-    throw Error("the route has ended (" + std::string(name(result_.outcome)) + "): ask done() before each step");
+    throw Error("the route has ended (" + std::string(to_string(result_.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
   double dt = options_.dt, planned = 0.0;

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "math/finite.h"
 #include "math/floating_point.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
@@ -19,8 +20,6 @@ constexpr double factor_limit = 1e3;
 constexpr double gravity_limit = 1e3;
 constexpr double jump_limit = 100.0;
 constexpr double slope_limit = 89.0;
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 struct Range {
   double lower, upper;
@@ -63,7 +62,7 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) 
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const SizeRegion& r = regions[i];
     const std::string which = "region " + std::to_string(i + 1) + (r.why.empty() ? "" : " (" + printable(r.why) + ")");
-    if (r.bounds.empty() || !finite(r.bounds.lower) || !finite(r.bounds.upper)) {
+    if (r.bounds.empty() || !is_finite(r.bounds.lower) || !is_finite(r.bounds.upper)) {
       throw Error(which + ": its bounds are empty or not finite; give a box of which no side is negative");
     }
     try {
@@ -82,7 +81,7 @@ Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool f
   return direction * (length > 1.0 ? speed / length : speed);
 }
 
-const char* name(Mode mode) {
+const char* to_string(Mode mode) {
   switch (mode) {
     case Mode::fly:
       return "fly";
@@ -94,7 +93,7 @@ const char* name(Mode mode) {
   return "unknown";
 }
 
-const char* name(EventKind kind) {
+const char* to_string(EventKind kind) {
   switch (kind) {
     case EventKind::slid:
       return "slid";

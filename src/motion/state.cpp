@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
+#include "math/finite.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/pace.h"
@@ -23,8 +25,6 @@ constexpr double least_skin = 1e-4;
 
 /// Pieces of one flight among regions: each half a radius.
 constexpr int flight_limit = 4096;
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Where a body that does not fit at `place` is freed to.
 std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& place, double skin) {
@@ -46,27 +46,6 @@ Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.he
 
 Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
 
-Vec3 Walker::State::velocity() const {
-  Vec3 way(0.0), at = report_.from;
-  for (const Corner& c : report_.corners) {
-    if (!c.teleport) way += c.position - at;
-    at = c.position;
-  }
-  return report_.elapsed > 0.0 ? way / report_.elapsed : Vec3(0.0);
-}
-
-Vec3 Walker::State::pace() const {
-  if (held() || report_.put_back) return Vec3(0.0);
-  Vec3 pace = in_the_end_, moved = velocity();
-  if (mode_ == Mode::walk) pace.z = moved.z = 0.0;
-  if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
-  const double speed = glm::length(moved), most = glm::length(wished_);
-  if (!(speed > 0.0 && most > 0.0)) return Vec3(0.0);
-  // Along what it slides, and no more of it than of the way.
-  const Vec3 along = moved / speed;
-  return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
-}
-
 /// Makes the wish no faster than the space can follow.
 void Walker::State::slow_down(WalkerInput& input) {
   const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
@@ -85,7 +64,8 @@ void Walker::State::begin() {
   at_.known.touching = !report_.contacts.empty();
   at_.known.fit = walking::Fit::known;
   known_at_ = revision.value_or(0);
-  report_.corners.clear();
+  rode_ = Vec3(0.0);
+  report_.segments.clear();
   report_.contacts.clear();
   report_.events.clear();
   report_.from = at_.place;
@@ -101,6 +81,7 @@ void Walker::State::finish() {
   report_.radius = settings_.radius;
   report_.grounded = gait_.grounded();
   report_.carried = gait_.footing == Footing::foot;
+  report_.ground_velocity = gait_.ground_velocity;
   if (mode_ == Mode::ghost) {
     at_.known.forget_place();
   } else if (at_.known.measured == walking::Measured::nothing ||
@@ -115,7 +96,7 @@ void Walker::State::finish() {
   report_.least_gap = at_.known.clearance - settings_.radius;
   report_.met_unknown |= hold_ == walking::Hold::waits || gait_.unknown;
   if (report_.met_unknown) report_.events.push({EventKind::met_unknown, at_.place});
-  for (const Corner& c : report_.corners) {
+  for (const Segment& c : report_.segments) {
     if (c.teleport) continue;
     report_.least_clearance = std::min(report_.least_clearance, c.clearance);
     report_.least_gap = std::min(report_.least_gap, c.clearance - c.radius);
@@ -131,12 +112,12 @@ void Walker::State::remember_safe() { safe_ = here(); }
 void Walker::State::put(const Vec3& place, double time) {
   at_.place = place;
   at_.known.forget();
-  const Corner corner{at_.place, at_.height, settings_.radius, time, 0.0, true};
+  const Segment segment{at_.place, at_.height, settings_.radius, time, 0.0, true};
   // Where it was put before, and did not fit, it was not.
-  if (!report_.corners.empty() && report_.corners.back().teleport) {
-    report_.corners.back() = corner;
+  if (!report_.segments.empty() && report_.segments.back().teleport) {
+    report_.segments.back() = segment;
   } else {
-    report_.corners.push(corner);
+    report_.segments.push(segment);
   }
 }
 
@@ -225,7 +206,7 @@ void Walker::State::settle() {
 }
 
 const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
-  if (!finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
+  if (!is_finite(wish.velocity)) throw Error("the wished velocity is not a finite vector");
   if (!(dt >= 0.0) || !std::isfinite(dt)) {
     throw Error("the time step is " + number_text(dt) + " s; it must be finite and not negative");
   }
@@ -241,11 +222,12 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     if (dt > 0.0) input.velocity = change->mean(dt);
   }
   begin();
+  rode_ = std::exchange(ridden_, Vec3(0.0));
   if (mode_ == Mode::ghost) {
     const Vec3 motion = input.velocity * dt;
     at_.place += motion;
     at_.known.forget();
-    if (motion != Vec3(0.0)) report_.corners.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
+    if (motion != Vec3(0.0)) report_.segments.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
     if (space_->fits(body(), at_.place)) {
       remember_safe();
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
@@ -271,6 +253,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     }
   }
   if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
+  gait_.moved_along = false;
   was_blocked_ = report_.blocked;
   wished_ = input.velocity;
   in_the_end_ = change ? change->velocity(report_.elapsed) : wished_;
@@ -374,12 +357,13 @@ bool Walker::State::resize(double radius, double support_radius) {
 
 /// `lift`: how far the centre lies above `at`, part of the height.
 const StepReport& Walker::State::place(const Vec3& at, double lift) {
-  if (!finite(at)) throw Error("the place to put the walker to is not a finite point");
+  if (!is_finite(at)) throw Error("the place to put the walker to is not a finite point");
   begin();
   const double height = walking::sized(given_, outside_).height;
   at_.place = at + Vec3(0.0, 0.0, lift * height);
   take_size_here();
   gait_ = {};
+  ridden_ = Vec3(0.0);
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;

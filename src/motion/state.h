@@ -3,12 +3,15 @@
 /// What a Walker is made of.
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "motion/gait.h"
 #include "motion/known.h"
 #include "motion/move.h"
+#include "motion/shift.h"
 #include "motion/sizes.h"
 #include "motion/walking.h"
 #include "roam/walker.h"
@@ -38,6 +41,21 @@ class Walker::State {
   [[nodiscard]] Vec3 velocity() const;
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
+  [[nodiscard]] const Space& space() const { return *space_; }
+
+  // What move_instances() does to a body, in this order (move_instances.cpp).
+
+  /// Begins a report of what moves the body from outside.
+  void begin_shifts();
+  /// Whether the body goes along with the instance or is in its way; false for a ghost and for a body that is held.
+  [[nodiscard]] bool is_concerned(const walking::Shift& shift) const;
+  /// Where the body goes while an instance is shifted; none: it has nowhere to go. `rest`: the space without that
+  /// instance.
+  [[nodiscard]] std::optional<walking::Shifted> shifted(const Space& rest, const walking::Shift& shift);
+  void take(const walking::Shift& shift, const walking::Shifted& to);
+  /// `ground_velocity`: at its feet, for a body that stands.
+  void end_shifts(const Vec3& ground_velocity, double dt);
+
   /// The plane that a body goes by which is carried by its foot.
   [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
 
@@ -51,6 +69,10 @@ class Walker::State {
   void set_regions(std::span<const SizeRegion> regions);
   bool resize(double radius, double support_radius);
 
+  /// Adds the way of a shift to the report.
+  void append(const walking::Shift& shift, const walking::Shifted& to);
+  /// The way of the last call, metres.
+  [[nodiscard]] Vec3 moved() const;
   /// Of the space; 0 where it has none.
   [[nodiscard]] std::uint64_t revision() const { return space_->facts().revision.value_or(0); }
   [[nodiscard]] walking::Move under_way();
@@ -96,8 +118,14 @@ class Walker::State {
   walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
   walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode
   walking::Hold hold_ = walking::Hold::none;
-  bool was_blocked_ = false;     ///< at the end of the last step, and has not been put elsewhere since
-  bool was_put_back_ = false;    ///< and has not been put elsewhere since
+  bool was_blocked_ = false;   ///< at the end of the last step, and has not been put elsewhere since
+  bool was_put_back_ = false;  ///< and has not been put elsewhere since
+  Vec3 ridden_{0.0};           ///< metres that move_instances() has moved it since the last step
+  Vec3 rode_{0.0};             ///< the same before the last call, where that was a step
+  /// Certified of the rest since the last segment of a shift, of the instance alone, metres; infinite: there was none.
+  double rested_ = std::numeric_limits<double>::infinity();
+  bool shifted_ = false;         ///< something has moved it since begin_shifts()
+  bool fitted_ = false;          ///< at begin_shifts() it was known to fit, or to be held
   bool resized_ = false;         ///< another size may be wanted than when the body was held
   std::uint64_t known_at_ = 0;   ///< the revision of the space of which at_.known is
   std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held

@@ -42,6 +42,7 @@ struct Beside {
   bool found = false;
   bool unknown = false;  ///< what is nearest is not known yet: no plane
   FloorPlane plane;
+  ObjectId object = no_object;
 };
 
 /// Looked for within the foot, between two heights.
@@ -52,7 +53,7 @@ Beside plane_beside(const Move& m, const Vec3& axis, double lower, double upper)
   floor.band = 0.5 * (upper - lower);
   floor.point = middle;
   const Clearance near = m.space.floor_clearance({0.0, floor.band}, middle, foot_radius(m.settings), floor);
-  return {near.found, near.unknown, {near.point, Vec3(0.0, 0.0, 1.0)}};
+  return {near.found, near.unknown, {near.point, Vec3(0.0, 0.0, 1.0)}, near.object};
 }
 
 /// Whether there is floor under the axis after all.
@@ -78,7 +79,9 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
 /// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
   if (gait.footing != Footing::foot) m.note(EventKind::carried);
-  stand_on(m, gait, {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown});
+  stand_on(
+      m, gait,
+      {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown, gait.floor_object});
   gait.footing = Footing::foot;
   gait.floor_seen = is_floor;
   gait.floor = plane;
@@ -116,6 +119,7 @@ bool see_floor(const Move& m, Gait& gait, double reach, double horizontal) {
     return true;
   }
   gait.floor.point = s.point;
+  gait.floor_object = s.object;
   if (s.feature == Feature::face || !gait.floor_seen) {
     // What is seen at once has the roughness of the floor in it: it counts the more the longer it lasts.
     const double part = gait.floor_seen ? horizontal / (horizontal + r) : 1.0;
@@ -132,6 +136,7 @@ bool carry(Move& m, Gait& gait, double drop, double reach) {
     const Beside beside = plane_beside(m, m.place, m.feet() - carrying_band, m.feet() + carrying_band);
     if (!beside.found) return false;
     plane = beside.plane;
+    gait.floor_object = beside.object;
     is_floor = !beside.unknown;
     if (beside.unknown) {
       // What was put beside the unknown waits at its height until it is known, unless there is ground to stand on.

@@ -11,7 +11,7 @@ namespace {
 /// The sum and the length of a step, piece by piece.
 double plus_length(double sum, const StepReport& report) {
   Vec3 at = report.from;
-  for (const Corner& c : report.corners) {
+  for (const Segment& c : report.segments) {
     if (!c.teleport) sum += glm::length(c.position - at);
     at = c.position;
   }

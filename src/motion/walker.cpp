@@ -69,7 +69,10 @@ bool Walker::crouched() const { return state_->at_.height < state_->settings_.he
 bool Walker::grounded() const { return state_->gait_.grounded(); }
 const Stance& Walker::stance() const { return state_->gait_; }
 bool Walker::held() const { return state_->held(); }
-double Walker::rise_speed() const { return state_->gait_.rise_speed; }
+double Walker::rise_speed() const {
+  const walking::Gait& gait = state_->gait_;
+  return gait.grounded() ? gait.rise_speed : gait.rise_speed + gait.ground_velocity.z;
+}
 const StepReport& Walker::report() const { return state_->report_; }
 double Walker::skin() const { return state_->skin_; }
 double Walker::fall_limit() const { return state_->settings_.radius + state_->settings_.step; }

@@ -36,7 +36,12 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
     const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
     const bool striding = gait.grounded();
-    const double most = !striding ? flight_seconds(move, gait, velocity) : (careful > 0.0 ? finest : longest);
+    // What the body has taken along from moving ground, where move_instances() has not moved it by that.
+    const Vec3 drift = striding || gait.moved_along ? Vec3(0.0) : gait.ground_velocity;
+    const bool drifts = drift != Vec3(0.0);
+    const Vec3 in_the_air = drifts ? velocity + Vec3(drift.x, drift.y, 0.0) : velocity;
+    if (drifts) gait.rise_speed += drift.z;
+    const double most = !striding ? flight_seconds(move, gait, in_the_air) : (careful > 0.0 ? finest : longest);
     const double seconds = std::min(left, most);
     const bool whole = seconds == left;
     if (striding) {
@@ -55,11 +60,13 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
       careful -= seconds;
       // What stops it here would stop it again.
       if (move.report.blocked && gait.grounded() && at_same_place(move, was)) break;
-    } else if (!fly_on(move, gait, velocity, seconds)) {
-      return Ending::embedded;
+    } else {
+      const bool flown = fly_on(move, gait, in_the_air, seconds);
+      if (drifts && !gait.grounded()) gait.rise_speed -= drift.z;
+      if (!flown) return Ending::embedded;
     }
     left = whole && move.time >= begin + seconds ? 0.0 : std::max(0.0, end - move.time);
-    if (gait.footing == Footing::ground) {
+    if (gait.footing == Footing::ground && gait.ground_velocity == Vec3(0.0)) {
       last = {move.place, move.height, {move.settings.radius, move.settings.support_radius}};
     } else if (!gait.grounded() && below_everything(move)) {
       return Ending::bottomless;

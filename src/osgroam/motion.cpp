@@ -247,7 +247,7 @@ void Manipulator::State::step(double seconds, const HeldCommands& held) {
   }();
   ++steps;
   if (report.has(roam::EventKind::jumped)) jump_left = 0.0;
-  moved |= !report.corners.empty();
+  moved |= !report.segments.empty();
   soft.follow(*walker, before, seconds);
   call(on_step, report, seconds);
 }

@@ -24,7 +24,9 @@ fs::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    // Others would lie wherever the program was started, in a folder of a stranger perhaps.
+    if (!folder.starts_with('/')) continue;
+    const fs::path program = fs::path(folder) / name;
     if (can_run(program)) return program;
   }
   return {};

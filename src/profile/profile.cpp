@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
 #include "files/whole_file.h"
+#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -17,8 +18,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* suffix = ".roam";
 constexpr const char* extension = ".json";
-/// Bytes. More than any profile: a region takes some 300.
-constexpr std::uint64_t file_limit = 16 << 20;
 /// Characters of a file name, less than any file system's limit of 255 by what is put behind it.
 constexpr std::size_t name_limit = 200;
 constexpr std::array<const char*, 3> methods{"paper", "interval", "roaming"};
@@ -153,7 +152,7 @@ Json json_of(const Profile& p) {
             {"geometry_hash", text_or_null(p.scene.geometry_hash)},
             {"triangles", p.scene.triangles},
             {"bounds", json_of(p.scene.bounds)}}},
-          {"mode", name(p.mode)},
+          {"mode", to_string(p.mode)},
           {"radius", p.radius},
           {"height", p.height},
           {"support_radius", p.support_radius},
@@ -178,9 +177,9 @@ Profile parsed(const Json& json) {
   p.scene = {scene.text_or_null("hash"), scene.text_or_null("geometry_hash"), scene.count("triangles"),
              scene.box("bounds")};
   const std::string mode = all.text("mode");
-  const auto is_mode = [&](Mode m) { return mode == name(m); };
+  const auto is_mode = [&](Mode m) { return mode == to_string(m); };
   const auto found = std::find_if(modes.begin(), modes.end(), is_mode);
-  if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", mode));
+  if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", printable(mode)));
   p.mode = *found;
   p.radius = all.number("radius");
   p.height = all.number("height");
@@ -199,32 +198,6 @@ Profile parsed(const Json& json) {
   p.complete = all.truth("complete");
   return p;
 }
-
-/// Keeps what a text of JSON takes within what a profile may take: a text from a stranger could take a hundred times
-/// its size, and an object of many members a time that grows with their square.
-class Limits {
- public:
-  bool operator()(int depth, Json::parse_event_t event, Json&) {
-    if (depth > most_depth) throw Error(fmt::format("is nested deeper than {} levels", most_depth));
-    if (event == Json::parse_event_t::key && ++members_.at(static_cast<std::size_t>(depth)) > most_members) {
-      throw Error(fmt::format("has an object of more than {} members", most_members));
-    }
-    const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
-    if ((begins || event == Json::parse_event_t::value) && ++values_ > most_values) {
-      throw Error(fmt::format("holds more than {} values", most_values));
-    }
-    if (begins && depth < most_depth) members_.at(static_cast<std::size_t>(depth) + 1) = 0;
-    return true;
-  }
-
- private:
-  static constexpr int most_depth = 16;
-  static constexpr std::size_t most_members = 1000;
-  /// A region has 13.
-  static constexpr std::size_t most_values = 1'000'000;
-  std::array<std::size_t, most_depth + 1> members_{};
-  std::size_t values_ = 0;
-};
 
 /// The scene's name without a slash behind it, as near to how it was given as can be.
 std::filesystem::path named(const std::filesystem::path& scene) {
@@ -249,15 +222,16 @@ void check(const Profile& p) {
     refuse("scene", "must have a \"hash\" or a \"geometry_hash\"");
   }
   if (!p.scene.hash.empty() && !is_digits(p.scene.hash, 32)) {
-    refuse("scene.hash", fmt::format("must be 32 hexadecimal digits in lower case, or null, not \"{}\"", p.scene.hash));
+    refuse("scene.hash",
+           fmt::format("must be 32 hexadecimal digits in lower case, or null, not \"{}\"", printable(p.scene.hash)));
   }
   if (!p.scene.geometry_hash.empty() && !is_digits(p.scene.geometry_hash, 16)) {
-    refuse("scene.geometry_hash",
-           fmt::format("must be 16 hexadecimal digits in lower case, or null, not \"{}\"", p.scene.geometry_hash));
+    refuse("scene.geometry_hash", fmt::format("must be 16 hexadecimal digits in lower case, or null, not \"{}\"",
+                                              printable(p.scene.geometry_hash)));
   }
   demand_box("scene.bounds", p.scene.bounds);
   if (std::find(modes.begin(), modes.end(), p.mode) == modes.end()) {
-    refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", name(p.mode)));
+    refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", to_string(p.mode)));
   }
   demand_body("radius, height, step or slope", p, p.radius);
   demand_foot("support_radius", p.support_radius);
@@ -297,28 +271,13 @@ std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes
 }
 
 Profile load_profile(const std::filesystem::path& file) {
-  const std::string text = files::read_whole(file, file_limit);
-  const auto fail = [&](const std::string& what) -> Error {
-    return Error(fmt::format("{}: {}; correct the file, or delete it and train again", file.string(), what));
-  };
-  Json json;
+  const std::string text = files::read_whole(file, files::longest_json);
   try {
-    Limits limits;
-    json = Json::parse(text, std::ref(limits));
-  } catch (const Json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
-    const std::string what = error.what();
-    const std::size_t tag = what.find("] ");
-    throw fail("is no JSON: " + what.substr(tag == std::string::npos ? 0 : tag + 2));
-  } catch (const Error& error) {
-    throw fail(error.what());
-  }
-  try {
-    Profile profile = parsed(json);
+    Profile profile = parsed(files::parse_json(text));
     check(profile);
     return profile;
   } catch (const Error& error) {
-    throw fail(error.what());
+    throw Error(fmt::format("{}: {}; correct the file, or delete it and train again", file.string(), error.what()));
   }
 }
 

@@ -11,12 +11,12 @@ namespace roam::store {
 namespace {
 
 /// Of a file of codes. Some 1000 of them: more have not built the same store.
-constexpr std::uint64_t kCodesLimit = 64 * 1024;
-constexpr std::size_t kDigits = 64;
+constexpr std::uint64_t codes_limit = 64 * 1024;
+constexpr std::size_t code_digits = 64;
 /// A code, and the line feed.
-constexpr std::size_t kLine = kDigits + 1;
+constexpr std::size_t code_line = code_digits + 1;
 /// The last line of a file that has a code begins with this.
-constexpr std::string_view kStart = "hmac ";
+constexpr std::string_view code_start = "hmac ";
 
 /// `purpose` and `name` say what the code is of: no code stands for anything else.
 std::string code(const StoreKey& key, std::string_view purpose, const std::string& name, std::string_view text = {}) {
@@ -33,9 +33,9 @@ std::string code_of_manifest(const StoreKey& key, const std::string& manifest) {
 std::vector<std::string> codes_in(const std::vector<std::byte>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::vector<std::string> codes;
-  for (std::size_t at = 0; at + kLine <= text.size(); at += kLine) {
-    const std::string_view digits = text.substr(at, kDigits);
-    if (!is_digits(digits, kDigits) || text[at + kDigits] != '\n') break;
+  for (std::size_t at = 0; at + code_line <= text.size(); at += code_line) {
+    const std::string_view digits = text.substr(at, code_digits);
+    if (!is_digits(digits, code_digits) || text[at + code_digits] != '\n') break;
     codes.emplace_back(digits);
   }
   return codes;
@@ -48,7 +48,7 @@ std::string codes_file(const std::string& manifest) { return "codes/" + manifest
 bool has_code(StoreBytes& bytes, const std::string& manifest, const StoreKey& key) {
   try {
     const std::string right = code_of_manifest(key, manifest);
-    const auto codes = codes_in(bytes.whole(codes_file(manifest), kCodesLimit));
+    const auto codes = codes_in(bytes.whole(codes_file(manifest), codes_limit));
     return std::any_of(codes.begin(), codes.end(), [&](const std::string& code) { return same_digits(code, right); });
   } catch (const Error&) {
     return false;
@@ -61,8 +61,8 @@ void add_code(const Folder& store, const std::string& manifest, const StoreKey& 
   const std::string file = codes_file(manifest);
   std::string text;
   // What is damaged, or more than there can be, is written anew.
-  if (size_of(store, file).value_or(kCodesLimit) < kCodesLimit - kLine) {
-    for (const std::string& other : codes_in(read_file(store, file, kCodesLimit))) text += other + "\n";
+  if (size_of(store, file).value_or(codes_limit) < codes_limit - code_line) {
+    for (const std::string& other : codes_in(read_file(store, file, codes_limit))) text += other + "\n";
   }
   write_file(store, file, text + code_of_manifest(key, manifest) + "\n");
 }
@@ -70,7 +70,7 @@ void add_code(const Folder& store, const std::string& manifest, const StoreKey& 
 void write_coded(const Folder& store, const std::string& name, std::string text, const std::optional<StoreKey>& key) {
   if (key) {
     const std::string digits = code(*key, "roam file 1", name, text);
-    text.append(kStart).append(digits).append("\n");
+    text.append(code_start).append(digits).append("\n");
   }
   write_file(store, name, text);
 }
@@ -80,10 +80,10 @@ std::optional<std::string> read_coded(const Folder& store, const std::string& na
   if (!size_of(store, name)) return std::nullopt;
   const std::vector<std::byte> bytes = read_file(store, name, limit);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  constexpr std::size_t line = kStart.size() + kLine;
+  constexpr std::size_t line = code_start.size() + code_line;
   const std::size_t end = text.size() - std::min(text.size(), line);
-  const bool has_line = std::string_view(text).substr(end).starts_with(kStart);
-  const std::string found = has_line ? text.substr(end + kStart.size(), kDigits) : std::string();
+  const bool has_line = std::string_view(text).substr(end).starts_with(code_start);
+  const std::string found = has_line ? text.substr(end + code_start.size(), code_digits) : std::string();
   if (has_line) text.resize(end);
   if (key && !same_digits(found, code(*key, "roam file 1", name, text))) return std::nullopt;
   return text;

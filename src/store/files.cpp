@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPiece = 1 << 20;
+constexpr std::size_t piece_bytes = 1 << 20;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::string sha256_of_file(const Folder& store, const std::string& name,
   const Descriptor file = open_file(store, name, O_RDONLY);
   if (!file.is_open()) fail("read", store, name, errno);
   Sha256 hash;
-  std::vector<std::byte> piece(kPiece);
+  std::vector<std::byte> piece(piece_bytes);
   for (;;) {
     const ssize_t got = again([&] { return ::read(file.number(), piece.data(), piece.size()); });
     if (got < 0) fail("read", store, name, errno);
@@ -170,15 +170,15 @@ std::string PackWriter::commit() { return file_.commit_by_hash(); }
 namespace {
 
 /// What a lock's file may hold: the number of a process and a line feed.
-constexpr std::size_t kLockBytes = 24;
+constexpr std::size_t lock_bytes = 24;
 
 /// The number of the process that a lock's file names; empty: none. Nothing where it is no file of a lock.
 std::optional<std::string> process_in(int descriptor) {
-  std::array<char, kLockBytes + 1> text{};
+  std::array<char, lock_bytes + 1> text{};
   const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
   std::string process(text.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
   if (process.ends_with('\n')) process.pop_back();
-  if (process.size() > kLockBytes || process.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  if (process.size() > lock_bytes || process.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
   return process;
 }
 

@@ -12,10 +12,10 @@
 namespace roam::store {
 namespace {
 
-constexpr std::uint64_t kCurrentLimit = 4096;
-constexpr std::string_view kCurrentStart = "roam store ";
-constexpr const char* kManifestName = "the manifest";
-constexpr const char* kNoCurrent = "it is none of a store";
+constexpr std::uint64_t current_limit = 4096;
+constexpr std::string_view current_start = "roam store ";
+constexpr const char* manifest_name = "the manifest";
+constexpr const char* no_current = "it is none of a store";
 
 std::string text_of(const std::vector<std::byte>& content) {
   return {reinterpret_cast<const char*>(content.data()), content.size()};
@@ -25,18 +25,18 @@ std::string text_of(const std::vector<std::byte>& content) {
 std::string named_by(const std::string& current, const std::string& store) {
   const auto end = current.find('\n');
   std::uint32_t version = 0;
-  if (!current.starts_with(kCurrentStart) || end == std::string::npos || end > kCurrentStart.size() + 9) {
-    throw RootDamage(store, current_file, kNoCurrent);
+  if (!current.starts_with(current_start) || end == std::string::npos || end > current_start.size() + 9) {
+    throw RootDamage(store, current_file, no_current);
   }
-  for (std::size_t i = kCurrentStart.size(); i < end; ++i) {
-    if (current[i] < '0' || current[i] > '9') throw RootDamage(store, current_file, kNoCurrent);
+  for (std::size_t i = current_start.size(); i < end; ++i) {
+    if (current[i] < '0' || current[i] > '9') throw RootDamage(store, current_file, no_current);
     version = 10 * version + static_cast<std::uint32_t>(current[i] - '0');
   }
   check_format(version, store);
   std::string named = current.substr(end + 1, 64);
-  if (version < 1 || current[kCurrentStart.size()] == '0' || !is_digits(named, 64) ||
+  if (version < 1 || current[current_start.size()] == '0' || !is_digits(named, 64) ||
       current.substr(end + 65) != "\n") {
-    throw RootDamage(store, current_file, kNoCurrent);
+    throw RootDamage(store, current_file, no_current);
   }
   return named;
 }
@@ -84,7 +84,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     } catch (const FileError& error) {
       // What may not be read, or only not now, is not damaged.
       if (error.number == ENOENT) throw RootDamage(store, what, file + " is not there");
-      if (error.number == EFBIG && limit == kCurrentLimit) {
+      if (error.number == EFBIG && limit == current_limit) {
         throw RootDamage(store, what, file + " is larger than any of its kind");
       }
       if (error.number == EFBIG) {
@@ -94,22 +94,22 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
       throw;
     }
   };
-  std::string current = text_of(whole(current_file, kCurrentLimit, current_file));
+  std::string current = text_of(whole(current_file, current_limit, current_file));
   for (;;) {
     const std::string named = named_by(current, store);
     const std::string file = manifest_file(named);
     std::vector<std::byte> content;
     try {
-      content = whole(file, memory, kManifestName);
+      content = whole(file, memory, manifest_name);
     } catch (const Error&) {
       // Another may have been published since CURRENT was read, and this one removed.
-      std::string now = text_of(whole(current_file, kCurrentLimit, current_file));
+      std::string now = text_of(whole(current_file, current_limit, current_file));
       if (now == current) throw;
       current = std::move(now);
       continue;
     }
     if (sha256(content) != named)
-      throw RootDamage(store, kManifestName, file + " is not what it was when it was written");
+      throw RootDamage(store, manifest_name, file + " is not what it was when it was written");
     if (hash != nullptr) *hash = named;
     if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
     try {
@@ -120,7 +120,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     } catch (const TooLarge&) {
       throw;
     } catch (const Error& error) {
-      throw RootDamage(store, kManifestName, error.what());
+      throw RootDamage(store, manifest_name, error.what());
     }
   }
 }
@@ -131,7 +131,7 @@ std::string publish(const Folder& store, const Manifest& manifest) {
   NewFile file(store, manifest_file("new"));
   file.write(std::as_bytes(std::span(text)));
   const std::string hash = file.commit_by_hash();
-  write_file(store, current_file, fmt::format("{}{}\n{}\n", kCurrentStart, manifest.format, hash));
+  write_file(store, current_file, fmt::format("{}{}\n{}\n", current_start, manifest.format, hash));
   return hash;
 }
 

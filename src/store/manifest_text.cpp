@@ -91,7 +91,7 @@ class ShardReader {
         reader_.refuse("a page lies outside its pack");
     }
     if (tiles_ != shard.tiles || shard.pages.empty()) members.bad("pages");
-    if (shard.triangles > shard.tiles * index::kTileTriangles) members.bad("triangles");
+    if (shard.triangles > shard.tiles * index::most_tile_triangles) members.bad("triangles");
   }
 
  private:

@@ -26,13 +26,13 @@ struct Header {
   std::uint64_t zero[10];
 };
 static_assert(sizeof(Header) == 128);
-constexpr char kMagic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
+constexpr char magic_number[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
 
 /// Metres. Boxes hold what is stored too, which may lie a little beyond the limit of what is read.
-constexpr double kFarthest = coordinate_limit * 1.001;
+constexpr double farthest_off = coordinate_limit * 1.001;
 
 bool finite(const double (&v)[3]) {
-  return std::abs(v[0]) <= kFarthest && std::abs(v[1]) <= kFarthest && std::abs(v[2]) <= kFarthest;
+  return std::abs(v[0]) <= farthest_off && std::abs(v[1]) <= farthest_off && std::abs(v[2]) <= farthest_off;
 }
 
 const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
@@ -44,11 +44,11 @@ const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
   if (!(t.error >= 0.0F && t.error <= t.step + 1e-5F) || !(t.fine_error >= 0.0F && t.fine_error <= t.error)) {
     return "a tile's error is out of range";
   }
-  if (t.triangles < 1 || t.triangles > index::kTileTriangles || t.nodes < 1 || t.leaves < 1 || t.nodes > t.leaves ||
-      t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > kTileBytes) {
+  if (t.triangles < 1 || t.triangles > index::most_tile_triangles || t.nodes < 1 || t.leaves < 1 || t.nodes > t.leaves ||
+      t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > tile_bytes) {
     return "a tile's counts are out of range";
   }
-  if (t.bytes > kTileBytes || t.number_bytes > most_number_bytes(t.triangles)) {
+  if (t.bytes > tile_bytes || t.number_bytes > most_number_bytes(t.triangles)) {
     return "a tile has more bytes than a tile may have";
   }
   if (t.bytes < 1 || t.offset > pack_bytes || std::uint64_t{t.bytes} + t.number_bytes > pack_bytes - t.offset) {
@@ -81,7 +81,7 @@ const char* check_tree(const PageView& view) {
   nodes.set(0);
   for (std::size_t i = 0; i < count; ++i) {
     const Node& node = view.nodes[i];
-    if (node.child_count < 1 || node.child_count > index::kWidth || node.inner_count > node.child_count) {
+    if (node.child_count < 1 || node.child_count > index::node_width || node.inner_count > node.child_count) {
       return "a node's counts are out of range";
     }
     for (const std::uint8_t byte : node.unused) {
@@ -91,7 +91,7 @@ const char* check_tree(const PageView& view) {
     if (leaves > view.tiles.size() || inner > count) return "a node has too many children";
     if (inner > 0 && (node.first_node <= i || node.first_node > count - inner)) return "a node's children are no nodes";
     if (leaves > 0 && node.first_leaf > view.tiles.size() - leaves) return "a node's children are no tiles";
-    if (inner > 0 && depth[i] >= index::kMaxDepth - 1) return "the tree is too deep";
+    if (inner > 0 && depth[i] >= index::max_depth - 1) return "the tree is too deep";
     for (std::size_t c = 0; c < inner; ++c) {
       const std::size_t child = node.first_node + c;
       if (nodes.test(child)) return "a node has two parents";
@@ -139,7 +139,7 @@ EncodedPage encode_page(std::span<const TileEntry> tiles) {
 
   EncodedPage page;
   Header header{};
-  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  std::memcpy(header.magic, magic_number, sizeof magic_number);
   header.tiles = static_cast<std::uint32_t>(tiles.size());
   header.nodes = static_cast<std::uint32_t>(wide.nodes.size());
   for (int k = 0; k < 3; ++k) header.origin[k] = grid.origin[k];
@@ -163,7 +163,7 @@ const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes
   Header header{};
   if (bytes.size() < sizeof header) return "too short for a page";
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return "not a page of an index";
+  if (std::memcmp(header.magic, magic_number, sizeof magic_number) != 0) return "not a page of an index";
   if (header.tiles < 1 || header.tiles > page_tiles || header.nodes < 1 || header.nodes > header.tiles) {
     return "its counts are out of range";
   }

@@ -66,7 +66,7 @@ struct PageView {
   std::span<const index::Node> nodes;  ///< the root first; leaves count in `tiles`
   std::span<const TileEntry> tiles;
 };
-/// Checks everything that a traversal relies on: counts, child numbers, boxes, shapes that fit kTileBytes, values that
+/// Checks everything that a traversal relies on: counts, child numbers, boxes, shapes that fit tile_bytes, values that
 /// are finite, that tiles lie in the first `pack_bytes` bytes. Returns null, or why these bytes are no page. Never
 /// allocates.
 [[nodiscard]] const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes, PageView& view);

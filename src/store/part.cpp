@@ -14,8 +14,8 @@
 namespace roam::store {
 namespace {
 
-constexpr char kMagic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'R', 'T'};
-constexpr int kLevel = 3;
+constexpr char magic_number[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'R', 'T'};
+constexpr int compression_level = 3;
 
 struct Header {
   char magic[8];
@@ -47,10 +47,10 @@ class Writer {
 };
 
 /// Bytes. More than the names of a hundred million objects.
-constexpr std::uint64_t kMostContent = 1ull << 32;
+constexpr std::uint64_t most_content = 1ull << 32;
 
 /// Of bytes that a frame may look back, which whoever reads it must keep: as many as encode_part's look back.
-constexpr int kWindowLog = 21;
+constexpr int window_log = 21;
 
 /// The numbers and texts of a part's content, which comes out of a zstd frame piece by piece.
 class Content {
@@ -58,7 +58,7 @@ class Content {
   Content(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t size)
       : more_(more), zstd_(ZSTD_createDCtx(), ZSTD_freeDCtx), left_(size) {
     if (!zstd_) throw std::bad_alloc();
-    ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, kWindowLog);
+    ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, window_log);
     packed_.resize(ZSTD_DStreamInSize());
     content_.resize(ZSTD_DStreamOutSize());
   }
@@ -156,9 +156,9 @@ std::vector<std::byte> encode_part(const PartFile& part) {
     content.number((cell.key - std::exchange(key, cell.key)) >> part.cell_bits);
     content.number(cell.triangles);
   }
-  if (content.bytes.size() > kMostContent) throw Error("the names of the objects take more than 4 GiB; leave some out");
+  if (content.bytes.size() > most_content) throw Error("the names of the objects take more than 4 GiB; leave some out");
   Header header{};
-  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  std::memcpy(header.magic, magic_number, sizeof magic_number);
   header.triangles = part.triangles;
   header.objects = part.objects.size();
   header.cells = part.cells.size();
@@ -167,7 +167,7 @@ std::vector<std::byte> encode_part(const PartFile& part) {
   std::vector<std::byte> bytes(sizeof header + ZSTD_compressBound(content.bytes.size()));
   std::memcpy(bytes.data(), &header, sizeof header);
   const std::size_t packed = ZSTD_compress(bytes.data() + sizeof header, bytes.size() - sizeof header,
-                                           content.bytes.data(), content.bytes.size(), kLevel);
+                                           content.bytes.data(), content.bytes.size(), compression_level);
   if (ZSTD_isError(packed) != 0) throw Error(fmt::format("cannot compress a part file: {}", ZSTD_getErrorName(packed)));
   bytes.resize(sizeof header + packed);
   return bytes;
@@ -184,8 +184,8 @@ void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, co
     if (got == 0) refuse("it is too short");
     rest = rest.subspan(got);
   }
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) refuse("it is no part file");
-  if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > kMostContent) {
+  if (std::memcmp(header.magic, magic_number, sizeof magic_number) != 0) refuse("it is no part file");
+  if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > most_content) {
     refuse("its header is not what it should be");
   }
   // Each takes two bytes at least.

@@ -93,7 +93,7 @@ Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const
   for (int c = 0; c < 3; ++c) {
     const int v = leaf.vertex_of(c, triangle);
     for (int k = 0; k < 3; ++k) {
-      const double low = fine != nullptr ? step / double(index::kFineSteps) * fine->vertex[k][v] : 0.0;
+      const double low = fine != nullptr ? step / double(index::fine_steps) * fine->vertex[k][v] : 0.0;
       out[static_cast<std::size_t>(c)][k] = tile.origin[k] + (step * leaf.vertex[k][v] + low);
     }
   }

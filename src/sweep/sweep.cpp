@@ -41,7 +41,7 @@ void check(const Body& body, const Vec3& from, const Vec3& motion, const Triangl
 
 }  // namespace
 
-const char* name(Feature feature) {
+const char* to_string(Feature feature) {
   switch (feature) {
     case Feature::face:
       return "face";

@@ -11,6 +11,8 @@ namespace roam {
 
 /// Characters of a name in a sentence, at most.
 inline constexpr std::size_t longest_name = 120;
+/// The same of a word of a file that is not what it should be: a link may lead to a secret.
+inline constexpr std::size_t longest_excerpt = 24;
 /// The same of a sentence that another process has made.
 inline constexpr std::size_t longest_sentence = 600;
 

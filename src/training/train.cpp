@@ -220,9 +220,9 @@ Training trained(const Survey& survey, const TrainOptions& options) {
 
 }  // namespace
 
-const char* name(Method method) { return method == Method::paper ? "paper" : "interval"; }
+const char* to_string(Method method) { return method == Method::paper ? "paper" : "interval"; }
 
-const char* name(Decisive::Kind kind) { return kind == Decisive::Kind::opening ? "opening" : "split"; }
+const char* to_string(Decisive::Kind kind) { return kind == Decisive::Kind::opening ? "opening" : "split"; }
 
 Profile profile_of(const Training& training, const SceneIdentity& scene) {
   Profile profile;
@@ -237,7 +237,7 @@ Profile profile_of(const Training& training, const SceneIdentity& scene) {
   profile.largest = training.largest;
   profile.smallest = training.smallest;
   profile.regions = training.regions;
-  profile.method = name(training.method);
+  profile.method = to_string(training.method);
   profile.complete = training.complete;
   return profile;
 }

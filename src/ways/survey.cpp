@@ -14,7 +14,7 @@ namespace roam {
 
 namespace {
 
-constexpr double kSteepest = 89.0;  ///< degrees
+constexpr double steepest = 89.0;  ///< degrees
 
 /// The floor of a mesh, with the mesh's own vertices left where they are.
 Mesh floor_of(const Survey& survey, const Mesh& mesh, TriangleId first, std::vector<TriangleId>& ids) {
@@ -42,9 +42,9 @@ Mesh floor_of(const Survey& survey, const Mesh& mesh, TriangleId first, std::vec
 
 Survey Survey::build(std::vector<Mesh> meshes, const SurveyOptions& options) {
   const DefaultFloatingPoint guard;
-  if (!(options.slope_degrees >= 0.0 && options.slope_degrees <= kSteepest))
+  if (!(options.slope_degrees >= 0.0 && options.slope_degrees <= steepest))
     throw Error(fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}",
-                            options.slope_degrees, kSteepest));
+                            options.slope_degrees, steepest));
   if (options.threads < 0)
     throw Error(fmt::format("the number of threads of a survey is {}; it must be at least 1, or 0 for one per core",
                             options.threads));

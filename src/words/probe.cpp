@@ -41,7 +41,7 @@ std::string text_of(const ProbeLimit& limit) {
   switch (limit.kind) {
     case Kind::door:
     case Kind::gap:
-      return fmt::format("{} {} {}", name(limit.kind), metres(limit.size), extent(limit));
+      return fmt::format("{} {} {}", to_string(limit.kind), metres(limit.size), extent(limit));
     case Kind::lintel:
       return fmt::format("lintel for a radius of {}", metres(0.5 * limit.size));
     case Kind::start:
@@ -87,7 +87,7 @@ std::string narrowest(const ProbeAnswer& answer) {
         metres(limit.size), where);
   if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
     return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
-  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), name(limit.kind),
+  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), to_string(limit.kind),
                      where);
 }
 
@@ -154,7 +154,7 @@ std::string stopped_by(const ProbeAnswer& answer) {
     case Kind::gap:
       break;
   }
-  return fmt::format("The {} at {} is {} {}; {}.", name(limit.kind), at(limit.point), metres(limit.size), extent(limit),
+  return fmt::format("The {} at {} is {} {}; {}.", to_string(limit.kind), at(limit.point), metres(limit.size), extent(limit),
                      missing);
 }
 

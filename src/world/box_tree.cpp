@@ -17,7 +17,7 @@ Box united(const Box& a, const Box& b) {
 }  // namespace
 
 void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased) {
-  if ((put.size() + erased.size()) * kManyPart > size_) {
+  if ((put.size() + erased.size()) * many_part > size_) {
     for (const std::uint32_t number : erased) erase(number);
     for (const Item& item : put) erase(item.number);
     std::vector<Item> all = items();
@@ -28,7 +28,7 @@ void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32
   for (const Item& item : put) {
     erase(item.number);
     insert(item);
-    if (nodes_[root_].height >= kDeepest) build(items());
+    if (nodes_[root_].height >= deepest_tree) build(items());
   }
 }
 

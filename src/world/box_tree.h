@@ -110,9 +110,9 @@ class BoxTree {
     double order;
   };
   /// A tree of more levels is made anew. Halving 2^32 items makes 33.
-  static constexpr std::uint32_t kDeepest = 40;
+  static constexpr std::uint32_t deepest_tree = 40;
   /// Changes, as a part of all items, from which on a new tree costs less than to mend the old one.
-  static constexpr std::size_t kManyPart = 4;
+  static constexpr std::size_t many_part = 4;
 
   template <class Look, class Still, class Visit>
   void traverse(const Look& look, const Still& still, Visit& visit) const {
@@ -121,7 +121,7 @@ class BoxTree {
       Interval when;
     };
     if (root_ == none) return;
-    std::array<Entry, kDeepest + 2> stack;
+    std::array<Entry, deepest_tree + 2> stack;
     std::size_t size = 0;
     if (const Key root = look(nodes_[root_].box); !root.when.empty()) stack[size++] = {root_, root.when};
     while (size > 0) {

@@ -44,7 +44,7 @@ class Progress {
 };
 
 /// Of the whole build, by time: sorting the triangles along the curve; the tiles are the rest.
-constexpr double kPartitionShare = 0.2;
+constexpr double partition_share = 0.2;
 
 /// The box of both the source triangles and the stored ones.
 Box grown(const BuiltTile& tile) {
@@ -61,7 +61,7 @@ std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partiti
     std::sort(ids.begin(), ids.end());
     tiles[i] = build_tile(soup, ids, lossless);
     const std::uint64_t sum = done.fetch_add(ids.size()) + ids.size();
-    progress.tick(kPartitionShare + (1.0 - kPartitionShare) * double(sum) / double(soup.size()));
+    progress.tick(partition_share + (1.0 - partition_share) * double(sum) / double(soup.size()));
   });
   return tiles;
 }
@@ -120,7 +120,10 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   const index::Soup soup(meshes);
   data->lossless = options.lossless;
   data->first = soup.first();
-  for (const Mesh& mesh : meshes) data->names.push_back(mesh.name);
+  for (const Mesh& mesh : meshes) {
+    data->names.push_back(mesh.name);
+    data->user_data.push_back(mesh.user_data);
+  }
   data->bounds = soup.bounds();
   data->stats.triangles = soup.size();
   data->stats.objects = meshes.size();
@@ -131,7 +134,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
     arena.execute([&] {
       auto built = [&] {
         const auto parts =
-            index::partition(soup, options.lossless, [&](double done) { progress.tick(kPartitionShare * done); });
+            index::partition(soup, options.lossless, [&](double done) { progress.tick(partition_share * done); });
         return build_tiles(soup, parts, options.lossless, progress);
       }();
       assemble(*data, built);
@@ -142,7 +145,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   }
   data->stats.tiles = data->tiles.size;
   data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +
-                      data->first.size() * sizeof(std::uint64_t);
+                      (data->first.size() + data->user_data.size()) * sizeof(std::uint64_t);
   data->index = data->view();
   World world;
   world.data_ = std::move(data);

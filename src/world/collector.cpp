@@ -4,6 +4,7 @@
 
 #include "sweep/seen_from.h"
 #include "world/floor_only.h"
+#include "world/frame.h"
 #include "world/query.h"
 
 namespace roam {
@@ -37,6 +38,7 @@ void Collector::demand(double tolerance) {
 }
 
 void Collector::offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object) {
+  if (query.ignored != nullptr && object != no_object && query.ignored->ignores(object)) return;
   const certified::LocalTriangle local = certified::seen_from(query.from, triangle);
   const auto measure = [&](const certified::LocalTriangle& part) {
     Contact c = query::contact_with(part, query.body, query.from, query.motion);
@@ -48,7 +50,9 @@ void Collector::offer(const Query& query, const Triangle& triangle, TriangleId i
   for (const certified::LocalTriangle& part : floor_->pieces(local)) measure(part);
 }
 
-void Collector::offer(const Contact& c, double doubt) {
+void Collector::keep_seen(const Contact& c, double doubt) { keep(frame_->in_scene(c), doubt + 2.0 * frame_->pad); }
+
+void Collector::keep(const Contact& c, double doubt) {
   if (only_ != nullptr) {
     if (c.triangle != only_->triangle || (count_ > 0 && !nearer(c, out_[0]))) return;
     out_[0] = c;

@@ -40,8 +40,9 @@ struct WorldData {
   Box reach;              ///< bounds, grown by what stored vertices may lie off
   bool lossless = false;  ///< as BuildOptions says
   WorldStats stats;
-  std::vector<std::uint64_t> first;  ///< the number of the first triangle of each mesh, and the count of all
-  std::vector<std::string> names;    ///< of the meshes
+  std::vector<std::uint64_t> first;      ///< the number of the first triangle of each mesh, and the count of all
+  std::vector<std::string> names;        ///< of the meshes
+  std::vector<std::uint64_t> user_data;  ///< of the meshes
 
   /// Everything above as queries see it. Set when that is complete.
   index::Index index;

@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "math/finite.h"
 #include "math/largest.h"
 #include "roam/error.h"
 #include "sweep/error_bound.h"
 #include "text/number.h"
+#include "world/frame.h"
 
 namespace roam::query {
 namespace {
@@ -24,8 +26,6 @@ constexpr double cosine_rounding = 1e-9;
 constexpr double cut_roundings = 8.0;
 
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot look for floor: " + what); }
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Corners of a flat convex piece in order.
 struct Outline {
@@ -59,7 +59,7 @@ FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : start_(start), ban
   squared_cosine_ = cosine * cosine;
   if (!(floor.band >= 0.0)) refuse("the band is " + number_text(floor.band) + " m; it must be 0 or more");
   if (std::isinf(floor.band)) return;
-  if (!finite(floor.point)) refuse("the point of the band's plane is not finite");
+  if (!is_finite(floor.point)) refuse("the point of the band's plane is not finite");
   rise_x_ = -floor.normal.x / floor.normal.z;
   rise_y_ = -floor.normal.y / floor.normal.z;
   if (!(floor.normal.z > 0.0) || !std::isfinite(rise_x_) || !std::isfinite(rise_y_)) {
@@ -67,6 +67,15 @@ FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : start_(start), ban
   }
   const Vec3 point = floor.point - start;
   level_ = point.z - point.x * rise_x_ - point.y * rise_y_;
+}
+
+FloorOnly FloorOnly::seen_in(const Frame& frame, const Vec3& start) const {
+  FloorOnly seen = *this;
+  const Vec3 rise = frame.to_instance_way({rise_x_, rise_y_, 0.0});
+  seen.start_ = start;
+  seen.rise_x_ = rise.x;
+  seen.rise_y_ = rise.y;
+  return seen;
 }
 
 FloorPieces FloorOnly::pieces(const certified::LocalTriangle& triangle) const {

@@ -10,6 +10,8 @@
 
 namespace roam::query {
 
+struct Frame;
+
 /// A triangle cut off on two sides has at most five corners, or six by rounding, and is four triangles.
 class FloorPieces {
  public:
@@ -26,6 +28,9 @@ class FloorOnly {
  public:
   /// For triangles seen from `start`. Throws roam::Error for a floor that is out of range.
   FloorOnly(const Floor& floor, const Vec3& start);
+
+  /// The same floor in the frame of an instance, where the start is another.
+  [[nodiscard]] FloorOnly seen_in(const Frame& frame, const Vec3& start) const;
 
   /// What counts of the triangle: nothing, all, or the part in the band.
   [[nodiscard]] FloorPieces pieces(const certified::LocalTriangle& triangle) const;

@@ -75,6 +75,20 @@ void Patches::fail(PatchId id, std::string reason) {
   patch.reason = std::move(reason);
 }
 
+void Patches::forget(std::uint32_t index) {
+  if (is_replaced(index) || !patches_[index].world) return;
+  Patch& patch = patches_[index];
+  const bool shown = patch.role == Patch::Role::shown;
+  if (shown) count_shown(patch, minus_one);
+  stats_.bytes -= patch.world->stats().bytes;
+  ++stats_.coming;
+  replaced_.push_back(std::move(*patch.world));
+  patch.world.reset();
+  if (!shown) return;
+  count_shown(patch, 1);
+  changed_.push_back(index);
+}
+
 void Patches::touch(std::uint32_t index) {
   while (patches_[index].role == Patch::Role::finer) index = patches_[index].parent;
   touched_.push_back(index);

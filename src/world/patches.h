@@ -67,6 +67,8 @@ class Patches {
   void expect(const Box& where, PatchId refines);
   void deliver(PatchId patch, World world);
   void fail(PatchId patch, std::string reason);
+  /// What was delivered is unknown again; nothing where it has been replaced.
+  void forget(std::uint32_t index);
 
   /// Replaces what can be replaced, by the finest for which `fits` holds, or for everything where it is empty. What was
   /// unknown is replaced at once. Returns those that came to be shown or known, or ceased to be shown, since the last

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
-#include <variant>
 
-#include "index/margin.h"
 #include "math/floating_point.h"
 #include "math/largest.h"
 #include "text/number.h"
-#include "world/box_tree.h"
+#include "world/many.h"
 #include "world/patches.h"
 #include "world/query.h"
 #include "world/unknown.h"
@@ -21,40 +20,28 @@ namespace {
 /// Metres that a finer patch must leave between the body and its triangles. Two storings of one floor differ by less
 /// than 2 * error_limit; a Walker stands its skin above the one, which is 0.1 mm more, and so half of that above the
 /// other. More room would let nobody who stands still see the floor become exact.
-constexpr double kRoom = 5e-5;
+constexpr double room_kept = 5e-5;
 
 /// Numbers of the sides of an unknown box, where a triangle's number in its world would be.
-constexpr TriangleId kFirstSide = 0xFFFFFFF0;
-static_assert(kFirstSide + unknown::sides <= TriangleId{1} << 32);
+constexpr TriangleId first_side = 0xFFFFFFF0;
+static_assert(first_side + unknown::sides <= TriangleId{1} << 32);
 
 TriangleId first_id(std::uint32_t index) { return (TriangleId{index} + 1) << 32; }
+
+std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch) - 1; }
 
 std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
 
 /// What was said since the last update, in order.
-struct Expected {
-  Box where;
-  PatchId refines;
-};
-struct Delivered {
-  PatchId patch;
-  World world;
-};
-struct Failed {
-  PatchId patch;
-  std::string reason;
-};
-using Message = std::variant<Expected, Delivered, Failed>;
+struct Message {
+  enum class Kind : std::uint8_t { expected, delivered, failed, forgotten };
 
-Sweep reached(const Query& query, double reach) {
-  const double around = query.body.radius + reach + Patchwork::margin;
-  return {query.from, query.motion, {around, around, around + query.body.half_height}};
-}
-
-/// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
-query::Part part(const Query& query, const Interval& when) {
-  return largest(query.motion) <= index::kLongestPiece ? query::Part{} : query::Part{when.begin, when.end};
-}
+  Kind kind;
+  PatchId patch;  ///< of Kind::expected: what it refines
+  Box where = {};
+  std::optional<World> world = {};
+  std::string reason = {};
+};
 
 /// What is met of a box of which nothing is known.
 FirstImpact met_unknown(const Box& box, const Query& query) {
@@ -66,13 +53,6 @@ FirstImpact met_unknown(const Box& box, const Query& query) {
   first.triangle = met.triangle;
   first.contact = Contact{{met.point, met.normal, met.feature, met.distance}, met.triangle, no_object, true};
   return first;
-}
-
-/// Whether `a` is met before `b`. At the start the deepest counts: that is what to get out of.
-bool earlier(const FirstImpact& a, const FirstImpact& b) {
-  if (a.time != b.time) return a.time < b.time;
-  if (a.time == 0.0 && a.contact->distance != b.contact->distance) return a.contact->distance < b.contact->distance;
-  return a.triangle < b.triangle;
 }
 
 }  // namespace
@@ -87,6 +67,12 @@ struct Patchwork::State {
 
   // Of the thread that moves the body.
   Patches patches;
+  /// A patch to be forgotten when the body is away, and why it cannot come again, if that has been said.
+  struct Leaving {
+    std::uint32_t patch;
+    std::optional<std::string> failed = {};
+  };
+  std::vector<Leaving> leaving;
   BoxTree tree;
   std::uint64_t revision = 0;
 
@@ -95,22 +81,56 @@ struct Patchwork::State {
     inbox.push_back(std::move(message));
     return std::exchange(replaced, {});
   }
-  void check_open(PatchId patch, const char* what) const {
-    const auto index = static_cast<std::uint64_t>(patch) - 1;
-    if (index >= delivered.size()) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": not expected");
-    if (delivered[index]) throw Error(std::string("cannot ") + what + ' ' + number(patch) + ": delivered already");
+  /// Where `delivered` counts the patch. Throws for one that is not expected, or that has come or not as `is` says.
+  [[nodiscard]] std::size_t check(PatchId patch, const char* what, bool is) const {
+    const auto refuse = [&](const char* why) {
+      throw Error(std::string("cannot ") + what + ' ' + number(patch) + why);
+    };
+    const std::size_t index = static_cast<std::uint64_t>(patch) - 1;
+    if (index >= delivered.size()) refuse(": not expected");
+    if (delivered[index] != is) refuse(is ? ": not delivered" : ": delivered already");
+    return index;
   }
 
   void take(std::vector<Message> messages) {
+    const auto is = [](PatchId patch) {
+      return [index = index_of(patch)](const Leaving& it) { return it.patch == index; };
+    };
     for (Message& m : messages) {
-      if (auto* expected = std::get_if<Expected>(&m)) {
-        patches.expect(expected->where, expected->refines);
-      } else if (auto* come = std::get_if<Delivered>(&m)) {
-        patches.deliver(come->patch, std::move(come->world));
-      } else if (auto* failed = std::get_if<Failed>(&m)) {
-        patches.fail(failed->patch, std::move(failed->reason));
+      switch (m.kind) {
+        case Message::Kind::expected:
+          patches.expect(m.where, m.patch);
+          break;
+        case Message::Kind::delivered:
+          if (std::erase_if(leaving, is(m.patch)) > 0) patches.forget(index_of(m.patch));
+          patches.deliver(m.patch, std::move(*m.world));
+          break;
+        case Message::Kind::failed:
+          if (const auto at = std::find_if(leaving.begin(), leaving.end(), is(m.patch)); at != leaving.end()) {
+            at->failed = std::move(m.reason);
+          } else {
+            patches.fail(m.patch, std::move(m.reason));
+          }
+          break;
+        case Message::Kind::forgotten:
+          leaving.push_back({index_of(m.patch)});
+          break;
       }
     }
+  }
+
+  /// Forgets what is to be forgotten, but for boxes that the body, if any, is in.
+  void forget(const Body* body, const Vec3& place) {
+    std::erase_if(leaving, [&](Leaving& it) {
+      const std::uint32_t index = it.patch;
+      if (body != nullptr && !patches.is_replaced(index)) {
+        const double around = body->radius + 2.0 * margin;
+        if (patches[index].where.grown({around, around, around + body->half_height}).holds(place)) return false;
+      }
+      patches.forget(index);
+      if (it.failed) patches.fail(PatchId{index + std::uint64_t{1}}, std::move(*it.failed));
+      return true;
+    });
   }
 
   /// Mends the tree where something came or went.
@@ -141,13 +161,14 @@ struct Patchwork::State {
       const std::lock_guard lock(mutex);
       messages.swap(inbox);
     }
-    if (messages.empty() && !patches.unsettled()) return false;
+    if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
     // A body that does not fit where it is has nothing to lose.
-    const bool guarded = body && self.clearance(*body, place, kRoom).distance > 0.0;
+    const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
     take(std::move(messages));
+    forget(body, place);
     Patches::Fits fits;
     if (guarded) {
-      fits = [&](const World& world) { return world.clearance(*body, place, kRoom).distance >= kRoom; };
+      fits = [&](const World& world) { return world.clearance(*body, place, room_kept).distance >= room_kept; };
     }
     const std::vector<std::uint32_t> changed = patches.settle(fits);
     if (!changed.empty()) mend(changed);
@@ -163,19 +184,19 @@ struct Patchwork::State {
   /// Offers the collector everything within its reach of the way.
   void collect(const Query& query, Collector& collector) const {
     // Which part of the way is looked at must not depend on what was found before, or the last bits would, too.
-    const Sweep whole = reached(query, collector.asked());
+    const Sweep whole = query::reached(query, collector.asked(), margin);
     Sweep look = whole;
     tree.near(look, [&](std::uint32_t index, const Interval&) {
       const Patch& patch = patches[index];
       if (patch.world) {
         const WorldData& data = *patch.world->data_;
-        query::collect(data, query, part(query, whole.meets(data.reach)), first_id(index), collector);
+        query::collect(data, query, query::part_of(query, whole.meets(data.reach)), first_id(index), collector);
       } else if (collector.takes_unknown(patch.where, query.body.radius, margin)) {
         Contact c = unknown::nearest(patch.where, margin, query.body, query.from, query.motion);
-        c.triangle += first_id(index) + kFirstSide;
+        c.triangle += first_id(index) + first_side;
         collector.offer(c, margin);
       }
-      look = reached(query, collector.reach());
+      look = query::reached(query, collector.reach(), margin);
     });
     for (Contact& c : collector.kept()) {
       if (!c.unknown) c.object = world(c.triangle).object(triangle_in_patch(c.triangle));
@@ -183,7 +204,7 @@ struct Patchwork::State {
   }
   /// The world of a patch in use that a triangle is of.
   [[nodiscard]] const WorldData& world(TriangleId triangle) const {
-    return *patches[static_cast<std::uint32_t>(static_cast<std::uint64_t>(patch(triangle)) - 1)].world->data_;
+    return *patches[index_of(patch(triangle))].world->data_;
   }
 };
 
@@ -203,7 +224,7 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
     throw Error("cannot expect a patch that refines " + number(refines) + ": that one is not expected");
   }
   s.delivered.push_back(false);
-  replaced = s.post(Expected{where, refines});
+  replaced = s.post({Message::Kind::expected, refines, where});
   return PatchId{s.delivered.size()};
 }
 
@@ -212,23 +233,30 @@ void Patchwork::deliver(PatchId patch, World world) {
     throw Error("cannot deliver " + number(patch) + ": its world is stored to " + number_text(world.largest_error()) +
                 " m, which is more than 1 mm; build it in smaller parts");
   }
-  if (world.stats().triangles > kFirstSide) {
+  if (world.stats().triangles > first_side) {
     throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");
   }
   State& s = *state_;
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
-  s.check_open(patch, "deliver");
-  s.delivered[static_cast<std::uint64_t>(patch) - 1] = true;
-  replaced = s.post(Delivered{patch, std::move(world)});
+  s.delivered[s.check(patch, "deliver", false)] = true;
+  replaced = s.post({Message::Kind::delivered, patch, {}, std::move(world)});
 }
 
 void Patchwork::fail(PatchId patch, const std::string& reason) {
   State& s = *state_;
   std::vector<World> replaced;  // freed when the lock is gone
   const std::lock_guard lock(s.mutex);
-  s.check_open(patch, "fail");
-  replaced = s.post(Failed{patch, reason});
+  static_cast<void>(s.check(patch, "fail", false));
+  replaced = s.post({Message::Kind::failed, patch, {}, {}, reason});
+}
+
+void Patchwork::forget(PatchId patch) {
+  State& s = *state_;
+  std::vector<World> replaced;  // freed when the lock is gone
+  const std::lock_guard lock(s.mutex);
+  s.delivered[s.check(patch, "forget", true)] = false;
+  replaced = s.post({Message::Kind::forgotten, patch});
 }
 
 bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }
@@ -239,12 +267,12 @@ FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) con
   const State& s = *state_;
   FirstImpact first;
   double until = 1.0;
-  s.tree.along(reached(query, 0.0), until, [&](std::uint32_t index, const Interval& when) {
+  s.tree.along(query::reached(query, 0.0, margin), until, [&](std::uint32_t index, const Interval& when) {
     const Patch& patch = s.patches[index];
-    FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, part(query, when))
+    FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, query::part_of(query, when))
                                   : met_unknown(patch.where, query);
-    met.triangle += first_id(index) + (patch.world ? 0 : kFirstSide);
-    if (!met.hit || (first.hit && !earlier(met, first))) return;
+    met.triangle += first_id(index) + (patch.world ? 0 : first_side);
+    if (!met.hit || (first.hit && !query::is_earlier(met, first))) return;
     first = met;
     until = first.time;
   });
@@ -264,15 +292,15 @@ SpaceFacts Patchwork::facts() const {
   return {.bounds = state_->tree.bounds(), .largest_error = error_limit, .revision = state_->revision};
 }
 
-std::string Patchwork::object_name(TriangleId triangle) const {
+Object Patchwork::object(TriangleId triangle) const {
   const Patches& patches = state_->patches;
   const auto number = static_cast<std::uint64_t>(patch(triangle));
-  if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return "";
+  if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return {};
   const Patch& it = patches[static_cast<std::uint32_t>(number - 1)];
   const TriangleId local = triangle_in_patch(triangle);
-  if (it.role != Patch::Role::shown || it.world.has_value() != (local < kFirstSide)) return "";
-  if (it.world) return local < it.world->stats().triangles ? it.world->object_name(local) : "";
-  return it.failed ? it.reason : "not loaded yet";
+  if (it.role != Patch::Role::shown || it.world.has_value() != (local < first_side)) return {};
+  if (it.world) return it.world->object(local);
+  return {no_object, it.failed ? it.reason : "not loaded yet"};
 }
 
 PatchworkStats Patchwork::stats() const {

@@ -17,7 +17,7 @@ class Pieces {
   /// The query must live as long.
   Pieces(const Query& way, const Part& part) : way_(way), begin_(part.begin), span_(part.end - part.begin) {
     const double length = span_ * largest(way.motion);
-    if (length > index::kLongestPiece) count_ = static_cast<int>(std::ceil(length / index::kLongestPiece));
+    if (length > index::longest_piece) count_ = static_cast<int>(std::ceil(length / index::longest_piece));
     is_whole_ = count_ == 1 && span_ == 1.0;
     if (is_whole_) return;
     // Starts of later pieces are rounded: three roundings of coordinates no larger than this. Where the pieces cover

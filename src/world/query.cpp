@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "index/rest.h"
 #include "roam/world.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
@@ -13,7 +14,7 @@ namespace {
 
 /// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
 /// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
-constexpr float kTight = 2.5e-4F;
+constexpr float tight_bound = 2.5e-4F;
 
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
 /// whole steps of the grids would not fit an integer.
@@ -33,16 +34,40 @@ std::span<const index::Root> all_of(const index::Roots& roots) {
   return {roots.root.data(), static_cast<std::size_t>(roots.count)};
 }
 
-/// One world, as first_of and collect_of ask it.
+/// A world's index without the objects that a filter names.
+class Remaining {
+ public:
+  Remaining(const WorldData& world, const ObjectFilter& ignored)
+      : world_(world), ignored_(ignored), index_(world.index) {
+    index_.skip = &skip_;
+  }
+  Remaining(const Remaining&) = delete;
+  Remaining& operator=(const Remaining&) = delete;
+
+  [[nodiscard]] const index::Index& index() const { return index_; }
+
+ private:
+  static bool skips(const void* self, const index::Place& place) {
+    const Remaining& r = *static_cast<const Remaining*>(self);
+    return r.ignored_.ignores(r.world_.object(number_at(r.world_.index, place)));
+  }
+
+  const WorldData& world_;
+  const ObjectFilter& ignored_;
+  index::Skip skip_{&Remaining::skips, this};
+  index::Index index_;
+};
+
+/// One world, as first_of and collect_of ask it. `rest`: the index passes triangles over.
+template <bool rest>
 class WorldScene {
  public:
-  WorldScene(const WorldData& world, TriangleId base, const index::Roots* roots)
-      : world_(world), index_(world.index), base_(base), roots_(roots) {}
+  WorldScene(const WorldData& world, const index::Index& index, TriangleId base, const index::Roots* roots)
+      : world_(world), index_(index), base_(base), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece) {
     if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
-    const index::Impact impact =
-        roots_ ? index::first_impact(index_, all_of(*roots_), piece) : index::first_impact(index_, piece);
+    const index::Impact impact = first_in(piece);
     place_ = impact.place;
     return impact.hit ? std::optional(impact.time) : std::nullopt;
   }
@@ -66,6 +91,15 @@ class WorldScene {
   }
 
  private:
+  [[nodiscard]] index::Impact first_in(const index::Piece& piece) const {
+    if constexpr (rest) {
+      return roots_ ? index::first_impact_of_rest(index_, all_of(*roots_), piece, 1.0)
+                    : index::first_impact_of_rest(index_, piece, 1.0);
+    } else {
+      return roots_ ? index::first_impact(index_, all_of(*roots_), piece) : index::first_impact(index_, piece);
+    }
+  }
+
   const WorldData& world_;
   const index::Index& index_;
   TriangleId base_;
@@ -94,6 +128,14 @@ struct Visitor {
     collector.offer(c, doubt);
   }
 
+  /// The same without what the index passes over.
+  static double visit_rest(void* self, const index::Place& place, const index::Nearness& near) {
+    const Visitor& v = *static_cast<Visitor*>(self);
+    const index::Skip& skip = *v.index.skip;
+    return skip.skips(skip.context, place) ? v.collector.enough() : visit(self, place, near);
+  }
+  [[nodiscard]] index::Visit visit_one() const { return index.skip == nullptr ? &visit : &visit_rest; }
+
   static double visit(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
     const index::Tile& tile = v.index.tiles[place.tile];
@@ -101,7 +143,7 @@ struct Visitor {
       const auto error = double(tile.error);
       const double least = double(near.least) - v.piece.body.radius - error;
       const double most = double(near.most) - v.piece.body.radius + error;
-      const bool tight = !tile.fine && near.most - near.least <= kTight;
+      const bool tight = !tile.fine && near.most - near.least <= tight_bound;
       // A loose bound must not tell of what is beyond the reach that was asked for.
       if (tight || (most <= v.collector.asked() && least >= most * (1.0 - gap_part))) {
         Contact bound;
@@ -139,19 +181,23 @@ double part_of(const Collector& collector) { return collector.bounds_only() ? ga
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
   collector.left_out(
-      index::visit_near(index, piece, collector.enough(), part_of(collector), &Visitor::visit, &visitor));
+      index::visit_near(index, piece, collector.enough(), part_of(collector), visitor.visit_one(), &visitor));
 }
 
 void visit_near(const index::Index& index, std::span<const index::Root> roots, const index::Piece& piece,
                 TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
   collector.left_out(
-      index::visit_near(index, roots, piece, collector.enough(), part_of(collector), &Visitor::visit, &visitor));
+      index::visit_near(index, roots, piece, collector.enough(), part_of(collector), visitor.visit_one(), &visitor));
 }
 
 void collect(const WorldData& world, const Query& query, const Part& part, TriangleId base, Collector& collector,
              const index::Roots* roots) {
-  collect_of(WorldScene(world, base, roots), query, part, collector);
+  if (query.ignored == nullptr) {
+    return collect_of(WorldScene<false>(world, world.index, base, roots), query, part, collector);
+  }
+  const Remaining remaining(world, *query.ignored);
+  collect_of(WorldScene<true>(world, remaining.index(), base, roots), query, part, collector);
 }
 
 void collect_one(const index::Index& index, const Query& query, Collector& collector) {
@@ -159,16 +205,35 @@ void collect_one(const index::Index& index, const Query& query, Collector& colle
   Contact c =
       contact_at(index, {query.body, query.from, query.motion}, {first.place[0], first.place[1], first.place[2]});
   c.triangle = first.triangle;
-  collector.offer(c);
+  collector.take_only(c);
 }
 
-FirstImpact first_impact(const WorldData& world, const Query& query, const Part& part, const index::Roots* roots) {
-  WorldScene scene(world, 0, roots);
+namespace {
+
+/// Without a call of its own: every sweep makes it.
+template <bool rest>
+[[gnu::always_inline]] inline FirstImpact first_impact_in(const WorldData& world, const index::Index& index,
+                                                          const Query& query, const Part& part,
+                                                          const index::Roots* roots) {
+  WorldScene<rest> scene(world, index, 0, roots);
   FirstImpact first = first_of(scene, query, part);
   if (!first.hit) return first;
   first.object = world.object(first.triangle);
   if (first.contact) first.contact->object = first.object;
   return first;
+}
+
+[[gnu::noinline]] FirstImpact first_impact_of_rest(const WorldData& world, const Query& query, const Part& part,
+                                                   const index::Roots* roots) {
+  const Remaining remaining(world, *query.ignored);
+  return first_impact_in<true>(world, remaining.index(), query, part, roots);
+}
+
+}  // namespace
+
+FirstImpact first_impact(const WorldData& world, const Query& query, const Part& part, const index::Roots* roots) {
+  if (query.ignored != nullptr) return first_impact_of_rest(world, query, part, roots);
+  return first_impact_in<false>(world, world.index, query, part, roots);
 }
 
 }  // namespace query

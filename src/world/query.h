@@ -51,7 +51,7 @@ inline constexpr double gap_part = 1.0 / 8.0;
   const index::Tile& tile = index.tiles[place.tile];
   const index::Leaf& leaf = index.blocks[place.leaf].leaf;
   return index.ids ? index::read_id(index.ids + tile.ids, leaf, static_cast<int>(place.triangle))
-                   : (TriangleId{place.tile} << index::kTileTriangleBits | (leaf.ids + place.triangle));
+                   : (TriangleId{place.tile} << index::tile_triangle_bits | (leaf.ids + place.triangle));
 }
 
 /// Offers the collector every triangle of the index within its reach of the piece, its number raised by `base`.

@@ -27,7 +27,7 @@ void collect_of(const Scene& scene, const Query& query, const Part& part, Collec
 /// in touch.
 template <class Scene>
 [[nodiscard, gnu::noinline]] Contact touched_of(const Scene& scene, const Query& query, double time) {
-  const Query at_rest{query.body, query.from + query.motion * time};
+  const Query at_rest{query.body, query.from + query.motion * time, Vec3(0.0), query.ignored};
   Contact touched = scene.touched({at_rest.body, at_rest.from, at_rest.motion});
   if (time == 0.0) {  // touching or embedded: name the deepest
     Collector deepest(Collector::Kind::contacts, std::max(0.0, touched.distance), {&touched, 1});

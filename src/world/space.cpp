@@ -107,7 +107,7 @@ void query::check(const Query& query) {
     touched = &*first.contact;
   } else {
     Collector collector(first, found);
-    ask_near({query.body, query.from + query.motion * first.time}, collector, nullptr);
+    ask_near({query.body, query.from + query.motion * first.time, Vec3(0.0), query.ignored}, collector, nullptr);
   }
   result.hit = true;
   result.time = first.time;
@@ -152,7 +152,7 @@ std::size_t Space::contacts(const Query& query, double reach, std::span<Contact>
   check_reach(reach);
   if (contacts.empty()) return 0;
   Collector collector(Collector::Kind::contacts, reach, contacts);
-  if (largest(query.motion) > index::kLongestPiece) collector.expect_repeats();
+  if (largest(query.motion) > index::longest_piece) collector.expect_repeats();
   ask_near(query, collector, nullptr);
   collector.sort();
   return collector.count();

@@ -15,7 +15,7 @@ constexpr double ways_ahead = 3.0;
 constexpr double farthest_reach = 0.25;
 constexpr double longest_way = 0.2;
 constexpr double largest_body = 16.0;
-static_assert(longest_way <= index::kShortMotion);
+static_assert(longest_way <= index::short_motion);
 
 /// Metres, beside the errors of the space: far above any rounding.
 constexpr double slack = 1e-2;

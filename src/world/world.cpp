@@ -28,17 +28,10 @@ SpaceFacts World::facts() const {
 
 const WorldStats& World::stats() const { return data_->stats; }
 
-ObjectId World::object(TriangleId triangle) const {
-  const auto& first = data_->first;
-  if (triangle >= first.back()) {
-    throw Error("the world has " + std::to_string(first.back()) + " triangles, and none with the number " +
-                (triangle == no_triangle ? "of a miss" : std::to_string(triangle)) + "; ask of a hit only");
-  }
-  return data_->object(triangle);
-}
-
-std::string World::object_name(TriangleId triangle) const {
-  return triangle < data_->first.back() ? data_->names[object(triangle)] : std::string();
+Object World::object(TriangleId triangle) const {
+  if (triangle >= data_->first.back()) return {};
+  const ObjectId id = data_->object(triangle);
+  return {id, data_->names[id], data_->user_data[id]};
 }
 
 }  // namespace roam

@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   }
   if (behind) coded = pack(unpacked);
-  if (shape.nodes > 4096 || shape.leaves > 4096 || shape.bytes() > roam::store::kTileBytes) return 0;
+  if (shape.nodes > 4096 || shape.leaves > 4096 || shape.bytes() > roam::store::tile_bytes) return 0;
   const std::span<std::byte> out = room.tile(shape);
   const char* why = decoder.decode(coded, shape, out);
   if (!room.kept_inside(shape.bytes())) std::abort();

@@ -57,7 +57,7 @@ class Composer {
     text_lines("title", c_.title, title_size, true, ink);
     y_ += 8.0;
     text_lines(
-        "outcome", fmt::format("{}: {}", name(c_.report.result.outcome), explain(c_.report)), text_size, false,
+        "outcome", fmt::format("{}: {}", to_string(c_.report.result.outcome), explain(c_.report)), text_size, false,
         c_.report.result.outcome == Outcome::reached ? mark_colour(MarkKind::start) : mark_colour(MarkKind::blocked));
     y_ += 4.0;
     text_lines("facts", facts(), text_size, false, pale_ink);

@@ -6,6 +6,7 @@
 
 #include "cut.h"
 #include "frames.h"
+#include "lines.h"
 #include "sheet.h"
 #include "walk_report.h"
 
@@ -21,7 +22,8 @@ struct Contents {
   const std::vector<Mark>& marks;
   const Levels& levels;
   const Frames& frames;
-  const Cuts& cuts;  ///< plans: the plan, then that of each detail
+  const Cuts& cuts;                            ///< plans: the plan, then that of each detail
+  std::size_t most_segments = usual_segments;  ///< of each kind in one panel
 };
 
 /// Lays the contents out. Pure: the same contents and font give the same sheet.

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
+#include <utility>
+
+#include "thin_segments.h"
 
 namespace roam::app::picture {
 namespace {
 
 /// Triangles that one task cuts.
-constexpr std::size_t task_triangles = 1 << 15;
+constexpr std::size_t task_triangles = 1 << 13;
 
 bool before(const Vec3& a, const Vec3& b) {
   if (a.x != b.x) return a.x < b.x;
@@ -169,8 +172,63 @@ std::vector<Stretch> stretches(const Way& way, const Turn& turn, double beyond, 
   return result;
 }
 
-Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
-         std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on) {
+struct Cutter::State {
+  Turn turn;
+  std::span<const PlanView> views;
+  std::span<const Stretch> section;
+  StretchTree tree;
+  std::uint64_t done = 0;
+  std::vector<ThinSegments> walls, below;  ///< of each view
+  ThinSegments along;
+};
+
+Cutter::Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section, std::size_t most) {
+  Rect all;
+  for (const Stretch& s : section) {
+    all.include({s.along, s.lowest});
+    all.include({s.along + glm::distance(s.from, s.to), s.highest});
+  }
+  state_ =
+      std::make_unique<State>(State{turn, views, section, StretchTree(section), 0, {}, {}, ThinSegments(all, most)});
+  for (const PlanView& view : views) {
+    state_->walls.emplace_back(view.map.area(), most);
+    state_->below.emplace_back(view.map.area(), most);
+  }
+}
+
+Cutter::~Cutter() = default;
+
+Box Cutter::box() const {
+  const State& s = *state_;
+  Box box;
+  const auto include = [&](const Point& p, double z) {
+    box.include(s.turn.origin + Vec3(s.turn.cosine * p.x - s.turn.sine * p.y, s.turn.sine * p.x + s.turn.cosine * p.y,
+                                     z - s.turn.origin.z));
+  };
+  for (const PlanView& view : s.views) {
+    if (view.cuts.empty()) continue;
+    const double deepest = view.below.empty() ? 0.0 : *std::max_element(view.below.begin(), view.below.end());
+    const Rect& area = view.map.area();
+    for (const double x : {area.lower.x, area.upper.x}) {
+      for (const double y : {area.lower.y, area.upper.y}) {
+        include({x, y}, view.cuts.front() - std::max(0.0, deepest));
+        include({x, y}, view.cuts.back());
+      }
+    }
+  }
+  for (const Stretch& stretch : s.section) {
+    for (const Point& p : {stretch.from, stretch.to}) {
+      include(p, stretch.lowest);
+      include(p, stretch.highest);
+    }
+  }
+  // By more than turning back is rounded.
+  constexpr double rounding = 1e-6;
+  return box.empty() ? box : box.grown(rounding);
+}
+
+void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uint64_t)>& goes_on) {
+  State& s = *state_;
   struct Task {
     const Mesh* mesh;
     std::size_t from, to;
@@ -182,44 +240,52 @@ Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanVie
       tasks.push_back({&mesh, i, std::min(i + task_triangles, mesh.triangles.size()), {}});
     }
   }
-  const StretchTree tree(section);
   std::mutex told;
-  std::uint64_t done = 0;
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t number) {
     Task& task = tasks[number];
-    task.out.plans.resize(views.size());
+    task.out.plans.resize(s.views.size());
     for (std::size_t i = task.from; i < task.to; ++i) {
       TurnedTriangle t = task.mesh->triangle(i);
       Rect box;
       for (Vec3& corner : t) {
-        corner = turn(corner);
+        corner = s.turn(corner);
         box.include({corner.x, corner.y});
       }
       const auto [lowest, highest] = std::minmax({t[0].z, t[1].z, t[2].z});
-      for (std::size_t k = 0; k < views.size(); ++k) cut_plan(t, box, lowest, highest, views[k], task.out.plans[k]);
-      tree.near(box, [&](const Stretch& stretch) {
+      for (std::size_t k = 0; k < s.views.size(); ++k) {
+        cut_plan(t, box, lowest, highest, s.views[k], task.out.plans[k]);
+      }
+      s.tree.near(box, [&](const Stretch& stretch) {
         if (lowest <= stretch.highest && highest >= stretch.lowest) cut_section(t, stretch, task.out.section);
       });
     }
     const std::lock_guard lock(told);
-    done += task.to - task.from;
-    goes_on(done);
+    s.done += task.to - task.from;
+    goes_on(s.done);
   });
-
-  Cuts all;
-  all.plans.resize(views.size());
-  const auto join = [](std::vector<Segment>& to, std::vector<Segment>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-    from = {};
-  };
   for (Task& task : tasks) {
-    for (std::size_t k = 0; k < views.size(); ++k) {
-      join(all.plans[k].walls, task.out.plans[k].walls);
-      join(all.plans[k].below, task.out.plans[k].below);
+    for (std::size_t k = 0; k < s.views.size(); ++k) {
+      s.walls[k].add(std::exchange(task.out.plans[k].walls, {}));
+      s.below[k].add(std::exchange(task.out.plans[k].below, {}));
     }
-    join(all.section, task.out.section);
+    s.along.add(std::exchange(task.out.section, {}));
   }
+}
+
+Cuts Cutter::take() {
+  Cuts all;
+  for (std::size_t k = 0; k < state_->views.size(); ++k) {
+    all.plans.push_back({state_->walls[k].take(), state_->below[k].take()});
+  }
+  all.section = state_->along.take();
   return all;
+}
+
+Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
+         std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on) {
+  Cutter cutter(turn, views, section);
+  cutter.add(meshes, goes_on);
+  return cutter.take();
 }
 
 }  // namespace roam::app::picture

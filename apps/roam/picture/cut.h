@@ -2,7 +2,11 @@
 /// \file
 /// What planes cut out of a scene: level ones for plans, upright ones along the way for sections.
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,8 +57,28 @@ struct Cuts {
   std::vector<Segment> section;  ///< (along, height), metres
 };
 
-/// Cuts a scene on all cores; the result does not depend on how many. `goes_on` is called now and then, from one thread
-/// at a time, with the number of triangles done.
+/// Cuts a scene that comes little by little, on all cores; the result does not depend on how many.
+class Cutter {
+ public:
+  /// The views and the section must stay. Of each plan and of the section no more than about `most` segments are held:
+  /// where there are more, their ends are rounded to a grid and what is there twice is left out, as in joined().
+  Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section,
+         std::size_t most = std::numeric_limits<std::size_t>::max());
+  ~Cutter();
+
+  /// Where all lies that is cut, metres of the scene. Empty where nothing is.
+  [[nodiscard]] Box box() const;
+  /// Cuts these triangles. `goes_on` is called now and then, from one thread at a time, with the number of triangles
+  /// done in all.
+  void add(std::span<const Mesh> meshes, const std::function<void(std::uint64_t)>& goes_on);
+  [[nodiscard]] Cuts take();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The same for a scene that is there as a whole.
 [[nodiscard]] Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
                        std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on);
 

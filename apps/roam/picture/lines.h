@@ -2,6 +2,7 @@
 /// \file
 /// Loose segments made into few long lines, so that a drawing stays small however many triangles were cut.
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "geometry.h"
 
 namespace roam::app::picture {
+
+/// Of each kind in one panel: some 3 MB of SVG.
+inline constexpr std::size_t usual_segments = 60'000;
 
 /// The corners that stay when those that lie within `tolerance` of the line between their neighbours are left out.
 [[nodiscard]] Polyline simplified(const Polyline& line, double tolerance);

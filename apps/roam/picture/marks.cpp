@@ -67,7 +67,7 @@ std::vector<Mark> find_marks(const WalkReport& report, const Record& record, con
     marks.push_back({MarkKind::blocked, result.blocked_at->point, last.position, last.height, last.along, "blocked",
                      blocked_note(report)});
   } else if (marks.back().kind != MarkKind::fell || result.outcome != Outcome::fell) {
-    const char* how = result.outcome == Outcome::reached ? "" : name(result.outcome);
+    const char* how = result.outcome == Outcome::reached ? "" : to_string(result.outcome);
     marks.push_back({MarkKind::end, last.position, last.position, last.height, last.along, "end", how});
   }
   std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.along < b.along; });

@@ -10,7 +10,6 @@
 namespace roam::app::picture {
 namespace {
 
-constexpr std::size_t most_segments = 60'000;  ///< of each kind in one panel: some 3 MB of SVG
 constexpr double way_width = 4.0;
 constexpr double least_outline = 4.0;   ///< pixels; a body of a smaller radius is only a dot
 constexpr double touch_distance = 8.0;  ///< pixels between two that are drawn, roughly
@@ -69,7 +68,7 @@ void PanelPainter::segments(const std::string& what, const Map& map, std::span<c
   for (Segment s : segments) {
     if (clip(s, map.frame.view)) seen.push_back(s);
   }
-  auto lines = joined(seen, map, most_segments);
+  auto lines = joined(seen, map, c_.most_segments);
   labels_.avoid(lines, 0.5);
   if (!lines.empty()) {
     sheet_.items.emplace_back(

@@ -13,6 +13,8 @@ namespace {
 /// that a body on the straightened way still fits where the true one did when the survey makes it slimmer.
 constexpr double straightening = 0.04;
 constexpr double most_straightening = 0.002;
+/// Segments that are held, before those that make a line are joined.
+constexpr std::size_t held_for_each_shown = 4;
 /// Storeys that are shown one over the other are at least so many body heights apart.
 constexpr double storey_heights = 1.2;
 /// On foot two cuts more, under the body's centre: just above what it steps onto, for what stops its legs; and below
@@ -53,12 +55,18 @@ Rect section_range(const Frames& frames) {
 
 }  // namespace
 
+Measured measure(const Space& space, const WalkReport& report, const Record& record, const Arrive& arrive) {
+  Measured measured;
+  measured.way = simplified(record, std::min(straightening * report.settings.radius, most_straightening));
+  measured.survey = survey(space, measured.way, report.settings, report.mode, arrive);
+  return measured;
+}
+
 Sheet make_sheet(const Walked& walked) {
   const WalkReport& report = walked.report;
-  const Way way = simplified(walked.record, std::min(straightening * report.settings.radius, most_straightening));
-  const Survey measured = survey(walked.space, way, report.settings, report.mode);
+  const auto& [way, measured] = walked.measured;
   const std::vector<Mark> marks = find_marks(report, walked.record, way, measured);
-  const Frames frames = choose_frames(way, measured, marks, walked.space.bounds(), report.settings);
+  const Frames frames = choose_frames(way, measured, marks, walked.bounds, report.settings);
   const Levels levels = find_levels(measured.stations, report.settings.height);
 
   const Rect range = section_range(frames);
@@ -66,9 +74,14 @@ Sheet make_sheet(const Walked& walked) {
   const auto views = plan_views(walked, frames, measured, levels, marks);
   const auto section = stretches(way, frames.turn, beyond, range.lower.y, range.upper.y);
   Progress progress("cutting", "triangles");
-  const Cuts cuts =
-      cut(walked.meshes, frames.turn, views, section, [&](std::uint64_t done) { progress.at(done, report.triangles); });
-  return compose({walked.title, report, walked.record, way, measured, marks, levels, frames, cuts}, measure_text);
+  Cutter cutter(frames.turn, views, section, held_for_each_shown * walked.most_segments);
+  walked.triangles(cutter.box(), [&](std::span<const Mesh> meshes) {
+    cutter.add(meshes, [&](std::uint64_t done) { progress.at(done, report.triangles); });
+  });
+  const Cuts cuts = cutter.take();
+  return compose(
+      {walked.title, report, walked.record, way, measured, marks, levels, frames, cuts, walked.most_segments},
+      measure_text);
 }
 
 }  // namespace roam::app::picture

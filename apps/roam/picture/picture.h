@@ -13,24 +13,43 @@
 ///   draw      -> a file, with Cairo
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "draw.h"
+#include "lines.h"
 #include "roam/mesh.h"
 #include "roam/space.h"
 #include "sheet.h"
+#include "survey.h"
 #include "walk_report.h"
 #include "way.h"
 
 namespace roam::app::picture {
+
+/// What must be measured while the space is there.
+struct Measured {
+  Way way;
+  Survey survey;
+};
+
+[[nodiscard]] Measured measure(const Space& space, const WalkReport& report, const Record& record,
+                               const Arrive& arrive = {});
+
+/// Hands out all triangles that meet a box, little by little.
+using Triangles = std::function<void(const Box&, const std::function<void(std::span<const Mesh>)>& take)>;
 
 /// What a picture is made from.
 struct Walked {
   std::string title;  ///< the scene and the path, for people
   const WalkReport& report;
   const Record& record;
-  const Space& space;
-  std::span<const Mesh> meshes;  ///< that `space` was built from
+  const Measured& measured;
+  Box bounds;  ///< of the scene
+  Triangles triangles;
+  /// Most segments of each kind in one panel. A sheet takes up to some 2,000 bytes for each of them.
+  std::size_t most_segments = usual_segments;
 };
 
 /// The whole sheet. Throws roam::Cancelled after Ctrl-C.

@@ -19,8 +19,9 @@ constexpr int refinement = 24;
 
 class Surveyor {
  public:
-  Surveyor(const Space& space, const WalkerSettings& settings, Mode mode)
+  Surveyor(const Space& space, const WalkerSettings& settings, Mode mode, const Arrive& arrive)
       : space_(space),
+        arrive_(arrive),
         settings_(settings),
         mode_(mode),
         slope_cosine_(std::cos(glm::radians(settings.slope_degrees))) {}
@@ -63,8 +64,9 @@ class Surveyor {
   [[nodiscard]] Station station(const WayPoint& a, const WayPoint& b, double t) const {
     Station s;
     s.centre = a.position + t * (b.position - a.position);
-    s.height = b.height;  // which a piece has all along, see Corner
+    s.height = b.height;  // which a piece has all along, see Segment
     s.along = a.along + t * (b.along - a.along);
+    if (arrive_) arrive_(s.centre, std::max(reach() + settings_.radius, height_reach * s.height) + s.height);
     const Vec3 way(b.position.x - a.position.x, b.position.y - a.position.y, 0.0);
     const double length = glm::length(way);
     // Steeper than some 84 degrees there is no telling left from right.
@@ -97,6 +99,7 @@ class Surveyor {
 
  private:
   const Space& space_;
+  const Arrive& arrive_;
   const WalkerSettings& settings_;
   Mode mode_;
   double slope_cosine_;
@@ -113,12 +116,15 @@ Narrowest narrowest_at(const Station& s, double width, double radius) {
 
 }  // namespace
 
-Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode) {
-  const Surveyor surveyor(space, settings, mode);
+Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode, const Arrive& arrive) {
+  const Surveyor surveyor(space, settings, mode, arrive);
   Survey result;
   result.reach = surveyor.reach();
   const auto& points = way.points;
-  const double spacing = std::max(0.5 * settings.radius, way.length / most_stations);
+  const bool is_true = way.tolerance < slimmer;
+  const double between = std::max(0.1 * most_stations, most_stations - static_cast<double>(points.size()));
+  const double spacing = std::max(0.5 * settings.radius, way.length / between);
+  result.stations.reserve(points.size() + static_cast<std::size_t>(is_true ? way.length / spacing : 0.0));
   double least = std::numeric_limits<double>::infinity();
   std::size_t piece = 0;  // of the narrowest station: it lies between points[piece] and the next
   double least_t = 0.0, dt = 0.0;
@@ -137,9 +143,9 @@ Survey survey(const Space& space, const Way& way, const WalkerSettings& settings
     const bool leads_on = i + 1 < points.size() && !points[i + 1].jump;
     if (leads_on) {
       const double length = glm::distance(points[i].position, points[i + 1].position);
-      const double parts = std::ceil(std::max(length / spacing, 1.0));
+      const double parts = is_true ? std::ceil(std::max(length / spacing, 1.0)) : 1.0;
       for (double k = 0.0; k < parts; ++k) {
-        add(i, i + 1, k / parts, 1.0 / parts);
+        add(i, i + 1, k / parts, is_true ? 1.0 / parts : 0.0);
         result.stations.back().jump = k == 0.0 && points[i].jump;
       }
     } else if (i > 0 && !points[i].jump) {

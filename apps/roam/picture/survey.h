@@ -2,6 +2,7 @@
 /// \file
 /// What a surveyor would measure along a way: the room beside the body, floor and ceiling, and where it is narrowest.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,8 +42,13 @@ struct Survey {
   std::optional<Narrowest> narrowest;  ///< none where the way is open to one side everywhere, and for a ghost
 };
 
+/// Is called before each place that is looked at: `reach` metres around it should be known then.
+using Arrive = std::function<void(const Vec3& place, double reach)>;
+
 /// Measures at every corner of the way, and in between at least every half radius, but at some 10,000 places at most.
-/// On foot the room beside is that above the step height: what is lower is walked onto.
-[[nodiscard]] Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode);
+/// Where the way is not true enough for the body to fit on it, at its corners alone. On foot the room beside is that
+/// above the step height: what is lower is walked onto.
+[[nodiscard]] Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode,
+                            const Arrive& arrive = {});
 
 }  // namespace roam::app::picture

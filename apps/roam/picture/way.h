@@ -24,10 +24,17 @@ struct Touch {
   std::size_t place = 0;  ///< index of the place at which it was told
 };
 
-/// All that is kept of a walk while it goes on.
+/// All that is kept of a walk while it goes on: however long it is, some 8,000 places.
 struct Record {
+  static constexpr std::size_t most = 8192;  ///< of each
+
   std::vector<Place> places;
   std::vector<Touch> touches;
+  std::size_t thinned = 0;  ///< the first places, between which some were left out
+  /// Metres. What was left out lies no farther than twice this from the straight lines between the places that stay; 0:
+  /// all are there.
+  double tolerance = 0.0;
+  double spacing = 1e-2;  ///< metres; touches in a row that are nearer to each other than this are one
 };
 
 /// Takes down a step. The start, step 0, is one place: where the body was put.
@@ -43,7 +50,8 @@ struct WayPoint {
 
 struct Way {
   std::vector<WayPoint> points;
-  double length = 0.0;  ///< `along` of the last point
+  double length = 0.0;     ///< `along` of the last point
+  double tolerance = 0.0;  ///< metres: no place of the body lies farther from the way
   /// For each place of the record, its distance along the way.
   std::vector<double> along;
   /// Index of the place to which the piece with the least certified clearance leads; places.size(): none is certified.

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -22,15 +23,12 @@ using Json = nlohmann::ordered_json;
 Json read(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::exists(file, none)) return Json::array();
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file, none)) {
-    throw Error(file.string() + ": cannot be opened; is it a file, and may you read it?");
-  }
+  const std::string text = files::read_named(file, files::longest_json);
   Json document;
   try {
-    document = Json::parse(in);
-  } catch (const Json::exception& error) {
-    fail(file, std::string("is no JSON: ") + error.what());
+    document = files::parse_json(text);
+  } catch (const Error& error) {
+    fail(file, error.what());
   }
   if (!document.is_array()) fail(file, "must hold a list of scenes, [ ... ]");
   return document;
@@ -38,7 +36,7 @@ Json read(const std::filesystem::path& file) {
 
 double number(const Json& value, const std::filesystem::path& file) {
   const double x = value.is_number() ? value.get<double>() : std::nan("");
-  if (!std::isfinite(x)) fail(file, fmt::format("{} must be a number", value.dump()));
+  if (!std::isfinite(x)) fail(file, fmt::format("{} must be a number", printable(value.dump())));
   return x;
 }
 
@@ -49,7 +47,7 @@ std::vector<Bookmark> bookmarks_of(const Json& scene, const std::filesystem::pat
   for (const Json& item : list) {
     const bool whole = item.is_object() && item.contains("name") && item["name"].is_string() &&
                        item.contains("position") && item["position"].is_array() && item["position"].size() == 3;
-    if (!whole) fail(file, "a bookmark must have a \"name\" and a \"position\" [x, y, z]: " + item.dump());
+    if (!whole) fail(file, "a bookmark must have a \"name\" and a \"position\" [x, y, z]: " + printable(item.dump()));
     Bookmark bookmark;
     bookmark.name = item["name"].get<std::string>();
     for (int k = 0; k < 3; ++k) bookmark.pose.position[k] = number(item["position"][static_cast<std::size_t>(k)], file);

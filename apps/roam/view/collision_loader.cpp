@@ -78,7 +78,7 @@ void CollisionLoader::load_store(std::shared_ptr<const Store> store) {
   loaded.identity = identity_of(store->info());
   loading_.tell(LoadState::Phase::looking, 0.0, loaded.triangles);
   loaded.pager = std::make_shared<Pager>(store, PagerOptions{.memory = wish_.memory});
-  if (!wish_.place) loaded.start = find_start(*store, wish_.walker, wish_.mode, goes_on);
+  if (!wish_.place) loaded.start = find_start(*store, wish_.memory, wish_.walker, wish_.mode, goes_on);
   const Vec3 place = wish_.place.value_or(loaded.start ? loaded.start->pose.position : Vec3(0.0));
   place_.set_value(place);
   place_is_known_ = true;
@@ -96,7 +96,7 @@ void CollisionLoader::load_scene() {
     if (is_large(p.bytes_total, p.triangles)) wants_store_ = true;
     return loading_.wanted();
   };
-  Scene scene = import_scene(options.scenes, reading);
+  ImportedScene scene = import_scene(options.scenes, reading);
   BuildOptions build;
   build.threads = work_threads(options.threads);
   build.lossless = options.lossless;

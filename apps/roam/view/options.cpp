@@ -260,7 +260,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
     throw UsageError(settings.file.empty() ? error.what()
                                            : fmt::format("{} (with {})", error.what(), settings.file.string()));
   }
-  const std::string mode = options.mode.value_or(name(recorded ? recorded->mode : Mode::walk));
+  const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   plan.mode = mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
   plan.fov = options.fov.value_or(settings.fov.value_or(plan.fov));
   plan.sensitivity = settings.sensitivity.value_or(plan.sensitivity);

@@ -53,7 +53,8 @@ struct ViewPlan {
   double sensitivity = 1.0;
   bool invert_y = false;
   HudMode hud = HudMode::full;
-  int width = 0, height = 0;  ///< pixels
+  int width = 0, height = 0;   ///< pixels
+  std::vector<Waypoint> path;  ///< of --path, which make_plan does not read
   std::optional<Pose> at;
   std::string note;  ///< what the person should know of it; or empty
 };

@@ -29,14 +29,13 @@ constexpr double headless_frame = 1.0 / 60.0;  // s
 // Where nothing else keeps the frames from running free: no screen shows more.
 constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
-CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, const std::vector<Waypoint>& path,
-                      std::uint64_t store_memory) {
+CollisionWish wish_of(const ViewOptions& options, const ViewPlan& plan, std::uint64_t store_memory) {
   CollisionWish wish;
   wish.keep_meshes = options.verify;
   if (plan.at) {
     wish.place = plan.at->position;
-  } else if (!path.empty()) {
-    wish.place = path.front().position;
+  } else if (!plan.path.empty()) {
+    wish.place = plan.path.front().position;
   }
   wish.memory = store_memory;
   wish.walker = plan.walker;
@@ -54,7 +53,6 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       log_(options.trace, options.verify),
       begin_(Clock::now()) {
   options_.scene = what_.scene;
-  if (!options_.path.empty()) path_ = load_path(options_.path);
   const std::filesystem::path folder = settings_folder();
   try {
     bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", options_.scene.scenes, options_.scene.up,
@@ -84,7 +82,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   set_up_cameras();
   stage_->hud().set_help(key_lines(roamer_->controls()));
   // Both read the same files, at the same time: each in a process of its own that can only fail alone.
-  collision_.emplace(what_, wish_of(options_, plan_, path_, what_.store_memory));
+  collision_.emplace(what_, wish_of(options_, plan_, what_.store_memory));
   auto display = what_.store_only ? std::make_unique<DisplayLoader>(what_.store, collision_->place())
                                   : std::make_unique<DisplayLoader>(what_.scene, stage_->texture_quality());
   scene_.emplace(stage_->viewer(), *stage_->frame().space(), std::move(display),

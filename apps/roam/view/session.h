@@ -118,7 +118,6 @@ class Session {
   std::optional<Bookmarks> bookmarks_;
   std::string bookmark_problem_;
   std::size_t bookmark_ = 0;
-  std::vector<Waypoint> path_;
   osg::ref_ptr<osgRoam::Manipulator> roamer_;
   osg::ref_ptr<Cameras> cameras_;
   WalkLog log_;

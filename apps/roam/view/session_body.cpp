@@ -53,7 +53,7 @@ void Session::place() {
   } else if (plan_.at) {
     start_ = plan_.at;
   } else {
-    start_ = Pose{path_.front().position, 0.0, 0.0};
+    start_ = Pose{plan_.path.front().position, 0.0, 0.0};
   }
   roamer_->setMode(mode);
   status_.triangles = loaded_->triangles;
@@ -66,7 +66,7 @@ void Session::place() {
   }
   begin_learning();
   enter();
-  if (!path_.empty()) begin_replay();
+  if (!plan_.path.empty()) begin_replay();
 }
 
 void Session::place_ghost(const std::string& why) {
@@ -96,7 +96,7 @@ void Session::enter() {
   placed_at_ = now_;
   // The way that led here is none of the session's.
   roamer_->setStepCallback([this](const StepReport& report, double seconds) { step_taken(report, seconds); });
-  if (path_.empty()) step_taken(roamer_->report(), 0.0);
+  if (plan_.path.empty()) step_taken(roamer_->report(), 0.0);
   cameras_->setNode(stage_->frame().root());
   stage_->viewer().setCameraManipulator(cameras_, false);
   if (!options_.record_path.empty()) {
@@ -121,7 +121,7 @@ void Session::begin_replay() {
   RouteOptions route;
   route.speed = plan_.walker.speed;
   route.dt = options_.dt;
-  replay_.emplace(*roamer_->walker(), path_, route);
+  replay_.emplace(*roamer_->walker(), plan_.path, route);
   // The pilot first: whether there is something to stand on is the path's to find out, as in `roam walk`.
   roamer_->setPilot([this](Walker&, double) { return replay_->advance(); });
   roamer_->placed();
@@ -180,8 +180,8 @@ void Session::fly_without_ground() {
 /// Where the person, or the path, would have the body go, m/s; the length is only roughly right.
 Vec3 Session::wish() const {
   if (replay_ && !replay_->left()) {
-    const std::size_t next = std::min(replay_->result().waypoints, path_.size() - 1);
-    const Vec3 way = path_[next].position - roamer_->walker()->position();
+    const std::size_t next = std::min(replay_->result().waypoints, plan_.path.size() - 1);
+    const Vec3 way = plan_.path[next].position - roamer_->walker()->position();
     const double length = glm::length(way);
     return length > 0.0 ? plan_.walker.speed / length * way : Vec3(0.0);
   }

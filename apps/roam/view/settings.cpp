@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
+#include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/printable.h"
 #include "user_folder.h"
 
 namespace roam::app {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 /// An object of the file, whose entries are taken out one by one; what is left at the end is unknown.
 class Section {
@@ -27,7 +29,7 @@ class Section {
   [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
     const std::string path = where_.empty() || entry.empty() ? where_ + entry : where_ + "." + entry;
     throw Error(path.empty() ? fmt::format("{}: {}", file_.string(), what)
-                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), path, what));
+                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), printable(path), what));
   }
 
   [[nodiscard]] std::optional<json> take(const std::string& entry) {
@@ -93,7 +95,7 @@ std::map<std::string, std::vector<std::string>> keys_of(const Section& section) 
 
 }  // namespace
 
-const char* name(HudMode mode) {
+const char* to_string(HudMode mode) {
   switch (mode) {
     case HudMode::full:
       return "full";
@@ -107,7 +109,7 @@ const char* name(HudMode mode) {
 
 std::optional<HudMode> parse_hud_mode(const std::string& text) {
   for (const HudMode mode : {HudMode::full, HudMode::minimal, HudMode::off}) {
-    if (text == name(mode)) return mode;
+    if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
 }
@@ -115,16 +117,12 @@ std::optional<HudMode> parse_hud_mode(const std::string& text) {
 std::filesystem::path settings_folder() { return user_folder("XDG_CONFIG_HOME", ".config"); }
 
 ViewSettings read_settings(const std::filesystem::path& file) {
-  std::error_code none;
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file, none)) {
-    throw Error(file.string() + ": cannot be opened; is the path right, and may you read it?");
-  }
+  const std::string text = files::read_named(file, files::longest_json);
   json document;
   try {
-    document = json::parse(in, nullptr, true, true);
-  } catch (const json::exception& error) {
-    throw Error(fmt::format("{}: is no JSON: {}", file.string(), error.what()));
+    document = files::parse_json(text);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }
   // Far wider than anything sensible: what they bound exactly is for those who use them to say.
   constexpr double metres = 1000.0;

@@ -25,7 +25,7 @@ namespace roam::app {
 enum class HudMode : std::uint8_t { full, minimal, off };
 
 /// "full", "minimal" or "off".
-[[nodiscard]] const char* name(HudMode mode);
+[[nodiscard]] const char* to_string(HudMode mode);
 /// The mode of that name, if there is one.
 [[nodiscard]] std::optional<HudMode> parse_hud_mode(const std::string& text);
 

@@ -14,10 +14,10 @@
 #include "graphics/hud.h"
 #include "graphics/overlay.h"
 #include "graphics/shading.h"
+#include "histogram.h"
 #include "roam/math.h"
 #include "view/display_node.h"
 #include "view/film.h"
-#include "view/histogram.h"
 #include "view/options.h"
 #include "view/status.h"
 

@@ -11,7 +11,7 @@
 #include "roam/error.h"
 #include "roam/world.h"
 #include "store_start.h"
-#include "view/store_triangles.h"
+#include "triangles_around.h"
 #include "wander.h"
 
 namespace roam::app {
@@ -19,9 +19,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
-// Of a store, what is looked at to find where to look: metres, and triangles.
+// Metres. Of a store, what is looked at to find where to look.
 constexpr double sight = 60.0;
-constexpr std::size_t most_in_sight = 1'000'000;
 constexpr double overview_yaw = 60.0;     // degrees: two sides of a building are seen, none of them face on
 constexpr double overview_pitch = -30.0;  // degrees
 
@@ -118,13 +117,13 @@ StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode m
       [&](const Vec3& eye) { return look(space, eye); });
 }
 
-StartPlace find_start(const Store& store, const WalkerSettings& settings, Mode mode,
+StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                       const std::function<bool()>& goes_on) {
   return start_place(
-      settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, settings, way, goes_on); },
+      settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, memory, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
-        append(mesh, triangles_around(store, eye, sight, most_in_sight, goes_on).triangles);
+        append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
         return look(World::build({&mesh, 1}), eye);
       });
 }

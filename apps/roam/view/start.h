@@ -2,6 +2,7 @@
 /// \file
 /// Where a session begins when nobody says it.
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -25,8 +26,8 @@ struct StartPlace {
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                     std::span<const Vec3> floors, const std::function<bool()>& goes_on);
 
-/// The same in a store, looking around a few places of it only.
-[[nodiscard]] StartPlace find_start(const Store& store, const WalkerSettings& settings, Mode mode,
+/// The same in a store, looking around a few places of it only; see store_start.
+[[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                                     const std::function<bool()>& goes_on);
 
 /// The level direction, in degrees, in which one sees farthest from `eye` before a wall.

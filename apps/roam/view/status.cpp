@@ -60,7 +60,7 @@ std::string paging_text(const PagerStats& paging) {
 std::string mode_text(const Status& status) {
   if (!status.camera.empty()) return status.camera;
   if (!status.mode) return "loading";
-  std::string text = fmt::format("{}  {:.1f} m/s", name(*status.mode), status.speed);
+  std::string text = fmt::format("{}  {:.1f} m/s", to_string(*status.mode), status.speed);
   if (*status.mode == Mode::walk && !status.grounded) text += "  in the air";
   return text;
 }

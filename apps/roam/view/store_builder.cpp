@@ -7,6 +7,7 @@
 #include <future>
 #include <utility>
 
+#include "build_notes.h"
 #include "store_name.h"
 #include "user_key.h"
 #include "view/collision_loader.h"
@@ -85,7 +86,7 @@ void StoreBuilder::build() {
     state = {};
     state.phase = LoadState::Phase::done;
     state.share = 1.0;
-    notes_ = std::move(report.notes);
+    notes_ = told_notes(report, output_);
     pager_ = std::move(pager);
   });
 }

@@ -14,33 +14,8 @@ namespace roam::app {
 namespace {
 
 constexpr std::size_t most_shown = 1'000'000;
-constexpr double least_reach = 0.5;       // m: nobody looks less far
 constexpr std::size_t batch = 16'384;     // triangles that are drawn, or left out of sight, together
 constexpr std::size_t piece = 8 * batch;  // triangles that come into the picture together
-
-/// Too many have come.
-struct Enough {};
-
-/// The triangles whose tiles meet the box; false when there are more than `most`.
-bool read(const Store& store, const Box& box, std::size_t most, const std::function<bool()>& goes_on,
-          StoreTriangles& into) {
-  into.triangles.clear();
-  into.missing.clear();
-  into.box = box;
-  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
-    if (!goes_on()) throw Cancelled();
-    if (into.triangles.size() + triangles.size() > most) throw Enough();
-    into.triangles.insert(into.triangles.end(), triangles.begin(), triangles.end());
-  };
-  try {
-    store.for_each_triangle(box, take, [&](const std::string& what) { into.missing.push_back(what); });
-  } catch (const Enough&) {
-    return false;
-  }
-  return true;
-}
-
-Box around(const Vec3& place, double reach) { return {place - reach, place + reach}; }
 
 osg::ref_ptr<osg::Geometry> geometry_of(std::span<const Triangle> triangles, const Vec3& origin) {
   DisplayGeometry geometry;
@@ -64,19 +39,12 @@ std::string sentence(const Store& store, const StoreTriangles& shown) {
 
 }  // namespace
 
-StoreTriangles triangles_around(const Store& store, const Vec3& place, double reach, std::size_t most,
-                                const std::function<bool()>& goes_on) {
-  StoreTriangles found;
-  while (!read(store, around(place, reach), most, goes_on, found) && reach > least_reach) reach *= 0.5;
-  return found;
-}
-
 DisplayReport show_store(const Store& store, const Vec3& place,
                          const std::function<void(DisplayNode&&, std::uint64_t)>& take,
                          const std::function<bool()>& goes_on) {
   const Box& bounds = store.info().bounds;
   StoreTriangles shown;
-  shown.all = store.info().triangles <= most_shown && read(store, bounds, most_shown, goes_on, shown);
+  shown.all = store.info().triangles <= most_shown && triangles_in(store, bounds, most_shown, goes_on, shown);
   if (!shown.all) {
     // Wider and wider: what is read in vain is less than what is shown.
     const Vec3 farthest = glm::max(bounds.upper - place, place - bounds.lower);
@@ -84,7 +52,7 @@ DisplayReport show_store(const Store& store, const Vec3& place,
     shown = triangles_around(store, place, 8.0, most_shown, goes_on);
     for (double reach = 16.0; reach < 2.0 * enough; reach *= 2.0) {
       StoreTriangles wider;
-      if (!read(store, around(place, reach), most_shown, goes_on, wider)) break;
+      if (!triangles_in(store, {place - reach, place + reach}, most_shown, goes_on, wider)) break;
       shown = std::move(wider);
     }
   }

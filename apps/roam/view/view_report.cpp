@@ -40,7 +40,7 @@ Json blockage(const ViewReport& report) {
 Json json_report(const ViewReport& report) {
   Json json = {{"scene", report.scene},
                {"triangles", report.triangles},
-               {"mode", name(report.mode)},
+               {"mode", to_string(report.mode)},
                {"radius", report.settings.radius},
                {"height", report.settings.height},
                {"outcome", nullptr},
@@ -74,7 +74,7 @@ Json json_report(const ViewReport& report) {
   if (report.start) json["start"] = to_json(*report.start);
   if (report.least_clearance) json["least_clearance_m"] = *report.least_clearance;
   if (report.result) {
-    if (report.path_ended) json["outcome"] = name(report.result->outcome);
+    if (report.path_ended) json["outcome"] = to_string(report.result->outcome);
     json["waypoints_reached"] = report.result->waypoints;
   }
   if (report.verified) {
@@ -99,7 +99,7 @@ std::string text_report(const ViewReport& report) {
       walk.result = *report.result;
       walk.waypoints = report.waypoints;
       walk.object = report.object;
-      text += fmt::format("{}: {}\n", name(report.result->outcome), explain(walk));
+      text += fmt::format("{}: {}\n", to_string(report.result->outcome), explain(walk));
     } else {
       text += "ended before the path did\n";
     }

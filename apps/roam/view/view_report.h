@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "piece_log.h"
 #include "report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
-#include "verification.h"
 #include "view/pose.h"
 
 namespace roam::app {
@@ -57,7 +57,7 @@ struct ViewReport {
   std::uint64_t missing_pages = 0;
   std::vector<std::string> written;  ///< files
   std::vector<Mesh> meshes;          ///< for --verify; none where it was a store from the beginning
-  std::vector<Piece> pieces;         ///< for --verify
+  PieceLog pieces;                   ///< for --verify
   std::optional<Verification> verified;
 };
 

@@ -5,17 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <vector>
 
+#include "histogram.h"
 #include "roam/tally.h"
 #include "roam/walker.h"
-#include "view/histogram.h"
 #include "walk_record.h"
 
 namespace roam::app {
 
-/// Takes down every step of a body that a person leads. Without a trace and --verify it takes the same memory for a
-/// minute and for a day.
+/// Takes down every step of a body that a person leads. It takes the same memory for a minute and for a
+/// day.
 class WalkLog {
  public:
   /// An empty path: no trace. `keep_pieces`: for verify().
@@ -32,14 +31,14 @@ class WalkLog {
   /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// For verify(), once.
-  [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
+  [[nodiscard]] PieceLog take_pieces() { return std::move(pieces_); }
   [[nodiscard]] const Histogram& collision_times() const { return collision_; }          ///< ns a frame with steps
   [[nodiscard]] const Histogram& own_collision_times() const { return own_collision_; }  ///< the same, the thread's own
 
  private:
   std::optional<TraceFile> trace_;
   bool keep_pieces_;
-  std::vector<Piece> pieces_;
+  PieceLog pieces_;
   Histogram collision_, own_collision_;
   std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
   Tally tally_;

@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// What names of files say: the format, and other spellings; and the folder for temporary files.
+/// What names of files say: the format, and other spellings.
 
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -30,12 +29,6 @@ namespace roam::reader {
     }
   }
   return text;
-}
-
-/// TMPDIR, or /tmp. The program hands on absolute folders alone.
-[[nodiscard]] inline std::string temporary_folder() {
-  const char* named = std::getenv("TMPDIR");
-  return named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
 }  // namespace roam::reader

@@ -30,6 +30,41 @@ inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {
                                                  {"off", Family::assimp},      {"3mf", Family::assimp},
                                                  {"blend", Family::assimp}}};
 
+/// A kind of image, that other files name or hold. One may have several entries.
+struct ImageFormat {
+  std::string_view extension;    ///< lower case, without the dot
+  std::string_view plugin = {};  ///< OpenSceneGraph's, osgdb_NAME; empty: it is never decoded
+  std::string_view start = {};   ///< of every such file; empty: files do not say what they are, and are known by name
+};
+
+inline constexpr std::array<ImageFormat, 27> image_formats{{{"jpg", "jpeg", "\xff\xd8\xff"},
+                                                            {"jpeg", "jpeg", "\xff\xd8\xff"},
+                                                            {"jpe", "jpeg", "\xff\xd8\xff"},
+                                                            {"png", "png", "\x89PNG"},
+                                                            {"tif", "tiff", std::string_view("II*\0", 4)},
+                                                            {"tiff", "tiff", std::string_view("MM\0*", 4)},
+                                                            {"dds", "dds", "DDS "},
+                                                            {"gif", "gif", "GIF8"},
+                                                            {"bmp", "bmp", "BM"},
+                                                            {"sgi", "rgb", "\x01\xda"},
+                                                            {"rgb", "rgb"},
+                                                            {"rgba", "rgb"},
+                                                            {"sgi", "rgb"},
+                                                            {"bw", "rgb"},
+                                                            {"int", "rgb"},
+                                                            {"inta", "rgb"},
+                                                            {"tga", "tga"},
+                                                            {"pnm", "pnm"},
+                                                            {"ppm", "pnm"},
+                                                            {"pgm", "pnm"},
+                                                            {"pbm", "pnm"},
+                                                            {"hdr", "hdr"},
+                                                            {"ktx"},
+                                                            {"pic"},
+                                                            {"attr"},
+                                                            {"webp"},
+                                                            {"pvr"}}};
+
 /// Null for a format that roam does not read.
 constexpr const Format* format_of(std::string_view extension) {
   for (const Format& format : formats) {

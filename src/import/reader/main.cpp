@@ -149,22 +149,17 @@ int run(const std::vector<std::string>& arguments) {
   rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
   rights.file_size = request.pieces ? temporary_bytes(path, memory) : 0;
-  const bool limits = limit_process(rights, stream_fd);
-  const bool empty_folder = enter_empty_folder();
-  // A list of files needs none.
+  // A list of files needs no library.
   const bool reads = !request.only_walls && !request.settings.only_list;
-  if (reads) load_libraries(path, request.display || request.pages);
-
   FrameWriter frames(stream_fd);
+  std::optional<PieceCutter> pieces;
+  const Confinement walls = confine(rights, stream_fd, request.highest_landlock, [&] {
+    if (reads) load_libraries(path, request.display || request.pages);
+    if (request.pieces) pieces.emplace(frames, memory);
+  });
   SceneFiles files(request.scope, frames);
   PartPool parts(frames, files, request.origin);
-  std::optional<PieceCutter> pieces;
-  if (request.pieces) pieces.emplace(frames, memory);
   MeshSink sink(frames, request.settings, request.display ? &parts : nullptr, pieces ? &*pieces : nullptr);
-
-  Confinement walls = enter(rights, request.highest_landlock);
-  walls.limits = limits;
-  walls.empty_folder = empty_folder;
   if (request.pages) {
     return serve_pages(frames, request.settings, request.origin, request.scope, [&] { greet(frames, walls); });
   }

@@ -30,11 +30,7 @@ constexpr std::size_t nesting_limit = 64;
 class NoImages : public osgDB::ReaderWriter {
  public:
   NoImages() {
-    for (const char* extension :
-         {"jpg", "jpeg", "jpe", "png", "tif", "tiff", "dds", "bmp", "gif", "tga", "rgb",  "rgba", "sgi",
-          "int", "inta", "bw",  "ktx", "pic", "pnm",  "ppm", "pgm", "pbm", "hdr", "attr", "webp", "pvr"}) {
-      supportsExtension(extension, "left out");
-    }
+    for (const ImageFormat& image : image_formats) supportsExtension(std::string(image.extension), "left out");
   }
   const char* className() const override { return "no images"; }
   Result readImage(const std::string&, const osgDB::Options*) const override { return Result::FILE_NOT_FOUND; }
@@ -48,9 +44,6 @@ constexpr std::array<std::string_view, 5> naming{"ive", "osg", "osgb", "osgt", "
 constexpr std::array<std::string_view, 10> class_libraries{"osg",          "osgsim",    "osgtext",    "osgfx",
                                                            "osgparticle",  "osgshadow", "osgterrain", "osgvolume",
                                                            "osganimation", "osgutil"};
-
-constexpr std::array<std::string_view, 10> image_plugins{"jpeg", "png", "tiff", "dds", "gif",
-                                                         "bmp",  "rgb", "tga",  "pnm", "hdr"};
 
 bool names_files(std::string_view extension) {
   return std::find(naming.begin(), naming.end(), extension) != naming.end();
@@ -194,7 +187,9 @@ void load_osg_plugins(const std::string& extension) {
 }
 
 void load_image_plugins() {
-  for (const std::string_view plugin : image_plugins) osg_plugins::load(plugin);
+  for (const ImageFormat& image : image_formats) {
+    if (!image.plugin.empty()) osg_plugins::load(image.plugin);
+  }
 }
 
 void close_osg_door() {

@@ -1,17 +1,7 @@
 #include "import/reader/paged_vertices.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <string>
-
-#include "import/reader/file_names.h"
-#include "roam/error.h"
+#include <span>
 
 namespace roam::reader {
 namespace {
@@ -19,35 +9,11 @@ namespace {
 /// A triangle's corners lie in three blocks, and the last block stays.
 constexpr std::uint64_t least_slots = 16;
 
-Error refused(const char* verb, int reason) {
-  return Error(fmt::format(
-      "{}: the vertices of a large scene cannot be {} there: {}. Free some space, or name a folder that has some by "
-      "the environment variable TMPDIR, or allow more memory.",
-      temporary_folder(), verb, std::strerror(reason)));
-}
-
-/// A file that has no name, and is gone when it is closed; -1 when there can be none.
-int open_unnamed_file() {
-  const std::string folder = temporary_folder();
-#ifdef O_TMPFILE
-  if (const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;
-#endif
-  std::string name = folder + "/roam-vertices-XXXXXX";
-  const int file = mkstemp(name.data());
-  if (file >= 0) unlink(name.c_str());
-  return file;
-}
-
 }  // namespace
 
 PagedVertices::PagedVertices(std::uint64_t memory)
     : slot_limit_(static_cast<std::size_t>(std::clamp<std::uint64_t>(memory / sizeof(Block), least_slots, none))),
-      file_(open_unnamed_file()),
-      why_no_file_(errno) {}
-
-PagedVertices::~PagedVertices() {
-  if (file_ >= 0) close(file_);
-}
+      file_("the vertices of a large scene") {}
 
 void PagedVertices::clear() {
   size_ = 0;
@@ -87,28 +53,13 @@ std::uint32_t PagedVertices::free_slot() {
 }
 
 void PagedVertices::write(std::uint64_t block, const Block& vertices) {
-  if (file_ < 0) throw refused("kept", why_no_file_);
-  const char* bytes = reinterpret_cast<const char*>(vertices.data());
-  for (std::size_t done = 0; done < sizeof(Block);) {
-    const ssize_t n =
-        pwrite(file_, bytes + done, sizeof(Block) - done, static_cast<off_t>(block * sizeof(Block) + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw refused("kept", errno);
-    done += static_cast<std::size_t>(n);
-  }
+  file_.write_at(block * sizeof(Block), std::as_bytes(std::span(vertices)));
   written_[block] = true;
 }
 
 std::uint32_t PagedVertices::load(std::uint64_t block) {
   const std::uint32_t slot = free_slot();
-  char* bytes = reinterpret_cast<char*>(slots_[slot].vertices->data());
-  for (std::size_t done = 0; done < sizeof(Block);) {
-    const ssize_t n =
-        pread(file_, bytes + done, sizeof(Block) - done, static_cast<off_t>(block * sizeof(Block) + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw refused("read", errno);
-    done += static_cast<std::size_t>(n);
-  }
+  file_.read_at(block * sizeof(Block), std::as_writable_bytes(std::span(*slots_[slot].vertices)));
   slots_[slot].block = block;
   slot_of_[block] = slot;
   return slot;

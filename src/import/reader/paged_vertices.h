@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "files/unnamed_file.h"
 #include "roam/math.h"
 
 namespace roam::reader {
@@ -18,7 +19,6 @@ class PagedVertices {
  public:
   /// `memory`: most bytes of vertices to hold; no less than a few blocks are.
   explicit PagedVertices(std::uint64_t memory);
-  ~PagedVertices();
   PagedVertices(const PagedVertices&) = delete;
   PagedVertices& operator=(const PagedVertices&) = delete;
 
@@ -66,8 +66,7 @@ class PagedVertices {
   std::size_t filled_slots_ = 0;
   std::size_t hand_ = 0;  ///< of the clock that finds the slot to use again
   Block* last_ = nullptr;
-  int file_;         ///< -1 when there can be none, for the reason
-  int why_no_file_;  ///< an error number
+  files::UnnamedFile file_;
 };
 
 }  // namespace roam::reader

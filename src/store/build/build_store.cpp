@@ -149,17 +149,17 @@ std::optional<Plan> plan_output(Work& work, OutputFolder& output, StoreBuildRepo
 double distance2(const Stretch& stretch, const Vec3& place) {
   double least = std::numeric_limits<double>::infinity();
   for (const CurveCell& cell : stretch.cells) {
-    constexpr CurveKey places = (CurveKey{1} << AbsoluteCurve::kClassShift) - 1;
+    constexpr CurveKey places = (CurveKey{1} << AbsoluteCurve::class_shift) - 1;
     // A cell of several size classes is one of all places.
-    const bool all = cell.bits >= AbsoluteCurve::kClassShift;
+    const bool all = cell.bits >= AbsoluteCurve::class_shift;
     const CurveKey lower = all ? 0 : cell.key & places, upper = all ? places : cell.last() & places;
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
       const auto metres = [&](CurveKey key) {
-        return AbsoluteCurve::kOrigin +
-               AbsoluteCurve::kCell * double(AbsoluteCurve::gather(key >> k & AbsoluteCurve::kAxis));
+        return AbsoluteCurve::curve_origin +
+               AbsoluteCurve::cell_size * double(AbsoluteCurve::gather(key >> k & AbsoluteCurve::axis_mask));
       };
-      const double beside = std::max({0.0, metres(lower) - place[k], place[k] - metres(upper) - AbsoluteCurve::kCell});
+      const double beside = std::max({0.0, metres(lower) - place[k], place[k] - metres(upper) - AbsoluteCurve::cell_size});
       sum += beside * beside;
     }
     least = std::min(least, sum);

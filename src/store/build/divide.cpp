@@ -10,7 +10,7 @@ namespace roam::store {
 namespace {
 
 /// Cells are refined by so many bits at a time: into 4096 at most.
-constexpr int kRefineBits = 12;
+constexpr int refine_bits = 12;
 
 int width(CurveKey x) {
   const auto high = static_cast<std::uint64_t>(x >> 64);
@@ -24,7 +24,7 @@ class Divider {
   Divider(const Refine& refine, const ShardLimits& limits) : refine_(refine), limits_(limits) {}
 
   std::vector<Stretch> run(std::vector<PartCell> cells) {
-    visit({0, kKeyBits}, cells);
+    visit({0, key_bits}, cells);
     flush();
     return std::move(out_);
   }
@@ -79,7 +79,7 @@ class Divider {
         finer.push_back(c);
         continue;
       }
-      const std::vector<PartCell> some = refine_(c.part, {c.key, c.bits}, std::max(0, c.bits - kRefineBits));
+      const std::vector<PartCell> some = refine_(c.part, {c.key, c.bits}, std::max(0, c.bits - refine_bits));
       finer.insert(finer.end(), some.begin(), some.end());
     }
     std::sort(finer.begin(), finer.end(), before);

@@ -12,7 +12,7 @@
 namespace roam::store {
 
 struct ShardLimits {
-  /// No shard holds more: what one shard takes in memory is bounded by it. A multiple of AbsoluteCurve::kTileTriangles.
+  /// No shard holds more: what one shard takes in memory is bounded by it. A multiple of AbsoluteCurve::most_tile_triangles.
   std::uint64_t shard = 1u << 20;
   /// Cells of the curve with more triangles than this share no shard with their neighbours, so that what changes in one
   /// of them moves no border of another's shards.

@@ -7,9 +7,11 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -27,27 +29,89 @@ using Json = nlohmann::ordered_json;
 
 /// Nanoseconds. A file that is changed twice within what the file system's clock can tell apart (2 s on FAT) has the
 /// same time, but not the same content.
-constexpr std::int64_t kClockSteps = 3'000'000'000;
+constexpr std::int64_t clock_steps = 3'000'000'000;
 /// Of what is remembered of files: some 100,000 of them. More is forgotten.
-constexpr std::uint64_t kSourcesMemory = 128u << 20;
+constexpr std::uint64_t sources_memory = 128u << 20;
 
-std::uint64_t hash_of_file(const fs::path& file, const std::function<void()>& tick) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const auto fail = [&] { throw Error(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno))); };
-  if (descriptor < 0) fail();
-  const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* d) { ::close(*d); });
-  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
-  XXH3_64bits_reset(state.get());
-  std::vector<std::byte> piece(1 << 20);
-  for (;;) {
-    const ssize_t got = ::read(descriptor, piece.data(), piece.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail();
-    if (got == 0) return XXH3_64bits_digest(state.get());
-    XXH3_64bits_update(state.get(), piece.data(), static_cast<std::size_t>(got));
-    tick();
+/// Bytes of holes that a file may have, and how many for each byte of it that is on the disk. A hole costs its author
+/// nothing, and whoever hashes it as much as other bytes.
+constexpr std::uint64_t kMostHoles = 16u << 20, kHolesPerByte = 16;
+
+/// Hashes a file as its bytes, those of holes without reading them.
+class FileHash {
+ public:
+  FileHash(const fs::path& file, const std::function<void()>& tick)
+      : file_(file), tick_(tick), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (!descriptor_.is_open() || ::fstat(descriptor_.number(), &status_) != 0) fail();
+    XXH3_64bits_reset(state_.get());
   }
-}
+
+  std::uint64_t digest() {
+    off_t at = 0;
+    // What comes after the size that it had is read, too: then the file is being changed.
+    for (const off_t size = status_.st_size; at < size;) {
+      const off_t data = std::min(size, next(at, SEEK_DATA, size));
+      add_hole(static_cast<std::uint64_t>(data - at));
+      const off_t end = std::min(size, next(data, SEEK_HOLE, size));
+      add_data(data, end);
+      at = end;
+    }
+    add_data(at, std::numeric_limits<off_t>::max());
+    return XXH3_64bits_digest(state_.get());
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw Error(fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
+  }
+
+  /// Where the next data or the next hole begins. A file system that does not know says that all is data.
+  off_t next(off_t from, int what, off_t size) const {
+    if (from >= size) return size;
+    const off_t found = ::lseek(descriptor_.number(), from, what);
+    if (found >= from) return found;
+    return what == SEEK_DATA && errno != ENXIO ? from : size;
+  }
+
+  void add_hole(std::uint64_t bytes) {
+    if (bytes == 0) return;
+    holes_ += bytes;
+    const std::uint64_t on_disk = 512 * static_cast<std::uint64_t>(status_.st_blocks);
+    if (holes_ > kMostHoles && (holes_ - kMostHoles) / kHolesPerByte > on_disk) {
+      throw Error(
+          fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
+                      "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
+                      file_.string(), status_.st_size, on_disk));
+    }
+    std::fill_n(piece_.begin(), std::min<std::uint64_t>(piece_.size(), bytes), std::byte{0});
+    for (std::uint64_t done = 0; done < bytes;) {
+      const std::uint64_t some = std::min<std::uint64_t>(piece_.size(), bytes - done);
+      XXH3_64bits_update(state_.get(), piece_.data(), static_cast<std::size_t>(some));
+      done += some;
+      tick_();
+    }
+  }
+
+  void add_data(off_t from, off_t end) {
+    while (from < end) {
+      const auto most = static_cast<std::size_t>(std::min<off_t>(static_cast<off_t>(piece_.size()), end - from));
+      const ssize_t got = again([&] { return ::pread(descriptor_.number(), piece_.data(), most, from); });
+      if (got < 0) fail();
+      if (got == 0) return;
+      XXH3_64bits_update(state_.get(), piece_.data(), static_cast<std::size_t>(got));
+      from += got;
+      tick_();
+    }
+  }
+
+  fs::path file_;
+  const std::function<void()>& tick_;
+  Descriptor descriptor_;
+  struct stat status_ {};
+  std::uint64_t holes_ = 0;  ///< bytes
+  std::vector<std::byte> piece_ = std::vector<std::byte>(1 << 20);
+  std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_{XXH3_createState(), XXH3_freeState};
+};
 
 /// The name of a file of a part, the same wherever the scene lies.
 std::string name_in(const ScenePart& part, const fs::path& file) {
@@ -99,11 +163,11 @@ void read_as(const std::string& text, ImportOptions& options) {
 
 Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
   if (!size_of(store_, sources_file)) return;
-  if (*size_of(store_, sources_file) > kSourcesMemory / 4) return;
-  const std::optional<std::string> text = read_coded(store_, sources_file, kSourcesMemory / 4, key_);
+  if (*size_of(store_, sources_file) > sources_memory / 4) return;
+  const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
   if (!text) return;
   try {
-    check_json(*text, sources_file, kSourcesMemory);
+    check_json(*text, sources_file, sources_memory);
   } catch (const Error&) {
     return;
   }
@@ -118,36 +182,60 @@ Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std:
   }
 }
 
-Sources::Seen Sources::status(const fs::path& file) {
+Sources::Seen Sources::status(const fs::path& file, Number* number) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
     throw Error(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
   }
+  if (number != nullptr) *number = {status.st_dev, status.st_ino};
   std::timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   return {static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim), 0,
-          ns(now) - ns(status.st_mtim) > kClockSteps};
+          ns(now) - ns(status.st_mtim) > clock_steps};
 }
 
 void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {
-  std::vector<std::pair<std::string, Seen>> files;
+  struct File {
+    std::string name;
+    Seen seen;
+    Number number;
+    bool hashed = false;
+  };
+  std::vector<File> files;
   for (const ScenePart& part : parts) {
-    for (const fs::path& file : part.files) files.push_back({fs::absolute(file).lexically_normal().string(), {}});
+    for (const fs::path& file : part.files) files.push_back({fs::absolute(file).lexically_normal().string(), {}, {}});
   }
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
-    auto& [name, seen] = files[i];
-    seen = status(name);
-    const auto known = known_.find(name);
-    if (known != known_.end() && known->second.size == seen.size && known->second.changed_ns == seen.changed_ns) {
-      seen.hash = known->second.hash;
-      seen.settled = true;
-    } else {
-      seen.hash = hash_of_file(name, tick);
+    File& file = files[i];
+    file.seen = status(file.name, &file.number);
+    const auto known = known_.find(file.name);
+    if (known != known_.end() && known->second.size == file.seen.size &&
+        known->second.changed_ns == file.seen.changed_ns) {
+      file.seen.hash = known->second.hash;
+      file.seen.settled = true;
+      file.hashed = true;
     }
     tick();
   });
-  seen_.insert(files.begin(), files.end());
+  // A file may have many names, by links of either kind: it is read once.
+  std::map<Number, std::size_t> first;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto [same, is_new] = first.emplace(files[i].number, i);
+    if (!is_new && files[i].hashed && !files[same->second].hashed) same->second = i;
+  }
+  std::vector<std::size_t> unread;
+  for (const auto& [number, i] : first) {
+    if (!files[i].hashed) unread.push_back(i);
+  }
+  tbb::parallel_for(std::size_t{0}, unread.size(), [&](std::size_t k) {
+    File& file = files[unread[k]];
+    file.seen.hash = FileHash(file.name, tick).digest();
+  });
+  for (File& file : files) {
+    if (!file.hashed) file.seen.hash = files[first.at(file.number)].seen.hash;
+    seen_.insert({std::move(file.name), file.seen});
+  }
 }
 
 std::string Sources::fingerprint(const ScenePart& part, const std::string& options) const {

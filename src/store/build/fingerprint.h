@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "roam/import.h"
 #include "roam/store.h"
@@ -30,7 +32,9 @@ class Sources {
   /// forgotten.
   Sources(Folder store, const std::optional<StoreKey>& key);
 
-  /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw.
+  /// Looks at all files of the parts, on all threads of the arena that it is called in. `tick` may throw; it is called
+  /// for each MB that is hashed. A file that several names lead to is hashed once, holes are not read. Throws
+  /// roam::Error for a file that is hardly more than a hole.
   void look(const std::vector<ScenePart>& parts, const std::function<void()>& tick);
   /// Of a part that was looked at.
   [[nodiscard]] std::string fingerprint(const ScenePart& part, const std::string& options) const;
@@ -46,7 +50,8 @@ class Sources {
     bool settled = false;  ///< it was changed long before it was looked at
     bool operator==(const Seen&) const = default;
   };
-  static Seen status(const std::filesystem::path& file);
+  using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< of a file, whatever its names: device and inode
+  static Seen status(const std::filesystem::path& file, Number* number = nullptr);
 
   Folder store_;
   std::optional<StoreKey> key_;

@@ -7,10 +7,10 @@
 namespace roam::store {
 namespace {
 
-constexpr std::size_t kMostCells = most_cells;
-constexpr std::size_t kFewCells = 256;
+constexpr std::size_t most_cells_at_once = most_cells;
+constexpr std::size_t few_cells = 256;
 /// Plans of scenes of 10^10 triangles must fit the memory of a small machine: some 100 MB of cells.
-constexpr std::uint64_t kTrianglesPerCell = 2048;
+constexpr std::uint64_t triangles_per_cell = 2048;
 
 void count(std::vector<Cell>& cells, CurveKey key, std::uint64_t triangles) {
   if (!cells.empty() && cells.back().key == key) {
@@ -26,7 +26,7 @@ CurveKey cell_of(CurveKey key, int bits) { return key >> bits << bits; }
 
 void Histogram::add(std::span<const RunItem> items) {
   std::vector<Cell> merged;
-  merged.reserve(cells_.size() + std::min(items.size(), kMostCells));
+  merged.reserve(cells_.size() + std::min(items.size(), most_cells_at_once));
   auto cell = cells_.begin();
   for (const RunItem& item : items) {
     const CurveKey key = cell_of(item.key, bits_);
@@ -35,7 +35,7 @@ void Histogram::add(std::span<const RunItem> items) {
   }
   for (; cell != cells_.end(); ++cell) count(merged, cell->key, cell->triangles);
   cells_ = std::move(merged);
-  coarsen(kMostCells);
+  coarsen(most_cells_at_once);
 }
 
 void Histogram::coarsen(std::size_t most) {
@@ -56,7 +56,7 @@ void Histogram::coarsen(std::size_t most) {
 
 void Histogram::finish(PartFile& part) {
   coarsen(
-      static_cast<std::size_t>(std::clamp<std::uint64_t>(part.triangles / kTrianglesPerCell, kFewCells, kMostCells)));
+      static_cast<std::size_t>(std::clamp<std::uint64_t>(part.triangles / triangles_per_cell, few_cells, most_cells_at_once)));
   part.cell_bits = bits_;
   part.cells = std::move(cells_);
 }

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// How many missing shards an error names.
-constexpr std::size_t kNamed = 5;
+constexpr std::size_t named = 5;
 
 /// The shards of the plan, each checked: those that were built for it to the last byte.
 std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
@@ -63,9 +63,9 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   std::size_t count = 0;
   for (std::size_t b = 0; b < built.size(); ++b) {
     if (wrong[b].empty()) continue;
-    if (++count <= kNamed) list += fmt::format("{}shard {} is {}", list.empty() ? "" : ", ", b, wrong[b]);
+    if (++count <= named) list += fmt::format("{}shard {} is {}", list.empty() ? "" : ", ", b, wrong[b]);
   }
-  if (count > kNamed) list += fmt::format(", and {} more", count - kNamed);
+  if (count > named) list += fmt::format(", and {} more", count - named);
   if (count > 0) {
     throw Error(fmt::format("cannot merge {}: {} (of {} to be built); build them, and merge again", work.store.string(),
                             list, built.size()));

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// What a shard's tiles depend on beside its triangles: goes up with every change of what the builder makes of them.
-constexpr int kBuilderVersion = 1;
+constexpr int builder_version = 1;
 
 Json json_of(const Stretch& s) {
   Json cells = Json::array();
@@ -79,7 +79,7 @@ std::string key_of(const Stretch& stretch, const Plan& plan) {
     const PartInfo& info = plan.parts[p].info;
     parts.push_back({info.name, info.fingerprint, info.file});
   }
-  const std::string text = Json{{"format", format_version}, {"builder", kBuilderVersion},  {"lossless", plan.lossless},
+  const std::string text = Json{{"format", format_version}, {"builder", builder_version},  {"lossless", plan.lossless},
                                 {"options", plan.options},  {"stretch", json_of(stretch)}, {"parts", std::move(parts)}}
                                .dump();
   return sha256(std::as_bytes(std::span(text)));

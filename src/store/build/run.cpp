@@ -17,9 +17,9 @@
 namespace roam::store {
 namespace {
 
-constexpr char kMagic[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
+constexpr char magic_number[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
 /// Blocks that are encoded, in parallel, before they are written.
-constexpr std::size_t kBlocksAtOnce = 32;
+constexpr std::size_t blocks_at_once = 32;
 
 /// What a block begins with. Then follow the vertices, 3 corners of 16 bits and a number of 32 bits of each triangle.
 struct BlockHeader {
@@ -49,11 +49,11 @@ bool all_floats(std::span<const Vec3> vertices) {
 class LocalVertices {
  public:
   void clear() {
-    slots_.assign(kSlots, {});
+    slots_.assign(slots, {});
     vertices.clear();
   }
   std::uint16_t add(std::uint32_t vertex, const std::vector<Vec3>& all) {
-    for (std::uint32_t at = vertex * 2654435761U >> (32 - kBits);; at = (at + 1) % kSlots) {
+    for (std::uint32_t at = vertex * 2654435761U >> (32 - bit_count);; at = (at + 1) % slots) {
       Slot& slot = slots_[at];
       if (slot.used && slot.vertex == vertex) return slot.place;
       if (slot.used) continue;
@@ -65,8 +65,8 @@ class LocalVertices {
   std::vector<Vec3> vertices;
 
  private:
-  static constexpr std::uint32_t kBits = 13, kSlots = 1u << kBits;
-  static_assert(kSlots > 3 * block_triangles);
+  static constexpr std::uint32_t bit_count = 13, slots = 1u << bit_count;
+  static_assert(slots > 3 * block_triangles);
   struct Slot {
     std::uint32_t vertex = 0;
     std::uint16_t place = 0;
@@ -137,9 +137,9 @@ void write_run(const Folder& store, const std::string& name, const RunContent& r
   NewFile out(store, name);
   const std::size_t blocks = (items.size() + block_triangles - 1) / block_triangles;
   std::vector<RunReader::Entry> index(blocks);
-  std::vector<std::vector<std::byte>> encoded(kBlocksAtOnce);
-  for (std::size_t first = 0; first < blocks; first += kBlocksAtOnce) {
-    const std::size_t count = std::min(kBlocksAtOnce, blocks - first);
+  std::vector<std::vector<std::byte>> encoded(blocks_at_once);
+  for (std::size_t first = 0; first < blocks; first += blocks_at_once) {
+    const std::size_t count = std::min(blocks_at_once, blocks - first);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       const std::size_t begin = (first + i) * block_triangles;
       const auto block = items.subspan(begin, std::min<std::size_t>(block_triangles, items.size() - begin));
@@ -154,7 +154,7 @@ void write_run(const Folder& store, const std::string& name, const RunContent& r
   }
   const auto index_bytes = std::as_bytes(std::span(index));
   RunReader::Footer footer{};
-  std::memcpy(footer.magic, kMagic, sizeof kMagic);
+  std::memcpy(footer.magic, magic_number, sizeof magic_number);
   footer.first_number = run.first;
   footer.index_offset = out.size();
   footer.index_hash = xxh3(index_bytes);
@@ -177,7 +177,7 @@ RunReader::RunReader(const Folder& store, const std::string& name)
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size < sizeof footer) refuse("it is too short");
   get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
-  if (std::memcmp(footer.magic, kMagic, sizeof kMagic) != 0 ||
+  if (std::memcmp(footer.magic, magic_number, sizeof magic_number) != 0 ||
       footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
       footer.blocks > size / sizeof(Entry)) {
     refuse("its end is damaged");

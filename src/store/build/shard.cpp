@@ -74,7 +74,7 @@ class ShardBuilder {
   using Cutter = index::Cutter<AbsoluteCurve, ShardItem, Reach>;
 
   static Cutter cutter(const ShardTriangles& source, const Plan& plan) {
-    return Cutter(source.items, Reach{}, AbsoluteCurve::kCell, plan.lossless);
+    return Cutter(source.items, Reach{}, AbsoluteCurve::cell_size, plan.lossless);
   }
 
   /// Each cell of the stretch by itself, each size class in it by itself.
@@ -89,8 +89,8 @@ class ShardBuilder {
     for (const CurveCell& cell : stretch.cells) {
       const std::uint32_t end = after(begin, cell.last());
       while (begin < end) {
-        const CurveCell size_class{items[begin].key >> AbsoluteCurve::kClassShift << AbsoluteCurve::kClassShift,
-                                   AbsoluteCurve::kClassShift};
+        const CurveCell size_class{items[begin].key >> AbsoluteCurve::class_shift << AbsoluteCurve::class_shift,
+                                   AbsoluteCurve::class_shift};
         const std::uint32_t middle = std::min(end, after(begin, size_class.last()));
         cutter_.cut(begin, middle, [&](std::uint32_t b, std::uint32_t e) { tiles_.push_back({b, e}); });
         begin = middle;
@@ -106,7 +106,7 @@ class ShardBuilder {
     std::vector<std::uint32_t> numbers(items.size());
     std::iota(numbers.begin(), numbers.end(), 0U);
     index::BuiltTile tile = index::build_tile(triangles, numbers, plan_.lossless);
-    if (shape_of(tile).bytes() > kTileBytes) {
+    if (shape_of(tile).bytes() > tile_bytes) {
       const std::uint32_t middle = cutter_.middle(run.begin, run.end);
       build({run.begin, middle}, out);
       build({middle, run.end}, out);

@@ -10,25 +10,25 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1u << 20;
 /// The program itself, its libraries and what an allocator keeps of what was given back.
-constexpr std::uint64_t kProgram = 48 * kMiB;
+constexpr std::uint64_t program_bytes = 48 * kMiB;
 /// A run at worst, when no triangle shares a vertex, and what sorts it.
-constexpr std::uint64_t kRun = 64 * kMiB;
+constexpr std::uint64_t run_bytes = 64 * kMiB;
 /// A shard: triangles, where they come from, their keys; and its tiles.
-constexpr std::uint64_t kShard = 136 * kMiB;
+constexpr std::uint64_t shard_bytes = 136 * kMiB;
 /// A tile that is being built.
-constexpr std::uint64_t kTile = 8 * kMiB;
+constexpr std::uint64_t tile_bytes_at_work = 8 * kMiB;
 /// What a reader should have where several read.
-constexpr std::uint64_t kReader = 160 * kMiB;
+constexpr std::uint64_t reader_bytes = 160 * kMiB;
 /// Where sorting beside reading begins.
-constexpr std::uint64_t kPlenty = 512 * kMiB;
+constexpr std::uint64_t plenty = 512 * kMiB;
 
-constexpr auto kPeriod = std::chrono::milliseconds(100);
+constexpr auto period = std::chrono::milliseconds(100);
 
 int threads_of(const StoreBuildOptions& options) {
   const int cores = tbb::info::default_concurrency();
   const int wished = options.threads > 0 ? std::min(options.threads, cores) : cores;
-  const std::uint64_t rest = options.memory - std::min(options.memory, kProgram + kShard);
-  return std::clamp(static_cast<int>(std::min<std::uint64_t>(rest / kTile, 1024)), 1, wished);
+  const std::uint64_t rest = options.memory - std::min(options.memory, program_bytes + shard_bytes);
+  return std::clamp(static_cast<int>(std::min<std::uint64_t>(rest / tile_bytes_at_work, 1024)), 1, wished);
 }
 
 const StoreBuildOptions& checked(const StoreBuildOptions& options) {
@@ -46,18 +46,18 @@ const StoreBuildOptions& checked(const StoreBuildOptions& options) {
 Work::Work(const StoreBuildOptions& o) : options(checked(o)), store(o.output), arena(threads_of(o)) {}
 
 int Work::readers(std::size_t parts) const {
-  const std::uint64_t fit = (options.memory - kProgram) / (kRun + kReader);
+  const std::uint64_t fit = (options.memory - program_bytes) / (run_bytes + reader_bytes);
   return static_cast<int>(
       std::clamp<std::uint64_t>(std::min<std::uint64_t>(fit, static_cast<std::uint64_t>(arena.max_concurrency())), 1,
                                 std::max<std::uint64_t>(1, parts)));
 }
 
 std::uint64_t Work::reader_memory(int readers) const {
-  const std::uint64_t runs = sorts_beside_reading(readers) ? 2 * kRun : kRun;
-  return (options.memory - kProgram) / static_cast<std::uint64_t>(readers) - runs;
+  const std::uint64_t runs = sorts_beside_reading(readers) ? 2 * run_bytes : run_bytes;
+  return (options.memory - program_bytes) / static_cast<std::uint64_t>(readers) - runs;
 }
 
-bool Work::sorts_beside_reading(int readers) const { return readers == 1 && options.memory >= kPlenty; }
+bool Work::sorts_beside_reading(int readers) const { return readers == 1 && options.memory >= plenty; }
 
 void Work::begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total) {
   {
@@ -79,7 +79,7 @@ void Work::tick() {
   if (!lock) return;
   const auto now = Clock::now();
   if (now < next_) return;
-  next_ = now + kPeriod;
+  next_ = now + period;
   if (!options.progress({step_, bytes_, bytes_total_, triangles_, triangles_total_, written_})) {
     cancelled_ = true;
     throw Cancelled();

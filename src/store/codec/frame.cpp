@@ -13,9 +13,9 @@ namespace roam::store {
 namespace {
 
 /// The fastest ordinary level. Six, which takes three times as long, saves 1 % of a tile.
-constexpr int kLevel = 1;
+constexpr int compression_level = 1;
 /// What flushing a stream may add to the bound for all of them together.
-constexpr std::size_t kFlushBytes = 64;
+constexpr std::size_t flush_bytes = 64;
 
 std::size_t checked(std::size_t result) {
   if (ZSTD_isError(result) != 0) throw Error(std::string("cannot compress a tile: ") + ZSTD_getErrorName(result));
@@ -46,10 +46,10 @@ void append_frame(std::vector<std::byte>& coded, std::span<const std::vector<std
   if (zstd == nullptr) throw std::bad_alloc();
   std::size_t total = 0;
   for (const auto& stream : streams) total += stream.size();
-  checked(ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, kLevel));
+  checked(ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, compression_level));
   checked(ZSTD_CCtx_setPledgedSrcSize(zstd.get(), total));
   const std::size_t begin = coded.size();
-  coded.resize(begin + ZSTD_compressBound(total) + kFlushBytes * streams.size());
+  coded.resize(begin + ZSTD_compressBound(total) + flush_bytes * streams.size());
   ZSTD_outBuffer out{coded.data() + begin, coded.size() - begin, 0};
   for (const auto& stream : streams) {
     // Flushing ends a block, and blocks have codes of their own.

@@ -13,14 +13,14 @@
 
 namespace roam::store {
 
-inline constexpr std::uint16_t kNoVertex = UINT16_MAX;
+inline constexpr std::uint16_t no_vertex = UINT16_MAX;
 
 /// A vertex of a tile, numbered by first use. 24 bytes, so that those of a tile stay in the second cache.
 ///
 /// A front that meets itself at a vertex passes it twice: once from `previous` to `after`, once from `before` to
-/// `next`. Where it passes once, `after` and `before` are kNoVertex.
+/// `next`. Where it passes once, `after` and `before` are no_vertex.
 struct FrontVertex {
-  std::array<std::uint32_t, 3> at;  ///< on the tile's grid; of fine tiles on the fine one, from -kFineSteps / 2
+  std::array<std::uint32_t, 3> at;  ///< on the tile's grid; of fine tiles on the fine one, from -fine_steps / 2
   std::uint16_t next;               ///< the front goes from here to there: a known triangle lies at its left
   std::uint16_t previous;
   std::uint16_t after;
@@ -29,9 +29,9 @@ struct FrontVertex {
   std::uint16_t place;   ///< 16 * leaf + slot in the last leaf that has the vertex
 
   /// Where the front that came from `previous` goes.
-  [[nodiscard]] std::uint16_t onward() const { return after != kNoVertex ? after : next; }
+  [[nodiscard]] std::uint16_t onward() const { return after != no_vertex ? after : next; }
   /// Where the front that goes to `next` came from.
-  [[nodiscard]] std::uint16_t backward() const { return before != kNoVertex ? before : previous; }
+  [[nodiscard]] std::uint16_t backward() const { return before != no_vertex ? before : previous; }
 };
 
 /// An edge of the front, from one vertex to its next, both in the leaf that grows. A triangle beyond it has the corners
@@ -49,7 +49,7 @@ enum class Apex : std::uint8_t {
   previous,  ///< the one before the gate
   other,     ///< named by slot or age
 };
-inline constexpr unsigned kApexes = 5;
+inline constexpr unsigned apex_stream = 5;
 
 /// What adding a triangle has come to.
 enum class Step : std::uint8_t {
@@ -66,7 +66,7 @@ class Growth {
 
   /// All of the leaf is written, but for its ids.
   void begin(std::uint32_t leaf_number, index::Leaf& leaf, index::FineLeaf* low) {
-    first_place_ = leaf_number * index::kWidth;
+    first_place_ = leaf_number * index::node_width;
     leaf_ = &leaf;
     low_ = low;
     slots_ = triangles_ = gates_ = 0;
@@ -77,10 +77,10 @@ class Growth {
   [[nodiscard]] unsigned slots() const { return slots_; }
   [[nodiscard]] std::uint16_t in_slot(unsigned slot) const { return in_slot_[slot]; }
 
-  /// The vertex's slot in the leaf; kWidth for none.
+  /// The vertex's slot in the leaf; node_width for none.
   [[nodiscard]] unsigned slot_of(std::uint16_t v) const {
     const unsigned slot = vertices_[v].place - first_place_;
-    return slot < index::kWidth ? slot : index::kWidth;
+    return slot < index::node_width ? slot : index::node_width;
   }
 
   /// The newest gate of the leaf that is still on the front; false when there is none.
@@ -100,7 +100,7 @@ class Growth {
   bool enter(std::uint16_t from, Gate& gate) {
     gate.from = from;
     gate.to = vertices_[from].next;
-    return gate.to != kNoVertex && place(gate.from, gate.from_slot) && place(gate.to, gate.to_slot);
+    return gate.to != no_vertex && place(gate.from, gate.from_slot) && place(gate.to, gate.to_slot);
   }
 
   /// Adds the triangle beyond a gate.
@@ -113,7 +113,7 @@ class Growth {
       case Apex::next:
         leave_onward(to);
         if (v.next == gate.from) {
-          v.next = from.previous = from.next = kNoVertex;
+          v.next = from.previous = from.next = no_vertex;
           return Step::closed;
         }
         if (v.before == gate.to) {
@@ -135,7 +135,7 @@ class Growth {
         }
         break;
       case Apex::other:
-        if (v.next != kNoVertex) {
+        if (v.next != no_vertex) {
           v.after = v.next;
           v.before = v.previous;
         }
@@ -162,8 +162,8 @@ class Growth {
       if (corners[c] == corners[to]) continue;
       FrontVertex& other = vertices_[corners[to]];
       if (other.next == corners[c]) {  // the triangle at the other side is known
-        other.next = kNoVertex;
-        vertices_[corners[c]].previous = kNoVertex;
+        other.next = no_vertex;
+        vertices_[corners[c]].previous = no_vertex;
       } else {
         join(corners[c], corners[to], corners[(c + 2) % 3]);
         push(slots[c], slots[to]);
@@ -176,10 +176,10 @@ class Growth {
   void finish() {
     for (int k = 0; k < 3; ++k) {
       std::uint64_t c = corners_[k];
-      if (triangles_ < index::kWidth) c |= (c & 15U) * 0x1111111111111111U << (4 * triangles_);
+      if (triangles_ < index::node_width) c |= (c & 15U) * 0x1111111111111111U << (4 * triangles_);
       leaf_->corner[k][0] = static_cast<std::uint32_t>(c);
       leaf_->corner[k][1] = static_cast<std::uint32_t>(c >> 32U);
-      for (unsigned s = slots_; s < index::kWidth; ++s) {
+      for (unsigned s = slots_; s < index::node_width; ++s) {
         leaf_->vertex[k][s] = leaf_->vertex[k][0];
         if (fine) low_->vertex[k][s] = low_->vertex[k][0];
       }
@@ -193,10 +193,10 @@ class Growth {
   bool place(std::uint16_t v, std::uint8_t& slot) {
     const unsigned known = slot_of(v);
     slot = static_cast<std::uint8_t>(known);
-    return known < index::kWidth || place_new(v, slot);
+    return known < index::node_width || place_new(v, slot);
   }
   bool place_new(std::uint16_t v, std::uint8_t& slot) {
-    if (slots_ == index::kWidth) return false;
+    if (slots_ == index::node_width) return false;
     FrontVertex& vertex = vertices_[v];
     vertex.place = static_cast<std::uint16_t>(first_place_ + slots_);
     for (int k = 0; k < 3; ++k) {
@@ -217,15 +217,15 @@ class Growth {
 
   /// The pass from `previous` ends here.
   static void leave_onward(FrontVertex& v) {
-    if (v.after == kNoVertex) v.next = kNoVertex;
+    if (v.after == no_vertex) v.next = no_vertex;
     v.previous = v.before;
-    v.after = v.before = kNoVertex;
+    v.after = v.before = no_vertex;
   }
   /// The pass to `next` ends here.
   static void leave_backward(FrontVertex& v) {
-    if (v.before == kNoVertex) v.previous = kNoVertex;
+    if (v.before == no_vertex) v.previous = no_vertex;
     v.next = v.after;
-    v.after = v.before = kNoVertex;
+    v.after = v.before = no_vertex;
   }
 
   void join(std::uint16_t from, std::uint16_t to, std::uint16_t third) {
@@ -243,8 +243,8 @@ class Growth {
   unsigned first_place_ = 0;  ///< that of the leaf's slot 0
   unsigned slots_ = 0, triangles_ = 0, gates_ = 0;
   std::array<std::uint64_t, 3> corners_{};
-  std::array<std::uint16_t, index::kWidth> in_slot_{};
-  std::array<std::uint8_t, std::size_t{3} * index::kWidth> open_{};  ///< gates: from_slot | to_slot << 4
+  std::array<std::uint16_t, index::node_width> in_slot_{};
+  std::array<std::uint8_t, std::size_t{3} * index::node_width> open_{};  ///< gates: from_slot | to_slot << 4
 };
 
 }  // namespace roam::store

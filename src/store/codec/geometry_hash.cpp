@@ -12,7 +12,7 @@ namespace roam::store {
 namespace {
 
 /// Units of the hash: the low bits of the finest grid.
-constexpr int kUnitExponent = index::kFinestExponent - 16;
+constexpr int unit_exponent = index::finest_exponent - 16;
 
 using Corner = std::array<std::uint64_t, 3>;
 
@@ -20,7 +20,7 @@ using Corner = std::array<std::uint64_t, 3>;
 
 std::uint64_t geometry_hash(const index::Tile& tile, std::span<const index::Leaf> leaves,
                             std::span<const index::FineLeaf> fine) {
-  const int shift = std::ilogb(tile.step) - kUnitExponent - 16;  // from steps / 65536 to units, never negative
+  const int shift = std::ilogb(tile.step) - unit_exponent - 16;  // from steps / 65536 to units, never negative
   Corner origin;
   for (int k = 0; k < 3; ++k) {
     const double steps = tile.origin[k] / double(tile.step);  // whole
@@ -29,8 +29,8 @@ std::uint64_t geometry_hash(const index::Tile& tile, std::span<const index::Leaf
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const index::Leaf& leaf = leaves[i];
-    std::array<Corner, index::kWidth> vertices;
-    for (int v = 0; v < index::kWidth; ++v) {
+    std::array<Corner, index::node_width> vertices;
+    for (int v = 0; v < index::node_width; ++v) {
       for (int k = 0; k < 3; ++k) {
         std::uint64_t at = std::uint64_t{leaf.vertex[k][v]} << 16;
         if (tile.fine) at += static_cast<std::uint64_t>(std::int64_t{fine[i].vertex[k][v]});

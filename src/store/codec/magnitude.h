@@ -10,21 +10,21 @@
 
 namespace roam::store {
 
-/// Numbers below kOwnClass are classes of their own. Above, each power of two is divided into four classes, and the
+/// Numbers below own_class are classes of their own. Above, each power of two is divided into four classes, and the
 /// rest of the number follows as it is: within a class all numbers are about equally frequent.
-inline constexpr std::uint32_t kOwnClass = 8;
-inline constexpr std::uint32_t kClasses = kOwnClass + (32 - 3) * 4;
+inline constexpr std::uint32_t own_class = 8;
+inline constexpr std::uint32_t class_count = own_class + (32 - 3) * 4;
 
 [[nodiscard]] inline std::uint32_t class_of(std::uint32_t number) {
-  if (number < kOwnClass) return number;
+  if (number < own_class) return number;
   const auto top = static_cast<std::uint32_t>(std::bit_width(number)) - 1;
-  return kOwnClass + (top - 3) * 4 + (number >> (top - 2) & 3U);
+  return own_class + (top - 3) * 4 + (number >> (top - 2) & 3U);
 }
 /// How many bits follow.
-[[nodiscard]] constexpr std::uint32_t bits_of(std::uint32_t c) { return c < kOwnClass ? 0 : (c - kOwnClass) / 4 + 1; }
+[[nodiscard]] constexpr std::uint32_t bits_of(std::uint32_t c) { return c < own_class ? 0 : (c - own_class) / 4 + 1; }
 /// The least number of a class.
 [[nodiscard]] constexpr std::uint32_t base_of(std::uint32_t c) {
-  return c < kOwnClass ? c : (4 + (c & 3U)) << ((c - kOwnClass) / 4 + 1);
+  return c < own_class ? c : (4 + (c & 3U)) << ((c - own_class) / 4 + 1);
 }
 
 /// Differences, small of either sign, as small numbers. Differences of 16 bits are extended to 32 first.

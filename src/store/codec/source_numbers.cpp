@@ -12,18 +12,18 @@ namespace roam::store {
 namespace {
 
 /// The letter of a number that is said in full: the part is another, or the difference takes more than 32 bits.
-constexpr std::uint32_t kJump = 255;
+constexpr std::uint32_t jump = 255;
 
-enum Stream : std::uint8_t { kParts, kLetters, kJumps, kBits, kStreams };
+enum Stream : std::uint8_t { part_stream, letter_count, jump_stream, bit_stream, stream_count };
 
-constexpr std::size_t kPartBytes = 8;
+constexpr std::size_t bytes_of_part = 8;
 
 [[noreturn]] void refuse() { throw Error("the source numbers of a tile are damaged: repair the store"); }
 
 }  // namespace
 
 std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers) {
-  std::array<std::vector<std::byte>, kStreams> streams;
+  std::array<std::vector<std::byte>, stream_count> streams;
   std::vector<std::uint64_t> parts;
   BitWriter bits;
   SourceNumber last;
@@ -32,23 +32,23 @@ std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers) {
     if (!parts.empty() && n.part == last.part && difference == static_cast<std::int32_t>(difference)) {
       const std::uint32_t z = zigzag(static_cast<std::uint32_t>(difference));
       const std::uint32_t c = class_of(z);
-      streams[kLetters].push_back(std::byte(c));
+      streams[letter_count].push_back(std::byte(c));
       bits.put(z - base_of(c), bits_of(c));
     } else {
       std::size_t part = static_cast<std::size_t>(std::find(parts.begin(), parts.end(), n.part) - parts.begin());
       if (part == parts.size()) {
         parts.push_back(n.part);
-        for (std::size_t b = 0; b < kPartBytes; ++b) streams[kParts].push_back(std::byte(n.part >> (8 * b) & 255U));
+        for (std::size_t b = 0; b < bytes_of_part; ++b) streams[part_stream].push_back(std::byte(n.part >> (8 * b) & 255U));
       }
-      streams[kLetters].push_back(std::byte(kJump));
-      append_number(streams[kJumps], part);
-      append_number(streams[kJumps], n.number);
+      streams[letter_count].push_back(std::byte(jump));
+      append_number(streams[jump_stream], part);
+      append_number(streams[jump_stream], n.number);
     }
     last = n;
   }
-  streams[kBits] = bits.finish();
+  streams[bit_stream] = bits.finish();
   std::vector<std::byte> coded;
-  for (const Stream s : {kParts, kJumps, kBits}) append_number(coded, streams[s].size());
+  for (const Stream s : {part_stream, jump_stream, bit_stream}) append_number(coded, streams[s].size());
   append_frame(coded, streams);
   return coded;
 }
@@ -61,7 +61,7 @@ std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::
   // No tile's numbers take more; so nobody makes this allocate without measure.
   const std::uint64_t most = most_number_bytes(triangles);
   const std::uint64_t size = part_bytes + triangles + jump_bytes + bit_bytes;
-  if (size > most || part_bytes % kPartBytes != 0 || !is_one_frame(coded)) refuse();
+  if (size > most || part_bytes % bytes_of_part != 0 || !is_one_frame(coded)) refuse();
   std::vector<std::byte> raw(size + 2 * sizeof(std::uint64_t));  // bits are read in words
   if (ZSTD_decompress(raw.data(), size, coded.data(), coded.size()) != size) refuse();
   const std::byte *parts = raw.data(), *letters = parts + part_bytes;
@@ -72,17 +72,17 @@ std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::
   SourceNumber last;
   for (std::uint32_t i = 0; i < triangles; ++i) {
     const auto letter = std::to_integer<std::uint32_t>(letters[i]);
-    if (letter == kJump) {
+    if (letter == jump) {
       std::uint64_t part = 0;
-      if (!read_number(jumps, 28, part) || part >= part_bytes / kPartBytes || !read_number(jumps, 64, last.number)) {
+      if (!read_number(jumps, 28, part) || part >= part_bytes / bytes_of_part || !read_number(jumps, 64, last.number)) {
         refuse();
       }
       last.part = 0;
-      for (std::size_t b = 0; b < kPartBytes; ++b) {
-        last.part |= std::to_integer<std::uint64_t>(parts[part * kPartBytes + b]) << (8 * b);
+      for (std::size_t b = 0; b < bytes_of_part; ++b) {
+        last.part |= std::to_integer<std::uint64_t>(parts[part * bytes_of_part + b]) << (8 * b);
       }
     } else {
-      if (letter >= kClasses || i == 0) refuse();
+      if (letter >= class_count || i == 0) refuse();
       const std::uint32_t mask = (1U << bits_of(letter)) - 1;
       const std::uint32_t z = base_of(letter) + (static_cast<std::uint32_t>(bits.peek()) & mask);
       bits.skip(bits_of(letter));

@@ -13,21 +13,21 @@ namespace roam::store {
 
 /// The streams, of letters of a byte each but for the last three, in their order in the frame.
 enum Stream : std::uint8_t {
-  kTree,    ///< a letter a node: its counts
-  kCounts,  ///< a letter a leaf: triangles - 1
-  kGates,   ///< three Apex a letter
-  kSeeds,   ///< a letter for each triangle without a gate in its leaf: how it is named
-  kNames,   ///< of vertices that are named by slot or age
-  kGateX,   ///< classes of differences between a vertex and its prediction beyond a gate
-  kGateY,
-  kGateZ,
-  kFreeX,  ///< the same from the vertex named before
-  kFreeY,
-  kFreeZ,
-  kNameBits,  ///< what follows the classes of ages
-  kGateBits,  ///< what follows the classes of a vertex beyond a gate: x, y, z
-  kFreeBits,
-  kStreams
+  tree_stream,    ///< a letter a node: its counts
+  count_stream,  ///< a letter a leaf: triangles - 1
+  gate_stream,   ///< three Apex a letter
+  seed_stream,   ///< a letter for each triangle without a gate in its leaf: how it is named
+  name_stream,   ///< of vertices that are named by slot or age
+  gate_x,   ///< classes of differences between a vertex and its prediction beyond a gate
+  gate_y,
+  gate_z,
+  free_x,  ///< the same from the vertex named before
+  free_y,
+  free_z,
+  name_bit_stream,  ///< what follows the classes of ages
+  gate_bit_stream,  ///< what follows the classes of a vertex beyond a gate: x, y, z
+  free_bit_stream,
+  stream_count
 };
 
 /// How many letters there are, in the order of the numbers before the frame. Those of tree and leaves are known.
@@ -42,15 +42,15 @@ struct StreamSizes {
   std::uint32_t free_bits = 0;
 };
 
-/// Letters of kSeeds: a triangle beyond a gate of an earlier leaf, by its Apex - 1; from kFreeSeed the corners of a
+/// Letters of seed_stream: a triangle beyond a gate of an earlier leaf, by its Apex - 1; from free_seed the corners of a
 /// triangle one by one, plus 1, 2, 4 for those not seen before.
-inline constexpr std::uint8_t kFreeSeed = kApexes - 1;
-inline constexpr std::uint8_t kSeedLetters = kFreeSeed + 8;
+inline constexpr std::uint8_t free_seed = apex_stream - 1;
+inline constexpr std::uint8_t seed_letters = free_seed + 8;
 
-/// Letters of kNames below kWidth: the slot in the leaf. Above: the class of the age, 0 for the newest vertex.
-inline constexpr std::uint8_t kAgeName = index::kWidth;
+/// Letters of name_stream below node_width: the slot in the leaf. Above: the class of the age, 0 for the newest vertex.
+inline constexpr std::uint8_t age_name = index::node_width;
 
 /// A tile's vertices are counted in 15 bits, its leaves' slots too.
-inline constexpr std::size_t kTileVertices = kTileBlocks * index::kWidth;
+inline constexpr std::size_t tile_vertices = tile_blocks * index::node_width;
 
 }  // namespace roam::store

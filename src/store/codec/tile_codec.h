@@ -19,7 +19,7 @@ namespace roam::store {
 
 /// How much a tile takes in memory: what its entry in the index says, and what its bytes must agree with.
 struct TileShape {
-  std::uint32_t triangles = 0;  ///< 1 to index::kTileTriangles
+  std::uint32_t triangles = 0;  ///< 1 to index::most_tile_triangles
   std::uint32_t nodes = 0;
   std::uint32_t leaves = 0;
   bool fine = false;
@@ -32,7 +32,7 @@ struct TileShape {
 };
 
 /// No tile of a store takes more memory than this; the builder divides what would.
-inline constexpr std::size_t kTileBytes = 256 << 10;
+inline constexpr std::size_t tile_bytes = 256 << 10;
 
 [[nodiscard]] TileShape shape_of(const index::BuiltTile& tile);
 
@@ -40,7 +40,7 @@ inline constexpr std::size_t kTileBytes = 256 << 10;
 /// them, into the order in which decoding brings them back, and starts each triangle with the corner that decoding
 /// gives first: what `tile` then holds is decoded bit for bit, but for the ids. In leaves of stores `ids` is the
 /// number, in the tile, of the leaf's first triangle, and id_bytes is 0; the id stream of the tile is not encoded. The
-/// tile takes no more than kTileBytes.
+/// tile takes no more than tile_bytes.
 [[nodiscard]] std::vector<std::byte> encode_tile(index::BuiltTile& tile);
 
 /// Decodes tiles. Holds all the memory that it needs from the start; one thread at a time.

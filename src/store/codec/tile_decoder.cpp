@@ -13,9 +13,9 @@ namespace roam::store {
 namespace {
 
 /// More than the streams of any tile: three classes and three times 30 bits a vertex, and what else there is.
-constexpr std::size_t kMostBytes = kTileVertices * 15 + kTileBytes;
+constexpr std::size_t most_bytes = tile_vertices * 15 + tile_bytes;
 /// How far a leaf that does not end in time reads beyond its streams.
-constexpr std::size_t kOverrun = 1024;
+constexpr std::size_t overrun = 1024;
 
 /// Letters, one after the other. Beyond the end of the stream all are zero.
 class Letters {
@@ -44,22 +44,22 @@ struct Magnitude {
 };
 constexpr auto magnitudes() {
   std::array<Magnitude, 256> table{};
-  for (std::uint32_t c = 0; c < kClasses; ++c) table[c] = {base_of(c), bits_of(c)};
+  for (std::uint32_t c = 0; c < class_count; ++c) table[c] = {base_of(c), bits_of(c)};
   return table;
 }
-constexpr std::array<Magnitude, 256> kMagnitudes = magnitudes();
+constexpr std::array<Magnitude, 256> magnitude_tables = magnitudes();
 
-/// The three Apex of a letter of kGates, three bits each, and a one above.
+/// The three Apex of a letter of gate_stream, three bits each, and a one above.
 constexpr auto apexes() {
   std::array<std::uint16_t, 256> table{};
   for (unsigned l = 0; l < 256; ++l) {
-    const unsigned known = l < kApexes * kApexes * kApexes ? l : 0;
-    table[l] = static_cast<std::uint16_t>(known % kApexes | known / kApexes % kApexes << 3U |
-                                          known / kApexes / kApexes << 6U | 1U << 9U);
+    const unsigned known = l < apex_stream * apex_stream * apex_stream ? l : 0;
+    table[l] = static_cast<std::uint16_t>(known % apex_stream | known / apex_stream % apex_stream << 3U |
+                                          known / apex_stream / apex_stream << 6U | 1U << 9U);
   }
   return table;
 }
-constexpr std::array<std::uint16_t, 256> kApexesOfLetter = apexes();
+constexpr std::array<std::uint16_t, 256> apexes_of_letter = apexes();
 
 using Place = std::array<std::uint32_t, 3>;
 
@@ -71,7 +71,7 @@ bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader 
     std::uint64_t word = bits.peek();
     for (int k = 0; k < 3; ++k) {
       if (fine && k > 0) word = bits.peek();  // three numbers of 16 bits are in one word, of 32 bits not
-      const Magnitude m = kMagnitudes[std::to_integer<std::size_t>(letters[k][i])];
+      const Magnitude m = magnitude_tables[std::to_integer<std::size_t>(letters[k][i])];
       differences[i][k] = unzigzag(m.with(word));
       word >>= m.bits;
       bits.skip(m.bits);
@@ -85,11 +85,11 @@ bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader 
 template <bool fine>
 class LeafDecoder {
  public:
-  LeafDecoder(const std::array<Letters, kStreams>& streams, BitReader name_bits, std::span<const Place> beyond_gates,
+  LeafDecoder(const std::array<Letters, stream_count>& streams, BitReader name_bits, std::span<const Place> beyond_gates,
               std::span<const Place> free, FrontVertex* vertices)
-      : gates_(streams[kGates]),
-        seeds_(streams[kSeeds]),
-        names_(streams[kNames]),
+      : gates_(streams[gate_stream]),
+        seeds_(streams[seed_stream]),
+        names_(streams[name_stream]),
         name_bits_(name_bits),
         beyond_gates_(beyond_gates),
         free_(free),
@@ -124,7 +124,7 @@ class LeafDecoder {
     if (apexes_ == 1) {
       std::uint8_t letter = 0;
       gates_.next(letter);
-      apexes_ = kApexesOfLetter[letter];
+      apexes_ = apexes_of_letter[letter];
     }
     const auto apex = static_cast<Apex>(apexes_ & 7U);
     apexes_ >>= 3U;
@@ -133,40 +133,40 @@ class LeafDecoder {
 
   Step beyond(Gate& gate, Apex apex) {
     const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to];
-    std::uint16_t v = kNoVertex;
+    std::uint16_t v = no_vertex;
     switch (apex) {
       case Apex::fresh: {
         const FrontVertex& across = vertices_[from.across];
         Place near;
         for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
         v = fresh(beyond_gates_, near);
-        return v == kNoVertex ? Step::full : growth_.add(gate, Apex::fresh, v);
+        return v == no_vertex ? Step::full : growth_.add(gate, Apex::fresh, v);
       }
       case Apex::next:
         v = to.onward();
-        return v == kNoVertex ? Step::full : growth_.add(gate, Apex::next, v);
+        return v == no_vertex ? Step::full : growth_.add(gate, Apex::next, v);
       case Apex::previous:
         v = from.backward();
-        return v == kNoVertex ? Step::full : growth_.add(gate, Apex::previous, v);
+        return v == no_vertex ? Step::full : growth_.add(gate, Apex::previous, v);
       default:
         v = named();
-        return v == kNoVertex ? Step::full : growth_.add(gate, Apex::other, v);
+        return v == no_vertex ? Step::full : growth_.add(gate, Apex::other, v);
     }
   }
 
   /// A triangle that no gate of the leaf leads to.
   Step seed(Gate& gate) {
     std::uint8_t letter = 0;
-    if (!seeds_.next(letter) || letter >= kSeedLetters) return Step::full;
-    if (letter < kFreeSeed) {
+    if (!seeds_.next(letter) || letter >= seed_letters) return Step::full;
+    if (letter < free_seed) {
       const std::uint16_t from = named();
-      if (from == kNoVertex || !growth_.enter(from, gate)) return Step::full;
+      if (from == no_vertex || !growth_.enter(from, gate)) return Step::full;
       return beyond(gate, static_cast<Apex>(letter + 1));
     }
     std::array<std::uint16_t, 3> corners;
     for (unsigned c = 0; c < 3; ++c) {
-      corners[c] = ((letter - kFreeSeed) >> c & 1U) != 0 ? fresh(free_, last_) : named();
-      if (corners[c] == kNoVertex) return Step::full;
+      corners[c] = ((letter - free_seed) >> c & 1U) != 0 ? fresh(free_, last_) : named();
+      if (corners[c] == no_vertex) return Step::full;
       last_ = vertices_[corners[c]].at;
     }
     return growth_.add(corners);
@@ -175,23 +175,23 @@ class LeafDecoder {
   /// A vertex by slot or age.
   std::uint16_t named() {
     std::uint8_t letter = 0;
-    if (!names_.next(letter)) return kNoVertex;
-    if (letter < kAgeName) return letter < growth_.slots() ? growth_.in_slot(letter) : kNoVertex;
-    const Magnitude m = kMagnitudes[letter - kAgeName];
+    if (!names_.next(letter)) return no_vertex;
+    if (letter < age_name) return letter < growth_.slots() ? growth_.in_slot(letter) : no_vertex;
+    const Magnitude m = magnitude_tables[letter - age_name];
     const std::uint32_t age = m.with(name_bits_.peek());
     name_bits_.skip(m.bits);
-    return age < count_ ? static_cast<std::uint16_t>(count_ - 1 - age) : kNoVertex;
+    return age < count_ ? static_cast<std::uint16_t>(count_ - 1 - age) : no_vertex;
   }
 
   std::uint16_t fresh(std::span<const Place>& differences, const Place& near) {
-    if (differences.empty()) return kNoVertex;
+    if (differences.empty()) return no_vertex;
     FrontVertex& v = vertices_[count_];
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t at = near[k] + differences.front()[k];
       v.at[k] = fine ? at : at & 0xffffU;
     }
     differences = differences.subspan(1);
-    v.next = v.previous = v.after = v.before = v.across = v.place = kNoVertex;
+    v.next = v.previous = v.after = v.before = v.across = v.place = no_vertex;
     return static_cast<std::uint16_t>(count_++);
   }
 
@@ -210,9 +210,9 @@ class LeafDecoder {
 struct TileDecoder::State {
   ZSTD_DCtx* zstd = ZSTD_createDCtx();
   TreeBuilder tree;
-  std::array<std::byte, kMostBytes + kOverrun> raw;
-  std::array<FrontVertex, kTileVertices> vertices;
-  std::array<Place, kTileVertices> differences;
+  std::array<std::byte, most_bytes + overrun> raw;
+  std::array<FrontVertex, tile_vertices> vertices;
+  std::array<Place, tile_vertices> differences;
 
   State() : raw{} {
     if (zstd == nullptr) throw std::bad_alloc();
@@ -222,7 +222,7 @@ struct TileDecoder::State {
   ~State() { ZSTD_freeDCtx(zstd); }
 
   template <bool fine>
-  const char* leaves(const std::array<Letters, kStreams>& streams, const StreamSizes& sizes,
+  const char* leaves(const std::array<Letters, stream_count>& streams, const StreamSizes& sizes,
                      std::span<index::Leaf> leaves, index::FineLeaf* low, std::uint32_t triangles) {
     const std::span<Place> beyond_gates{differences.data(), sizes.gate_vertices};
     const std::span<Place> free{differences.data() + sizes.gate_vertices, sizes.free_vertices};
@@ -230,16 +230,16 @@ struct TileDecoder::State {
     const auto places = [&streams](Stream x) {
       return std::array<const std::byte*, 3>{streams[x].at(), streams[x + 1].at(), streams[x + 2].at()};
     };
-    if (!read_differences<fine>(places(kGateX), bits(kGateBits), beyond_gates) ||
-        !read_differences<fine>(places(kFreeX), bits(kFreeBits), free)) {
+    if (!read_differences<fine>(places(gate_x), bits(gate_bit_stream), beyond_gates) ||
+        !read_differences<fine>(places(free_x), bits(free_bit_stream), free)) {
       return "its vertices are damaged";
     }
-    LeafDecoder<fine> decoder(streams, bits(kNameBits), beyond_gates, free, vertices.data());
-    Letters counts = streams[kCounts];
+    LeafDecoder<fine> decoder(streams, bits(name_bit_stream), beyond_gates, free, vertices.data());
+    Letters counts = streams[count_stream];
     std::uint32_t done = 0;
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
       std::uint8_t letter = 0;
-      if (!counts.next(letter) || letter >= index::kWidth) return "a leaf has a wrong number of triangles";
+      if (!counts.next(letter) || letter >= index::node_width) return "a leaf has a wrong number of triangles";
       leaves[i].id_bytes = 0;
       leaves[i].ids = done;
       done += letter + 1U;
@@ -255,8 +255,8 @@ TileDecoder::~TileDecoder() = default;
 
 const char* TileDecoder::decode(std::span<const std::byte> coded, const TileShape& shape, std::span<std::byte> out) {
   State& s = *state_;
-  if (shape.triangles < 1 || shape.triangles > index::kTileTriangles || shape.nodes < 1 || shape.leaves < 1 ||
-      shape.nodes > kTileBlocks || shape.leaves > kTileBlocks || shape.bytes() > kTileBytes ||
+  if (shape.triangles < 1 || shape.triangles > index::most_tile_triangles || shape.nodes < 1 || shape.leaves < 1 ||
+      shape.nodes > tile_blocks || shape.leaves > tile_blocks || shape.bytes() > tile_bytes ||
       out.size() < shape.bytes()) {
     return "no tile has this shape";
   }
@@ -268,19 +268,19 @@ const char* TileDecoder::decode(std::span<const std::byte> coded, const TileShap
     *number = static_cast<std::uint32_t>(value);
   }
   const std::size_t vertex_count = std::size_t{n.gate_vertices} + n.free_vertices;
-  if (vertex_count > shape.leaves * index::kWidth) return "it has more vertices than its leaves hold";
-  const std::array<std::size_t, kStreams> sizes{
+  if (vertex_count > shape.leaves * index::node_width) return "it has more vertices than its leaves hold";
+  const std::array<std::size_t, stream_count> sizes{
       shape.nodes,     shape.leaves,    n.gates,         n.seeds,         n.names,     n.gate_vertices, n.gate_vertices,
       n.gate_vertices, n.free_vertices, n.free_vertices, n.free_vertices, n.name_bits, n.gate_bits,     n.free_bits};
   std::size_t expected = 0;
   for (const std::size_t size : sizes) expected += size;
-  if (expected > kMostBytes || !is_one_frame(coded) ||
-      ZSTD_decompressDCtx(s.zstd, s.raw.data(), kMostBytes, coded.data(), coded.size()) != expected) {
+  if (expected > most_bytes || !is_one_frame(coded) ||
+      ZSTD_decompressDCtx(s.zstd, s.raw.data(), most_bytes, coded.data(), coded.size()) != expected) {
     return "its bytes are damaged";
   }
-  std::array<Letters, kStreams> streams;
+  std::array<Letters, stream_count> streams;
   const std::byte* at = s.raw.data();
-  for (int i = 0; i < kStreams; ++i) {
+  for (int i = 0; i < stream_count; ++i) {
     streams[i] = Letters(at, sizes[i]);
     at += sizes[i];
   }

@@ -10,20 +10,20 @@
 namespace roam::store {
 namespace {
 
-using index::kWidth;
+using index::node_width;
 using Place = std::array<std::uint32_t, 3>;
 
 /// The numbers of the vertices seen so far, by place.
 class VertexTable {
  public:
-  explicit VertexTable(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices), kNoVertex) {}
+  explicit VertexTable(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices), no_vertex) {}
 
   /// Where the number of this place is, or is to be written.
   std::uint16_t& find(const Place& at, const FrontVertex* vertices) {
     std::uint64_t h = (at[0] * 0x9e3779b97f4a7c15U) ^ (at[1] * 0xc2b2ae3d27d4eb4fU) ^ (at[2] * 0x165667b19e3779f9U);
     for (h ^= h >> 29U;; ++h) {
       std::uint16_t& slot = slots_[h & (slots_.size() - 1)];
-      if (slot == kNoVertex || vertices[slot].at == at) return slot;
+      if (slot == no_vertex || vertices[slot].at == at) return slot;
     }
   }
 
@@ -35,11 +35,11 @@ class VertexTable {
 struct Source {
   int triangles = 0;
   std::uint32_t undone = 0;                                 ///< a bit a triangle
-  std::array<std::array<std::uint8_t, 3>, kWidth> corners;  ///< slots
-  std::array<Place, kWidth> places;
-  std::array<std::uint16_t, kWidth> numbers;  ///< of the vertices, kNoVertex for those not seen before
-  std::array<std::array<std::uint8_t, kWidth>, kWidth> beyond;  ///< the triangle with an edge from .. to, kWidth: none
-  std::array<std::uint8_t, kWidth> slot;                        ///< of the source, for each of the leaf that grows
+  std::array<std::array<std::uint8_t, 3>, node_width> corners;  ///< slots
+  std::array<Place, node_width> places;
+  std::array<std::uint16_t, node_width> numbers;  ///< of the vertices, no_vertex for those not seen before
+  std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< the triangle with an edge from .. to, node_width: none
+  std::array<std::uint8_t, node_width> slot;                        ///< of the source, for each of the leaf that grows
 
   /// The slot of the corner of a triangle with an edge from .. to that is not on it.
   [[nodiscard]] unsigned third(int t, unsigned from, unsigned to) const {
@@ -53,12 +53,12 @@ class TileEncoder {
  public:
   explicit TileEncoder(index::BuiltTile& tile)
       : tile_(tile),
-        vertices_(std::make_unique_for_overwrite<FrontVertex[]>(tile.leaves.size() * kWidth)),
-        table_(tile.leaves.size() * kWidth),
+        vertices_(std::make_unique_for_overwrite<FrontVertex[]>(tile.leaves.size() * node_width)),
+        table_(tile.leaves.size() * node_width),
         growth_(vertices_.get()) {}
 
   std::vector<std::byte> run() {
-    visit_depth_first(tile_.nodes, 0, [&](const index::Node& n) { put(kTree, node_letter(n)); });
+    visit_depth_first(tile_.nodes, 0, [&](const index::Node& n) { put(tree_stream, node_letter(n)); });
     for (std::uint32_t i = 0; i < tile_.leaves.size(); ++i) encode_leaf(i);
     while (apexes_ % 3 != 0) put_apex(Apex::none);
     return pack();
@@ -68,8 +68,8 @@ class TileEncoder {
   void put(int stream, std::uint32_t letter) { streams_[stream].push_back(std::byte(letter)); }
 
   void put_apex(Apex apex) {
-    static constexpr std::array<unsigned, 3> factors{1, kApexes, kApexes * kApexes};
-    auto& letters = streams_[kGates];
+    static constexpr std::array<unsigned, 3> factors{1, apex_stream, apex_stream * apex_stream};
+    auto& letters = streams_[gate_stream];
     if (apexes_ % 3 == 0) letters.push_back(std::byte{0});
     letters.back() = std::byte(std::to_integer<unsigned>(letters.back()) + unsigned(apex) * factors[apexes_ % 3]);
     ++apexes_;
@@ -85,7 +85,7 @@ class TileEncoder {
     const index::Leaf& leaf = tile_.leaves[i];
     s.triangles = leaf.triangle_count;
     s.undone = (1U << s.triangles) - 1;
-    for (auto& row : s.beyond) row.fill(kWidth);
+    for (auto& row : s.beyond) row.fill(node_width);
     std::uint32_t used = 0;
     for (int t = s.triangles; t-- > 0;) {
       for (int c = 0; c < 3; ++c) s.corners[t][c] = static_cast<std::uint8_t>(leaf.vertex_of(c, t));
@@ -94,7 +94,7 @@ class TileEncoder {
         used |= 1U << s.corners[t][c];
       }
     }
-    for (int v = 0; v < kWidth; ++v) {
+    for (int v = 0; v < node_width; ++v) {
       if ((used >> v & 1U) == 0) continue;
       for (int k = 0; k < 3; ++k) {
         s.places[v][k] = leaf.vertex[k][v];
@@ -115,8 +115,8 @@ class TileEncoder {
     leaf.id_bytes = old.id_bytes;
     leaf.ids = old.ids;
     growth_.begin(i, leaf, fine ? &tile_.fine_leaves[i] : nullptr);
-    put(kCounts, static_cast<std::uint32_t>(s.triangles) - 1);
-    std::array<std::uint8_t, kWidth> order{};
+    put(count_stream, static_cast<std::uint32_t>(s.triangles) - 1);
+    std::array<std::uint8_t, node_width> order{};
     Gate gate{};
     Step step = Step::closed;
     while (growth_.triangles() < static_cast<unsigned>(s.triangles)) {
@@ -124,7 +124,7 @@ class TileEncoder {
       if (step == Step::open || growth_.pop(gate)) {
         const unsigned to = s.slot[gate.to_slot], from = s.slot[gate.from_slot];
         t = s.beyond[to][from];
-        if (t == kWidth || (s.undone >> t & 1U) == 0) {
+        if (t == node_width || (s.undone >> t & 1U) == 0) {
           put_apex(Apex::none);
           step = Step::closed;
           continue;
@@ -147,7 +147,7 @@ class TileEncoder {
   /// How the third corner of the triangle beyond a gate is named.
   Apex apex(const Source& s, unsigned third, std::uint16_t from, std::uint16_t to) {
     const std::uint16_t v = s.numbers[third];
-    if (v == kNoVertex) return Apex::fresh;
+    if (v == no_vertex) return Apex::fresh;
     if (v == vertices_[to].onward()) return Apex::next;
     if (v == vertices_[from].backward()) return Apex::previous;
     return Apex::other;
@@ -159,7 +159,7 @@ class TileEncoder {
       const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
       Place near;
       for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
-      put_fresh(s, third, kGateX, near);
+      put_fresh(s, third, gate_x, near);
     } else if (how == Apex::other) {
       put_name(s.numbers[third]);
     }
@@ -170,22 +170,22 @@ class TileEncoder {
 
   /// A triangle that no gate of the leaf leads to. Returns which.
   int seed(Source& s, Gate& gate, Step& step) {
-    int best = kWidth, first = 0, age = INT32_MAX;
+    int best = node_width, first = 0, age = INT32_MAX;
     for (int t = 0; t < s.triangles; ++t) {
       if ((s.undone >> t & 1U) == 0) continue;
       for (int c = 0; c < 3; ++c) {
         const std::uint16_t to = s.numbers[s.corners[t][c]], from = s.numbers[s.corners[t][(c + 1) % 3]];
-        if (to == kNoVertex || from == kNoVertex || vertices_[from].next != to || count_ - from >= age) continue;
+        if (to == no_vertex || from == no_vertex || vertices_[from].next != to || count_ - from >= age) continue;
         age = count_ - from;
         best = t;
         first = c;
       }
     }
-    if (best < kWidth) {
+    if (best < node_width) {
       const unsigned to = s.corners[best][first], from = s.corners[best][(first + 1) % 3];
       const unsigned third = s.corners[best][(first + 2) % 3];
       const Apex how = apex(s, third, s.numbers[from], s.numbers[to]);
-      put(kSeeds, static_cast<std::uint32_t>(how) - 1);
+      put(seed_stream, static_cast<std::uint32_t>(how) - 1);
       put_name(s.numbers[from]);
       growth_.enter(s.numbers[from], gate);
       s.slot[gate.from_slot] = static_cast<std::uint8_t>(from);
@@ -214,7 +214,7 @@ class TileEncoder {
   static std::uint32_t fresh_corners(const Source& s, int t, int first) {
     std::uint32_t count = 0, which = 0;
     for (int c = 0; c < 3; ++c) {
-      const bool fresh = s.numbers[s.corners[t][(first + c) % 3]] == kNoVertex;
+      const bool fresh = s.numbers[s.corners[t][(first + c) % 3]] == no_vertex;
       count += fresh ? 1 : 0;
       which |= fresh ? 4U >> c : 0U;
     }
@@ -222,22 +222,22 @@ class TileEncoder {
   }
 
   void put_free(Source& s, int t, int first) {
-    const std::size_t letter = streams_[kSeeds].size();
-    put(kSeeds, 0);
+    const std::size_t letter = streams_[seed_stream].size();
+    put(seed_stream, 0);
     std::uint32_t mask = 0;
     std::array<std::uint16_t, 3> corners;
     for (int c = 0; c < 3; ++c) {
       const unsigned slot = s.corners[t][(first + c) % 3];
-      if (s.numbers[slot] == kNoVertex) {
+      if (s.numbers[slot] == no_vertex) {
         mask |= 1U << c;
-        put_fresh(s, slot, kFreeX, last_);
+        put_fresh(s, slot, free_x, last_);
       } else {
         put_name(s.numbers[slot]);
       }
       corners[c] = s.numbers[slot];
       last_ = vertices_[corners[c]].at;
     }
-    streams_[kSeeds][letter] = std::byte(kFreeSeed + mask);
+    streams_[seed_stream][letter] = std::byte(free_seed + mask);
     growth_.add(corners);
     for (int c = 0; c < 3; ++c) s.slot[growth_.slot_of(corners[c])] = s.corners[t][(first + c) % 3];
   }
@@ -247,37 +247,37 @@ class TileEncoder {
     for (int k = 0; k < 3; ++k) {
       std::uint32_t difference = at[k] - near[k];
       if (!fine) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
-      put_magnitude(stream + k, 0, zigzag(difference), stream == kGateX ? gate_bits_ : free_bits_);
+      put_magnitude(stream + k, 0, zigzag(difference), stream == gate_x ? gate_bits_ : free_bits_);
     }
     // Before it counts as seen: the table finds the free slot of its place.
     std::uint16_t& number = table_.find(at, vertices_.get());
     number = static_cast<std::uint16_t>(count_);
     s.numbers[slot] = number;
-    vertices_[count_++] = {at, kNoVertex, kNoVertex, kNoVertex, kNoVertex, kNoVertex, kNoVertex};
+    vertices_[count_++] = {at, no_vertex, no_vertex, no_vertex, no_vertex, no_vertex, no_vertex};
   }
 
   void put_name(std::uint16_t vertex) {
-    if (const unsigned slot = growth_.slot_of(vertex); slot < kWidth) {
-      put(kNames, slot);
+    if (const unsigned slot = growth_.slot_of(vertex); slot < node_width) {
+      put(name_stream, slot);
     } else {
-      put_magnitude(kNames, kAgeName, static_cast<std::uint32_t>(count_ - 1 - vertex), name_bits_);
+      put_magnitude(name_stream, age_name, static_cast<std::uint32_t>(count_ - 1 - vertex), name_bits_);
     }
   }
 
   /// The ids of a leaf after its triangles have been put into this order.
   void reorder_ids(const index::Leaf& leaf, std::span<const std::uint8_t> order) {
-    std::array<std::uint8_t, std::size_t{4} * kWidth> ids;
+    std::array<std::uint8_t, std::size_t{4} * node_width> ids;
     std::uint8_t* at = tile_.ids.data() + leaf.ids + 4;
     std::copy_n(at, leaf.id_bytes * order.size(), ids.begin());
     for (const std::uint8_t t : order) at = std::copy_n(ids.begin() + t * leaf.id_bytes, leaf.id_bytes, at);
   }
 
   std::vector<std::byte> pack() {
-    streams_[kNameBits] = name_bits_.finish();
-    streams_[kGateBits] = gate_bits_.finish();
-    streams_[kFreeBits] = free_bits_.finish();
+    streams_[name_bit_stream] = name_bits_.finish();
+    streams_[gate_bit_stream] = gate_bits_.finish();
+    streams_[free_bit_stream] = free_bits_.finish();
     std::vector<std::byte> coded;
-    for (const int s : {kGates, kSeeds, kNames, kGateX, kFreeX, kNameBits, kGateBits, kFreeBits}) {
+    for (const int s : {gate_stream, seed_stream, name_stream, gate_x, free_x, name_bit_stream, gate_bit_stream, free_bit_stream}) {
       append_number(coded, streams_[s].size());
     }
     append_frame(coded, streams_);
@@ -292,13 +292,13 @@ class TileEncoder {
   std::size_t apexes_ = 0;
   Place last_{};
   BitWriter name_bits_, gate_bits_, free_bits_;
-  std::array<std::vector<std::byte>, kStreams> streams_;
+  std::array<std::vector<std::byte>, stream_count> streams_;
 };
 
 }  // namespace
 
 std::vector<std::byte> encode_tile(index::BuiltTile& tile) {
-  if (shape_of(tile).bytes() > kTileBytes) {
+  if (shape_of(tile).bytes() > tile_bytes) {
     throw Error("a tile takes more memory than a store allows: it must be divided before it is encoded");
   }
   return tile.tile.fine ? TileEncoder<true>(tile).run() : TileEncoder<false>(tile).run();

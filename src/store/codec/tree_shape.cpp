@@ -7,7 +7,7 @@
 
 namespace roam::store {
 
-using index::kWidth;
+using index::node_width;
 using index::Leaf;
 using index::Node;
 using index::StepBox;
@@ -18,14 +18,14 @@ struct Counts {
   std::uint8_t children, inner;
 };
 constexpr auto counts_of_letters() {
-  std::array<Counts, kWidth*(kWidth + 3) / 2> table{};
+  std::array<Counts, node_width*(node_width + 3) / 2> table{};
   std::size_t letter = 0;
-  for (std::uint8_t children = 1; children <= kWidth; ++children) {
+  for (std::uint8_t children = 1; children <= node_width; ++children) {
     for (std::uint8_t inner = 0; inner <= children; ++inner) table[letter++] = {children, inner};
   }
   return table;
 }
-constexpr auto kCountsOfLetters = counts_of_letters();
+constexpr auto letter_counts = counts_of_letters();
 
 /// Eight numbers of one vector register, by the extension that GCC and Clang share. Signed: the oldest vector units of
 /// the x86 have a minimum of signed 16-bit numbers only.
@@ -72,12 +72,12 @@ const char* TreeBuilder::topology(std::span<const std::byte> letters, std::span<
     const std::uint16_t at = open_[--open];
     const std::uint8_t depth = depth_[at];
     const auto number = std::to_integer<std::size_t>(letter);
-    if (number >= kCountsOfLetters.size()) return "a node has a wrong number of children";
-    const std::uint32_t children = kCountsOfLetters[number].children, inner = kCountsOfLetters[number].inner;
+    if (number >= letter_counts.size()) return "a node has a wrong number of children";
+    const std::uint32_t children = letter_counts[number].children, inner = letter_counts[number].inner;
     if (next_node + inner > nodes.size() || next_leaf + children - inner > leaves) {
       return "its tree has more children than it has room for";
     }
-    if (inner > 0 && depth >= index::kMaxDepth) return "its tree is too deep";
+    if (inner > 0 && depth >= index::max_depth) return "its tree is too deep";
     Node& node = nodes[at];
     node = {};
     node.child_count = static_cast<std::uint8_t>(children);
@@ -95,7 +95,7 @@ const char* TreeBuilder::topology(std::span<const std::byte> letters, std::span<
 }
 
 void TreeBuilder::refit(std::span<Node> nodes, std::span<const Leaf> leaves) {
-  std::array<StepBox, kWidth> children;
+  std::array<StepBox, node_width> children;
   for (std::size_t i = nodes.size(); i-- > 0;) {
     Node& node = nodes[i];
     for (std::uint32_t c = 0; c < node.inner_count; ++c) children[c] = boxes_[node.first_node + c];

@@ -14,7 +14,7 @@
 namespace roam::store {
 
 /// A tile has fewer blocks than this.
-inline constexpr std::size_t kTileBlocks = kTileBytes / sizeof(index::Block);
+inline constexpr std::size_t tile_blocks = tile_bytes / sizeof(index::Block);
 
 /// The counts of a node as one letter: pairs (children, inner children) numbered through.
 [[nodiscard]] inline std::uint8_t node_letter(const index::Node& node) {
@@ -27,7 +27,7 @@ class TreeBuilder {
  public:
   /// Makes the nodes, all but their boxes. They come as collapse() makes them: node after node, depth first, takes the
   /// next numbers for its inner children and for its leaves. Returns null, or why these letters are no tree of exactly
-  /// as many nodes and leaves, no deeper than index::kMaxDepth.
+  /// as many nodes and leaves, no deeper than index::max_depth.
   [[nodiscard]] const char* topology(std::span<const std::byte> letters, std::span<index::Node> nodes,
                                      std::size_t leaves);
 
@@ -35,9 +35,9 @@ class TreeBuilder {
   void refit(std::span<index::Node> nodes, std::span<const index::Leaf> leaves);
 
  private:
-  std::array<std::uint16_t, kTileBlocks> open_;  ///< nodes to visit
-  std::array<std::uint8_t, kTileBlocks> depth_;
-  std::array<index::StepBox, kTileBlocks> boxes_;
+  std::array<std::uint16_t, tile_blocks> open_;  ///< nodes to visit
+  std::array<std::uint8_t, tile_blocks> depth_;
+  std::array<index::StepBox, tile_blocks> boxes_;
 };
 
 /// The order in which topology() visits the nodes of a tile that was built.

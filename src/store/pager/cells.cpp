@@ -61,7 +61,7 @@ void visit_cells(const TileEntry& t, const Cube& cube, int order, const Look& lo
   for (int i = 0; i < 8; ++i) visit_cells(t, cube.part(i ^ order), order, look, visit);
 }
 
-constexpr Cube kAll{0, 0, 0, mask_cells};
+constexpr Cube all_cells{0, 0, 0, mask_cells};
 
 }  // namespace
 
@@ -77,7 +77,7 @@ MetCells sweep_cells(const TileEntry& tile, const index::Piece& piece, double un
   int backwards = 0;
   for (int k = 0; k < 3; ++k) backwards |= piece.motion[k] < 0.0 ? 1 << k : 0;
   visit_cells(
-      tile, kAll, backwards,
+      tile, all_cells, backwards,
       [&](const Box& box) {
         const Interval when = way.meets(box);
         return !when.empty() && when.begin <= met.time;
@@ -93,7 +93,8 @@ void near_cells(const TileEntry& tile, const index::Piece& piece, TriangleId bas
   int far_side = 0;
   for (int k = 0; k < 3; ++k) far_side |= piece.start[k] > 0.5 * (tile.lower[k] + tile.upper[k]) ? 1 << k : 0;
   visit_cells(
-      tile, kAll, far_side, [&](const Box& box) { return !way_around(piece, collector.reach()).meets(box).empty(); },
+      tile, all_cells, far_side,
+      [&](const Box& box) { return !way_around(piece, collector.reach()).meets(box).empty(); },
       [&](const Cells& cells) {
         if (!collector.takes_unknown(cells.box, piece.body.radius, Pager::margin)) return;
         collector.offer(near_box(cells.box, piece, base + cells.first * unknown::sides), Pager::margin);

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "roam/pager.h"
+#include "store/pager/paged_item.h"
 #include "store/pager/residents.h"
-#include "store/pager/thing.h"
+#include "store/pager/tracked_body.h"
 
 namespace roam::paging {
 
@@ -43,14 +44,14 @@ class Queue {
 struct Message {
   enum class Kind : std::uint8_t { come, go, failed };
   Kind kind = Kind::come;
-  Thing thing;
+  PagedItem item;
   std::uint32_t unit = 0;  ///< of a tile that comes
   PageInMemory page;       ///< that comes
 };
 
-/// What became of a thing that was to go.
+/// What became of a item that was to go.
 struct Gone {
-  Thing thing;
+  PagedItem item;
   bool kept = false;  ///< too near to the body
 };
 
@@ -58,15 +59,15 @@ struct Handover {
   static constexpr std::size_t capacity = 1024, most_loaders = 16;
 
   std::mutex mutex;
-  Traveller traveller;
+  TrackedBody tracked;
   std::uint64_t told = 0;  ///< how often update() told of a body
   Queue<Message> messages{capacity};
   Queue<Gone> gone{capacity};
   PagerStats stats;      ///< but for last_failure
-  double latency = 0.0;  ///< seconds from the beginning of a read until the thing is ready: the worst of late
+  double latency = 0.0;  ///< seconds from the beginning of a read until the item is ready: the worst of late
   std::array<Clock::time_point, most_loaders> reading_since{};  ///< by loading thread; 0 where it does not read
   struct {
-    Thing thing;
+    PagedItem item;
     Box box;
     const char* why = nullptr;  ///< null: none yet
   } last_failure;

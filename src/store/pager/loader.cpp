@@ -34,7 +34,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 struct Loaders::Tools {
   store::TileDecoder decoder;
-  alignas(128) std::byte coded[store::kTileBytes];
+  alignas(128) std::byte coded[store::tile_bytes];
 };
 
 Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover,
@@ -96,7 +96,7 @@ void Loaders::run(int number) {
 Outcome Loaders::load(const Work& work, Tools& tools) noexcept {
   Outcome outcome;
   try {
-    outcome.why = work.thing.is_page() ? load_page(work, outcome) : load_tile(work, tools, outcome);
+    outcome.why = work.item.is_page() ? load_page(work, outcome) : load_tile(work, tools, outcome);
   } catch (const std::bad_alloc&) {
     outcome.why = "there is no memory left to read it";
   } catch (const std::exception& error) {
@@ -120,7 +120,7 @@ const char* Loaders::Reasons::keep(const char* text) noexcept {
 
 const char* Loaders::read(const Work& work, std::span<std::byte> out, Outcome& outcome) const {
   const Store::State& s = store_->state();
-  const Store::State::Page& page = s.pages[work.thing.page];
+  const Store::State::Page& page = s.pages[work.item.page];
   const std::uint64_t offset = work.entry ? work.entry->offset : page.ref.offset;
   const std::uint64_t hash = work.entry ? work.entry->hash : page.ref.hash;
   const auto begin = Clock::now();
@@ -144,7 +144,7 @@ const char* Loaders::load_tile(const Work& work, Tools& tools, Outcome& outcome)
 
 const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   const Store::State& s = store_->state();
-  const Store::State::Page& page = s.pages[work.thing.page];
+  const Store::State::Page& page = s.pages[work.item.page];
   std::byte* const memory = arena_ + work.unit * unit_bytes;
   const std::span<std::byte> bytes(memory, page.ref.bytes);
   if (const char* problem = read(work, bytes, outcome)) return problem;
@@ -163,7 +163,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
     tile.error = entry.error;
     tile.fine_error = entry.fine_error;
     tile.fine = entry.fine != 0;
-    tile.nodes = index::Tile::kAbsent;
+    tile.nodes = index::Tile::absent_leaf;
     new (tiles + i * sizeof(index::Tile)) index::Tile(tile);
   }
   std::byte* const states = tiles + in.view.tiles.size() * sizeof(index::Tile);

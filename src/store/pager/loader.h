@@ -19,7 +19,7 @@ namespace roam::paging {
 class Loaders {
  public:
   /// Bytes that one thread needs.
-  static constexpr std::size_t cost = store::kTileBytes + (1 << 20);
+  static constexpr std::size_t cost = store::tile_bytes + (1 << 20);
 
   /// Throws roam::Error where a thread cannot be started.
   Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover, Names& names,

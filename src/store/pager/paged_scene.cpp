@@ -8,7 +8,7 @@
 namespace roam::paging {
 namespace {
 
-static_assert(index::kTileTriangleBits == store::triangle_bits);
+static_assert(index::tile_triangle_bits == store::triangle_bits);
 
 /// What a traversal of one page asks of the tiles that are not there.
 struct Asking {
@@ -34,9 +34,9 @@ struct Asking {
   }
   static double near(void* self, std::uint32_t tile) {
     Asking& a = *static_cast<Asking*>(self);
-    const Thing thing{a.page, tile};
-    if (!a.only_coming || !a.residents.has_failed(thing)) {
-      near_cells(a.entry(tile), a.piece, unknown_base(thing), *a.collector);
+    const PagedItem item{a.page, tile};
+    if (!a.only_coming || !a.residents.has_failed(item)) {
+      near_cells(a.entry(tile), a.piece, unknown_base(item), *a.collector);
     }
     return a.collector->enough();
   }
@@ -83,7 +83,7 @@ std::optional<double> PagedScene::first(const index::Piece& piece) {
       until = impact.time;
       known_ = false;
       box_ = page.box;
-      base_ = unknown_base({number, Thing::whole});
+      base_ = unknown_base({number, PagedItem::whole});
     } else {
       asking.page = number;
       const index::Impact impact = index::first_impact(residents_.view(page, absent), piece, until);
@@ -159,7 +159,7 @@ void PagedScene::near(const index::Piece& piece, Collector& collector) const {
       asking.page = number;
       query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
     } else if ((!only_coming || !page.failed) && collector.takes_unknown(page.box, piece.body.radius, Pager::margin)) {
-      collector.offer(near_box(page.box, piece, unknown_base({number, Thing::whole})), Pager::margin);
+      collector.offer(near_box(page.box, piece, unknown_base({number, PagedItem::whole})), Pager::margin);
     }
     look = way_around(piece, collector.reach());
   });

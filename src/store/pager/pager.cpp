@@ -12,9 +12,9 @@
 
 #include "math/floating_point.h"
 #include "math/largest.h"
-#include "store/pager/governor.h"
 #include "store/pager/loader.h"
 #include "store/pager/paged_scene.h"
+#include "store/pager/speed_limiter.h"
 #include "store/tile_reader.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
@@ -59,7 +59,7 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
     page = std::max<std::uint64_t>(page, Planner::page_bytes(p.ref.bytes, p.ref.tiles) + unit_bytes);
   }
   const std::uint64_t least =
-      std::max(2 * tables, tables + 4 * page + 8 * store::kTileBytes) + threads + fixed_cost + store.memory;
+      std::max(2 * tables, tables + 4 * page + 8 * store::tile_bytes) + threads + fixed_cost + store.memory;
   if (options.memory < least) {
     throw Error(
         fmt::format("{}: {} MiB of memory are not enough for its index and {} loading threads; give the pager "
@@ -101,7 +101,7 @@ struct Pager::State {
         arena(plan.units * unit_bytes),
         residents(store->state(), arena.get()),
         planner(store->state(), arena.get(), plan.units, options.horizon, handover),
-        governor(options.horizon),
+        speed_limiter(options.horizon),
         loaders(store, arena.get(), planner, handover, names, options.loaders) {
     handover.stats.memory = plan.memory;
   }
@@ -118,26 +118,26 @@ struct Pager::State {
   std::uint64_t tiles = 0, pages = 0, triangles = 0, used = 0, loads = 0, evictions = 0;
 
   Planner planner;  ///< of the loading threads
-  Governor governor;
+  SpeedLimiter speed_limiter;
   Loaders loaders;  ///< last: they end first
 
-  void count(const Thing& thing, bool comes);
-  [[nodiscard]] bool take(const Message& message, const Traveller& traveller);
-  [[nodiscard]] bool exchange(const Traveller& traveller, double& latency);
+  void count(const PagedItem& item, bool comes);
+  [[nodiscard]] bool take(const Message& message, const TrackedBody& tracked);
+  [[nodiscard]] bool exchange(const TrackedBody& tracked, double& latency);
   /// What a query of `reach` (m) sees.
   [[nodiscard]] PagedScene scene(const Query& query, double reach, Vicinity* vicinity) const;
 };
 
 /// Keeps the counters when something comes into use, or goes.
-void Pager::State::count(const Thing& thing, bool comes) {
+void Pager::State::count(const PagedItem& item, bool comes) {
   const std::uint64_t one = comes ? 1 : ~std::uint64_t{0};
   ++(comes ? loads : evictions);
-  if (thing.is_page()) {
-    const store::PageRef& ref = store->state().pages[thing.page].ref;
+  if (item.is_page()) {
+    const store::PageRef& ref = store->state().pages[item.page].ref;
     pages += one;
     used += one * Planner::page_bytes(ref.bytes, ref.tiles);
   } else {
-    const store::TileEntry& entry = residents.page(thing.page).in.view.tiles[thing.tile];
+    const store::TileEntry& entry = residents.page(item.page).in.view.tiles[item.tile];
     tiles += one;
     triangles += one * entry.triangles;
     used += one * shape_of(entry).bytes();
@@ -145,46 +145,46 @@ void Pager::State::count(const Thing& thing, bool comes) {
 }
 
 /// Does what a message says; whether that changed anything.
-bool Pager::State::take(const Message& message, const Traveller& traveller) {
-  const Thing& thing = message.thing;
+bool Pager::State::take(const Message& message, const TrackedBody& tracked) {
+  const PagedItem& item = message.item;
   switch (message.kind) {
     case Message::Kind::come:
-      if (thing.is_page()) {
-        residents.put_page(thing.page, message.page);
+      if (item.is_page()) {
+        residents.put_page(item.page, message.page);
       } else {
-        residents.put_tile(thing, message.unit);
+        residents.put_tile(item, message.unit);
       }
-      count(thing, true);
+      count(item, true);
       return true;
     case Message::Kind::failed:
-      residents.fail(thing);
+      residents.fail(item);
       return false;
     case Message::Kind::go:
       break;
   }
-  const bool kept = traveller.holds(residents.box(thing));
-  handover.gone.push({thing, kept});
+  const bool kept = tracked.holds(residents.box(item));
+  handover.gone.push({item, kept});
   if (kept) return false;
-  if (thing.is_page()) {
-    const PageInMemory& in = residents.page(thing.page).in;
+  if (item.is_page()) {
+    const PageInMemory& in = residents.page(item.page).in;
     for (std::uint32_t i = 0; i < in.view.tiles.size(); ++i) {
-      if (!in.tiles[i].absent()) count({thing.page, i}, false);
+      if (!in.tiles[i].absent()) count({item.page, i}, false);
     }
   }
-  count(thing, false);
-  residents.take(thing);
+  count(item, false);
+  residents.take(item);
   return true;
 }
 
 /// What the loading threads brought is taken into use, and they are told of the body: now, or next time.
-bool Pager::State::exchange(const Traveller& traveller, double& latency) {
+bool Pager::State::exchange(const TrackedBody& tracked, double& latency) {
   const std::unique_lock lock(handover.mutex, std::try_to_lock);
   if (!lock) return false;
-  handover.traveller = traveller;
+  handover.tracked = tracked;
   ++handover.told;
   bool changed = false;
   for (int i = 0; i < most_changes && !handover.messages.empty() && handover.gone.room() > 0; ++i) {
-    changed = take(handover.messages.pop(), traveller) || changed;
+    changed = take(handover.messages.pop(), tracked) || changed;
   }
   latency = handover.latency;
   const auto now = Clock::now();
@@ -198,7 +198,7 @@ bool Pager::State::exchange(const Traveller& traveller, double& latency) {
   s.used = used;
   s.loads = loads;
   s.evictions = evictions;
-  s.ready_m = governor.ready();
+  s.ready_m = speed_limiter.ready();
   return changed;
 }
 
@@ -225,12 +225,12 @@ bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
     throw Error("cannot update a pager: the velocity is not finite");
   }
   State& s = *state_;
-  const Traveller traveller(body, place, velocity);
-  double latency = s.governor.latency();
-  const bool changed = s.exchange(traveller, latency);
+  const TrackedBody tracked(body, place, velocity);
+  double latency = s.speed_limiter.latency();
+  const bool changed = s.exchange(tracked, latency);
   if (changed) s.revision = next_revision();
   const bool complete = s.tiles == s.store->info().tiles;
-  s.governor.look(s.residents, traveller, latency, changed, complete);
+  s.speed_limiter.look(s.residents, tracked, latency, changed, complete);
   return changed;
 }
 
@@ -241,9 +241,9 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
   State& s = *state_;
   for (;;) {
     (void)update(body, place, velocity);
-    const Traveller traveller(body, place, velocity);
-    const double reach = std::clamp(traveller.pace() * ahead, least_wait_reach, reach_limit);
-    if (!s.governor.anything_coming(s.residents, traveller, reach)) return true;
+    const TrackedBody tracked(body, place, velocity);
+    const double reach = std::clamp(tracked.pace() * ahead, least_wait_reach, reach_limit);
+    if (!s.speed_limiter.anything_coming(s.residents, tracked, reach)) return true;
     if (Clock::now() - begin >= limit) return false;
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
@@ -274,11 +274,11 @@ SpaceFacts Pager::facts() const {
   return {.bounds = info.bounds,
           .largest_error = info.largest_error_m,
           .revision = state_->revision,
-          .speed_limit = state_->governor.limit()};
+          .speed_limit = state_->speed_limiter.limit()};
 }
 
-std::string Pager::object_name(TriangleId triangle) const {
-  return triangle == no_triangle ? std::string() : state_->names.ask(triangle);
+Object Pager::object(TriangleId triangle) const {
+  return triangle == no_triangle ? Object{} : Object{no_object, state_->names.ask(triangle)};
 }
 
 const Store& Pager::store() const { return *state_->store; }
@@ -290,9 +290,8 @@ PagerStats Pager::stats() const {
   const auto failure = h.last_failure;
   lock.unlock();
   if (failure.why) {
-    const std::string what = failure.thing.is_page()
-                                 ? store::name_of(failure.thing.page, failure.box)
-                                 : store::name_of(failure.thing.page, failure.thing.tile, failure.box);
+    const std::string what = failure.item.is_page() ? store::name_of(failure.item.page, failure.box)
+                                                    : store::name_of(failure.item.page, failure.item.tile, failure.box);
     stats.last_failure = fmt::format("{} cannot be used: {}", what, failure.why);
   }
   return stats;

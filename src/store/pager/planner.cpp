@@ -44,26 +44,26 @@ Planner::Planner(const Store::State& store, std::byte* arena, std::uint32_t unit
   static_assert(sizeof(PageState) <= page_cost);
 }
 
-std::uint32_t Planner::units_of(const Thing& thing) const {
-  if (!thing.is_page()) return units_for(shape_of(pages_[thing.page].entries[thing.tile]).bytes());
-  const store::PageRef& ref = store_.pages[thing.page].ref;
+std::uint32_t Planner::units_of(const PagedItem& item) const {
+  if (!item.is_page()) return units_for(shape_of(pages_[item.page].entries[item.tile]).bytes());
+  const store::PageRef& ref = store_.pages[item.page].ref;
   return units_for(page_bytes(ref.bytes, ref.tiles));
 }
 
-Planner::TileState& Planner::state_of(const Thing& thing) {
-  PageState& page = pages_[thing.page];
-  return thing.is_page() ? page.self : page.tiles[thing.tile];
+Planner::TileState& Planner::state_of(const PagedItem& item) {
+  PageState& page = pages_[item.page];
+  return item.is_page() ? page.self : page.tiles[item.tile];
 }
 
-const Planner::TileState& Planner::state_of(const Thing& thing) const {
-  const PageState& page = pages_[thing.page];
-  return thing.is_page() ? page.self : page.tiles[thing.tile];
+const Planner::TileState& Planner::state_of(const PagedItem& item) const {
+  const PageState& page = pages_[item.page];
+  return item.is_page() ? page.self : page.tiles[item.tile];
 }
 
-Run Planner::run_of(const Thing& thing) const { return {state_of(thing).unit, units_of(thing)}; }
+Run Planner::run_of(const PagedItem& item) const { return {state_of(item).unit, units_of(item)}; }
 
-Box Planner::box(const Thing& thing) const {
-  return thing.is_page() ? store_.pages[thing.page].ref.box : box_of(pages_[thing.page].entries[thing.tile]);
+Box Planner::box(const PagedItem& item) const {
+  return item.is_page() ? store_.pages[item.page].ref.box : box_of(pages_[item.page].entries[item.tile]);
 }
 
 // --- what update() answered
@@ -90,13 +90,13 @@ Planner::Request* Planner::request_over(const Run& run) {
 
 void Planner::settle(const Gone& gone) {
   changed_ = true;
-  const Run run = run_of(gone.thing);
+  const Run run = run_of(gone.item);
   Request* const request = request_over(run);
   if (gone.kept) {
-    state_of(gone.thing).leaving = false;
+    state_of(gone.item).leaving = false;
     if (request) request->state = Request::State::cancelled;
   } else {
-    forget(gone.thing);
+    forget(gone.item);
     if (request) {
       const std::uint32_t begin = std::max(run.unit, request->unit);
       units_.reserve({begin, std::min(run.unit + run.count, request->unit + request->units) - begin});
@@ -111,15 +111,15 @@ void Planner::settle(const Gone& gone) {
 }
 
 /// What is not in use any more: gives its units back, and those of the tiles of a page.
-void Planner::forget(const Thing& thing) {
-  units_.release(run_of(thing));
-  TileState& state = state_of(thing);
+void Planner::forget(const PagedItem& item) {
+  units_.release(run_of(item));
+  TileState& state = state_of(item);
   state.here = state.leaving = false;
-  if (!thing.is_page()) return;
-  PageState& page = pages_[thing.page];
-  for (std::uint32_t i = 0; i < store_.pages[thing.page].ref.tiles; ++i) {
+  if (!item.is_page()) return;
+  PageState& page = pages_[item.page];
+  for (std::uint32_t i = 0; i < store_.pages[item.page].ref.tiles; ++i) {
     const TileState& tile = page.tiles[i];
-    if (tile.here) units_.release({tile.unit, units_of({thing.page, i})});
+    if (tile.here) units_.release({tile.unit, units_of({item.page, i})});
     if (tile.why) --failed_;
   }
   page.entries = nullptr;
@@ -131,8 +131,8 @@ void Planner::end(Request& request) {
   for (std::uint32_t i = request.unit; i < request.unit + request.units; ++i) {
     if (units_.is_reserved(i)) units_.release({i, 1});
   }
-  state_of(request.thing).requested = false;
-  if (!request.thing.is_page()) --pages_[request.thing.page].requests;
+  state_of(request.item).requested = false;
+  if (!request.item.is_page()) --pages_[request.item.page].requests;
   request = {};
 }
 
@@ -140,68 +140,68 @@ void Planner::end(Request& request) {
 
 bool Planner::next(Work& work) {
   settle();
-  Traveller traveller;
+  TrackedBody tracked;
   {
     const std::lock_guard lock(handover_.mutex);
     if (handover_.told == 0 || handover_.messages.room() < spare_messages) return false;
-    traveller = handover_.traveller;
+    tracked = handover_.tracked;
   }
   const auto time = Clock::now();
-  if (stale(traveller, time)) plan(traveller, time);
+  if (stale(tracked, time)) plan(tracked, time);
   Request* first = nullptr;
   for (Request& r : requests_) {
     if (r.state == Request::State::ready && (!first || r.key < first->key)) first = &r;
   }
   if (!first) return false;
   first->state = Request::State::reading;
-  work.thing = first->thing;
+  work.item = first->item;
   work.unit = first->unit;
-  work.entry = first->thing.is_page() ? nullptr : &pages_[first->thing.page].entries[first->thing.tile];
+  work.entry = first->item.is_page() ? nullptr : &pages_[first->item.page].entries[first->item.tile];
   return true;
 }
 
-bool Planner::stale(const Traveller& now, Clock::time_point time) const {
+bool Planner::stale(const TrackedBody& now, Clock::time_point time) const {
   if (changed_ || time >= retry_at_ || !now.like(planned_for_)) return true;
   const auto waiting = std::count_if(requests_.begin(), requests_.end(),
                                      [](const Request& r) { return r.state == Request::State::ready; });
   return more_ && waiting < static_cast<std::ptrdiff_t>(most_candidates / 4);
 }
 
-void Planner::plan(const Traveller& traveller, Clock::time_point time) {
-  planned_for_ = traveller;
+void Planner::plan(const TrackedBody& tracked, Clock::time_point time) {
+  planned_for_ = tracked;
   changed_ = more_ = appraised_ = false;
-  look_again_at_requests(traveller);
-  consider_all(traveller, time);
+  look_again_at_requests(tracked);
+  consider_all(tracked, time);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     // Its page may have been sent away for one that came before it.
-    if (pages_[candidates_[i].thing.page].self.leaving) continue;
+    if (pages_[candidates_[i].item.page].self.leaving) continue;
     // What is farther must not take the room of what is nearer and did not find any.
-    if (!place(candidates_[i], traveller)) break;
+    if (!place(candidates_[i], tracked)) break;
   }
   const std::lock_guard lock(handover_.mutex);
   handover_.stats.wanted = wanted_;
   handover_.stats.failed = failed_;
 }
 
-void Planner::look_again_at_requests(const Traveller& traveller) {
+void Planner::look_again_at_requests(const TrackedBody& tracked) {
   for (Request& r : requests_) {
     if (r.state == Request::State::none) continue;
-    r.key = traveller.time_to(box(r.thing));
+    r.key = tracked.time_to(box(r.item));
     if (r.state == Request::State::ready && r.key > horizon_ && !filling()) end(r);
   }
 }
 
-void Planner::consider_all(const Traveller& traveller, Clock::time_point time) {
+void Planner::consider_all(const TrackedBody& tracked, Clock::time_point time) {
   candidate_count_ = 0;
   wanted_ = 0;
   retry_at_ = Clock::time_point::max();
   const double farthest = filling() ? infinite : horizon_;
   for (std::uint32_t p = 0; p < pages_.size(); ++p) {
     const PageState& page = pages_[p];
-    const double key = traveller.time_to(store_.pages[p].ref.box);
+    const double key = tracked.time_to(store_.pages[p].ref.box);
     if (key > farthest) continue;
     if (!page.self.here) {
-      consider({p, Thing::whole}, page.self, page_haste * key, time);
+      consider({p, PagedItem::whole}, page.self, page_haste * key, time);
       continue;
     }
     if (page.self.leaving ||
@@ -211,13 +211,13 @@ void Planner::consider_all(const Traveller& traveller, Clock::time_point time) {
     for (std::uint32_t t = 0; t < store_.pages[p].ref.tiles; ++t) {
       const TileState& state = page.tiles[t];
       if (state.here) continue;
-      const double tile_key = traveller.time_to(box_of(page.entries[t]));
+      const double tile_key = tracked.time_to(box_of(page.entries[t]));
       if (tile_key <= farthest) consider({p, t}, state, tile_key, time);
     }
   }
 }
 
-void Planner::consider(const Thing& thing, const TileState& state, double key, Clock::time_point time) {
+void Planner::consider(const PagedItem& item, const TileState& state, double key, Clock::time_point time) {
   if (key <= horizon_) ++wanted_;
   if (state.requested || state.leaving) return;
   if (state.why && state.again > time) {
@@ -235,115 +235,115 @@ void Planner::consider(const Thing& thing, const TileState& state, double key, C
     std::move_backward(at, end, end + 1);
     ++candidate_count_;
   }
-  *at = {thing, key};
+  *at = {item, key};
 }
 
-bool Planner::place(const Candidate& candidate, const Traveller& traveller) {
+bool Planner::place(const Candidate& candidate, const TrackedBody& tracked) {
   const auto slot = std::find_if(requests_.begin(), requests_.end(),
                                  [](const Request& r) { return r.state == Request::State::none; });
   if (slot == requests_.end()) {
     more_ = true;
     return false;
   }
-  const std::uint32_t units = units_of(candidate.thing);
+  const std::uint32_t units = units_of(candidate.item);
   Request request;
   request.state = Request::State::ready;
   Run run = candidate.key <= horizon_ || filling() ? units_.find(units) : Run{};
   if (run.found()) {
     units_.reserve(run);
   } else if (candidate.key <= horizon_) {
-    run = clear(candidate, units, traveller, request);
+    run = clear(candidate, units, tracked, request);
   }
   if (!run.found()) return false;
-  request.thing = candidate.thing;
+  request.item = candidate.item;
   request.unit = run.unit;
   request.units = run.count;
   request.key = candidate.key;
   *slot = request;
-  state_of(candidate.thing).requested = true;
-  if (!candidate.thing.is_page()) ++pages_[candidate.thing.page].requests;
+  state_of(candidate.item).requested = true;
+  if (!candidate.item.is_page()) ++pages_[candidate.item.page].requests;
   return true;
 }
 
 /// Makes room by sending away what is worth least.
-Run Planner::clear(const Candidate& candidate, std::uint32_t units, const Traveller& traveller, Request& request) {
-  if (!appraised_) appraise(traveller);
+Run Planner::clear(const Candidate& candidate, std::uint32_t units, const TrackedBody& tracked, Request& request) {
+  if (!appraised_) appraise(tracked);
   double worth = 0.0;
   const Run run = units_.cheapest(units, worth);
   if (!run.found() || worth >= worth_of(candidate.key * hysteresis_factor + hysteresis_seconds)) return {};
   // A page after its tiles: then none is spoken of that has gone with its page.
-  std::size_t things = 0;
+  std::size_t items = 0;
   bool own_page = false;
-  units_.for_each(run, [&](const Run&, const Thing& thing) {
-    ++things;
-    own_page = own_page || (thing.is_page() && thing.page == candidate.thing.page);
+  units_.for_each(run, [&](const Run&, const PagedItem& item) {
+    ++items;
+    own_page = own_page || (item.is_page() && item.page == candidate.item.page);
   });
   if (own_page) return {};
   const std::lock_guard lock(handover_.mutex);
-  if (handover_.messages.room() < spare_messages + things) return {};
+  if (handover_.messages.room() < spare_messages + items) return {};
   for (const bool pages : {false, true}) {
-    units_.for_each(run, [&](const Run& of, const Thing& thing) {
-      if (thing.is_page() != pages) return;
+    units_.for_each(run, [&](const Run& of, const PagedItem& item) {
+      if (item.is_page() != pages) return;
       Message message;
       message.kind = Message::Kind::go;
-      message.thing = thing;
+      message.item = item;
       handover_.messages.push(message);
-      state_of(thing).leaving = true;
+      state_of(item).leaving = true;
       units_.set_worth(of.unit, infinite);
       if (!pages) return;
-      const PageState& page = pages_[thing.page];
-      for (std::uint32_t i = 0; i < store_.pages[thing.page].ref.tiles; ++i) {
+      const PageState& page = pages_[item.page];
+      for (std::uint32_t i = 0; i < store_.pages[item.page].ref.tiles; ++i) {
         if (page.tiles[i].here) units_.set_worth(page.tiles[i].unit, infinite);
       }
     });
   }
   request.state = Request::State::clearing;
-  request.leaving = static_cast<std::uint32_t>(things);
+  request.leaving = static_cast<std::uint32_t>(items);
   for (std::uint32_t i = run.unit; i < run.unit + run.count; ++i) {
     if (units_.is_free(i)) units_.reserve({i, 1});
   }
   return run;
 }
 
-void Planner::appraise(const Traveller& traveller) {
+void Planner::appraise(const TrackedBody& tracked) {
   appraised_ = true;
-  units_.for_each({0, units_.size()}, [&](const Run& run, const Thing& thing) {
-    const TileState& state = state_of(thing);
-    const PageState& page = pages_[thing.page];
-    const Box where = box(thing);
+  units_.for_each({0, units_.size()}, [&](const Run& run, const PagedItem& item) {
+    const TileState& state = state_of(item);
+    const PageState& page = pages_[item.page];
+    const Box where = box(item);
     const bool stays =
-        state.leaving || page.self.leaving || (thing.is_page() && page.requests > 0) || traveller.holds(where);
-    units_.set_worth(run.unit, stays ? infinite : worth_of(traveller.time_to(where)));
+        state.leaving || page.self.leaving || (item.is_page() && page.requests > 0) || tracked.holds(where);
+    units_.set_worth(run.unit, stays ? infinite : worth_of(tracked.time_to(where)));
   });
 }
 
 // --- what was read
 
 void Planner::done(const Work& work, const Outcome& outcome) {
-  changed_ = changed_ || work.thing.is_page() || outcome.why;
+  changed_ = changed_ || work.item.is_page() || outcome.why;
   const auto request = std::find_if(requests_.begin(), requests_.end(), [&](const Request& r) {
-    return r.state == Request::State::reading && r.thing == work.thing;
+    return r.state == Request::State::reading && r.item == work.item;
   });
   const Run run{request->unit, request->units};
-  TileState& state = state_of(work.thing);
+  TileState& state = state_of(work.item);
   if (outcome.why) {
     end(*request);
-    note_failure(work.thing, outcome.why);
+    note_failure(work.item, outcome.why);
     const double wait =
         std::min(last_retry, first_retry * static_cast<double>(1U << std::min<int>(state.attempts, 10)));
     state.again = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wait));
     state.attempts = static_cast<std::uint8_t>(std::min(state.attempts + 1, 255));
   } else {
     state.requested = false;
-    if (!work.thing.is_page()) --pages_[work.thing.page].requests;
+    if (!work.item.is_page()) --pages_[work.item.page].requests;
     *request = {};
-    units_.give(run, work.thing);
+    units_.give(run, work.item);
     if (state.why) --failed_;
     state = {};
     state.here = true;
     state.unit = run.unit;
-    if (work.thing.is_page()) {
-      PageState& page = pages_[work.thing.page];
+    if (work.item.is_page()) {
+      PageState& page = pages_[work.item.page];
       page.entries = outcome.page.view.tiles.data();
       page.tiles = reinterpret_cast<TileState*>(outcome.page.tiles + outcome.page.view.tiles.size());
     }
@@ -351,7 +351,7 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   const std::lock_guard lock(handover_.mutex);
   Message message;
   message.kind = outcome.why ? Message::Kind::failed : Message::Kind::come;
-  message.thing = work.thing;
+  message.item = work.item;
   message.unit = run.unit;
   message.page = outcome.page;
   handover_.messages.push(message);
@@ -361,25 +361,25 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   stats.worst_decode_s = std::max(stats.worst_decode_s, outcome.decode_s);
   stats.failures += outcome.why ? 1 : 0;
   stats.failed = failed_;
-  if (outcome.why) handover_.last_failure = {work.thing, box(work.thing), outcome.why};
+  if (outcome.why) handover_.last_failure = {work.item, box(work.item), outcome.why};
   // The worst of late: it is forgotten by halves in some fifty loads.
   handover_.latency = std::max(outcome.read_s + outcome.decode_s, 0.985 * handover_.latency);
 }
 
-void Planner::note_failure(const Thing& thing, const char* why) {
-  TileState& state = state_of(thing);
+void Planner::note_failure(const PagedItem& item, const char* why) {
+  TileState& state = state_of(item);
   if (!state.why) ++failed_;
   state.why = why;
 }
 
-std::string Planner::reason(const Thing& thing) const {
-  if (thing.page >= pages_.size()) return "";
-  const PageState& page = pages_[thing.page];
-  if (!thing.is_page() && (!page.entries || thing.tile >= store_.pages[thing.page].ref.tiles)) return "not loaded yet";
-  const TileState& state = state_of(thing);
+std::string Planner::reason(const PagedItem& item) const {
+  if (item.page >= pages_.size()) return "";
+  const PageState& page = pages_[item.page];
+  if (!item.is_page() && (!page.entries || item.tile >= store_.pages[item.page].ref.tiles)) return "not loaded yet";
+  const TileState& state = state_of(item);
   if (!state.why) return "not loaded yet";
   const std::string what =
-      thing.is_page() ? store::name_of(thing.page, box(thing)) : store::name_of(thing.page, thing.tile, box(thing));
+      item.is_page() ? store::name_of(item.page, box(item)) : store::name_of(item.page, item.tile, box(item));
   return fmt::format("{} cannot be used: {}", what, state.why);
 }
 

@@ -14,9 +14,9 @@
 
 namespace roam::paging {
 
-/// One thing to be read.
+/// One item to be read.
 struct Work {
-  Thing thing;
+  PagedItem item;
   std::uint32_t unit = 0;
   const store::TileEntry* entry = nullptr;  ///< of a tile
 };
@@ -37,8 +37,8 @@ class Planner {
   bool next(Work& work);
   /// What was read is handed over; what failed is tried again later.
   void done(const Work& work, const Outcome& outcome);
-  /// Why a thing is unknown, for people.
-  [[nodiscard]] std::string reason(const Thing& thing) const;
+  /// Why a item is unknown, for people.
+  [[nodiscard]] std::string reason(const PagedItem& item) const;
 
   /// Of a tile in a page that is in memory, after the page.
   struct TileState {
@@ -65,13 +65,13 @@ class Planner {
   struct Request {
     enum class State : std::uint8_t { none, clearing, ready, reading, cancelled };
     State state = State::none;
-    Thing thing;
+    PagedItem item;
     std::uint32_t unit = 0, units = 0;
-    std::uint32_t leaving = 0;  ///< things that have not gone yet
+    std::uint32_t leaving = 0;  ///< items that have not gone yet
     double key = 0.0;
   };
   struct Candidate {
-    Thing thing;
+    PagedItem item;
     double key = 0.0;
   };
   static constexpr std::size_t most_requests = 64;
@@ -81,25 +81,25 @@ class Planner {
 
   void settle();
   void settle(const Gone& gone);
-  void forget(const Thing& thing);
+  void forget(const PagedItem& item);
   void end(Request& request);
   [[nodiscard]] Request* request_over(const Run& run);
-  [[nodiscard]] bool stale(const Traveller& now, Clock::time_point time) const;
-  void plan(const Traveller& traveller, Clock::time_point time);
-  void look_again_at_requests(const Traveller& traveller);
-  void consider_all(const Traveller& traveller, Clock::time_point time);
-  void consider(const Thing& thing, const TileState& state, double key, Clock::time_point time);
-  [[nodiscard]] bool place(const Candidate& candidate, const Traveller& traveller);
-  [[nodiscard]] Run clear(const Candidate& candidate, std::uint32_t units, const Traveller& traveller,
+  [[nodiscard]] bool stale(const TrackedBody& now, Clock::time_point time) const;
+  void plan(const TrackedBody& tracked, Clock::time_point time);
+  void look_again_at_requests(const TrackedBody& tracked);
+  void consider_all(const TrackedBody& tracked, Clock::time_point time);
+  void consider(const PagedItem& item, const TileState& state, double key, Clock::time_point time);
+  [[nodiscard]] bool place(const Candidate& candidate, const TrackedBody& tracked);
+  [[nodiscard]] Run clear(const Candidate& candidate, std::uint32_t units, const TrackedBody& tracked,
                           Request& request);
-  void appraise(const Traveller& traveller);
-  [[nodiscard]] Run run_of(const Thing& thing) const;
-  [[nodiscard]] std::uint32_t units_of(const Thing& thing) const;
-  [[nodiscard]] TileState& state_of(const Thing& thing);
-  [[nodiscard]] const TileState& state_of(const Thing& thing) const;
-  [[nodiscard]] Box box(const Thing& thing) const;
+  void appraise(const TrackedBody& tracked);
+  [[nodiscard]] Run run_of(const PagedItem& item) const;
+  [[nodiscard]] std::uint32_t units_of(const PagedItem& item) const;
+  [[nodiscard]] TileState& state_of(const PagedItem& item);
+  [[nodiscard]] const TileState& state_of(const PagedItem& item) const;
+  [[nodiscard]] Box box(const PagedItem& item) const;
   [[nodiscard]] bool filling() const { return units_.free() > units_.size() / reserve_part; }
-  void note_failure(const Thing& thing, const char* why);
+  void note_failure(const PagedItem& item, const char* why);
 
   const Store::State& store_;
   std::byte* arena_;
@@ -113,7 +113,7 @@ class Planner {
   std::uint64_t wanted_ = 0, failed_ = 0;
   bool appraised_ = false;  ///< in this plan
   // Of the last plan.
-  Traveller planned_for_;
+  TrackedBody planned_for_;
   bool changed_ = true;  ///< something came, went or failed since
   bool more_ = false;    ///< there were more candidates than it could hold
   Clock::time_point retry_at_ = Clock::time_point::max();

@@ -12,19 +12,19 @@ constexpr std::uint32_t unit_blocks = unit_bytes / sizeof(index::Block);
 
 }  // namespace
 
-TriangleId unknown_base(const Thing& thing) {
-  const TriangleId tile = thing.is_page() ? 0 : thing.tile;
-  return unknown_bit | store::stored_id(thing.page, static_cast<std::uint32_t>(tile), 0) |
-         (thing.is_page() ? page_sides : 0);
+TriangleId unknown_base(const PagedItem& item) {
+  const TriangleId tile = item.is_page() ? 0 : item.tile;
+  return unknown_bit | store::stored_id(item.page, static_cast<std::uint32_t>(tile), 0) |
+         (item.is_page() ? page_sides : 0);
 }
 
-Thing unknown_thing(TriangleId number) {
+PagedItem unknown_thing(TriangleId number) {
   const TriangleId id = number & ~unknown_bit;
-  Thing thing;
-  thing.page = static_cast<std::uint32_t>(id >> (store::triangle_bits + store::tile_bits));
+  PagedItem item;
+  item.page = static_cast<std::uint32_t>(id >> (store::triangle_bits + store::tile_bits));
   const bool whole = (id & page_sides) == page_sides;
-  if (!whole) thing.tile = static_cast<std::uint32_t>(id >> store::triangle_bits & (store::page_tiles - 1));
-  return thing;
+  if (!whole) item.tile = static_cast<std::uint32_t>(id >> store::triangle_bits & (store::page_tiles - 1));
+  return item;
 }
 
 Residents::Residents(const Store::State& store, const std::byte* arena) : arena_(arena) {
@@ -43,36 +43,36 @@ void Residents::put_page(std::uint32_t page, const PageInMemory& in) {
   pages_[page].failed = false;
 }
 
-void Residents::put_tile(const Thing& thing, std::uint32_t unit) {
-  const PageInMemory& in = pages_[thing.page].in;
-  const store::TileEntry& entry = in.view.tiles[thing.tile];
-  index::Tile& tile = in.tiles[thing.tile];
+void Residents::put_tile(const PagedItem& item, std::uint32_t unit) {
+  const PageInMemory& in = pages_[item.page].in;
+  const store::TileEntry& entry = in.view.tiles[item.tile];
+  index::Tile& tile = in.tiles[item.tile];
   tile.nodes = unit * unit_blocks;
   tile.leaves = tile.nodes + entry.nodes;
   tile.fine_leaves = (std::uint64_t{tile.leaves} + entry.leaves) * sizeof(index::Block);
 }
 
-void Residents::take(const Thing& thing) {
-  if (thing.is_page()) {
-    pages_[thing.page].in = {};
+void Residents::take(const PagedItem& item) {
+  if (item.is_page()) {
+    pages_[item.page].in = {};
   } else {
-    index::Tile& tile = pages_[thing.page].in.tiles[thing.tile];
-    tile.nodes = index::Tile::kAbsent;
+    index::Tile& tile = pages_[item.page].in.tiles[item.tile];
+    tile.nodes = index::Tile::absent_leaf;
     tile.leaves = 0;
   }
 }
 
-void Residents::fail(const Thing& thing) {
-  if (thing.is_page()) {
-    pages_[thing.page].failed = true;
+void Residents::fail(const PagedItem& item) {
+  if (item.is_page()) {
+    pages_[item.page].failed = true;
   } else {
-    pages_[thing.page].in.tiles[thing.tile].leaves = tile_failed;
+    pages_[item.page].in.tiles[item.tile].leaves = tile_failed;
   }
 }
 
-Box Residents::box(const Thing& thing) const {
-  const Page& page = pages_[thing.page];
-  return thing.is_page() ? page.box : box_of(page.in.view.tiles[thing.tile]);
+Box Residents::box(const PagedItem& item) const {
+  const Page& page = pages_[item.page];
+  return item.is_page() ? page.box : box_of(page.in.view.tiles[item.tile]);
 }
 
 index::Index Residents::view(const Page& page, const index::Absent& absent) const {
@@ -85,9 +85,9 @@ index::Index Residents::view(const Page& page, const index::Absent& absent) cons
           .absent = &absent};
 }
 
-bool Residents::has_failed(const Thing& thing) const {
-  const Page& page = pages_[thing.page];
-  return thing.is_page() ? page.failed : page.in.tiles[thing.tile].leaves == tile_failed;
+bool Residents::has_failed(const PagedItem& item) const {
+  const Page& page = pages_[item.page];
+  return item.is_page() ? page.failed : page.in.tiles[item.tile].leaves == tile_failed;
 }
 
 }  // namespace roam::paging

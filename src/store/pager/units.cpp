@@ -22,12 +22,12 @@ Run Units::cheapest(std::uint32_t count, double& worth) const {
   if (count > slots_.size()) return best;
   // Runs that begin where something begins, or is free, are all that need be looked at.
   for (std::uint32_t begin = 0; begin + count <= slots_.size(); ++begin) {
-    const bool boundary = slots_[begin].thing.page == Thing::none || slots_[begin].first == begin;
+    const bool boundary = slots_[begin].item.page == PagedItem::none || slots_[begin].first == begin;
     if (!boundary) continue;
     double most = 0.0;
     for (std::uint32_t i = begin; i < begin + count && most < worth;) {
       const Slot& slot = slots_[i];
-      if (slot.thing.page != Thing::none) {
+      if (slot.item.page != PagedItem::none) {
         most = std::max(most, double(slots_[slot.first].worth));
         i = slot.first + slot.count;
       } else {
@@ -51,10 +51,10 @@ void Units::reserve(const Run& run) {
   }
 }
 
-void Units::give(const Run& run, const Thing& thing) {
+void Units::give(const Run& run, const PagedItem& item) {
   reserve(run);
   for (std::uint32_t i = run.unit; i < run.unit + run.count; ++i) {
-    slots_[i].thing = thing;
+    slots_[i].item = item;
     slots_[i].first = run.unit;
     slots_[i].count = run.count;
   }

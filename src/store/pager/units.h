@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "store/pager/thing.h"
+#include "store/pager/paged_item.h"
+#include "store/pager/tracked_body.h"
 
 namespace roam::paging {
 
@@ -30,36 +31,36 @@ class Units {
   /// largest of what is in it; free units are worth nothing, and what must stay more than any number.
   [[nodiscard]] Run cheapest(std::uint32_t count, double& worth) const;
 
-  /// Gives a run to a request, which is `reserved` from then on; or to a thing. Units that were free are so no more.
+  /// Gives a run to a request, which is `reserved` from then on; or to a item. Units that were free are so no more.
   void reserve(const Run& run);
-  void give(const Run& run, const Thing& thing);
+  void give(const Run& run, const PagedItem& item);
   void release(const Run& run);
 
-  /// Calls f(run, thing) for every thing that has units in the run.
+  /// Calls f(run, item) for every item that has units in the run.
   template <class F>
   void for_each(const Run& run, F&& f) const {
     for (std::uint32_t i = run.unit; i < run.unit + run.count;) {
       const Slot& slot = slots_[i];
-      if (slot.thing.page == Thing::none) {
+      if (slot.item.page == PagedItem::none) {
         ++i;
         continue;
       }
-      f(Run{slot.first, slot.count}, slot.thing);
+      f(Run{slot.first, slot.count}, slot.item);
       i = slot.first + slot.count;
     }
   }
   [[nodiscard]] bool is_free(std::uint32_t unit) const { return slots_[unit].free; }
   [[nodiscard]] bool is_reserved(std::uint32_t unit) const {
-    return !slots_[unit].free && slots_[unit].thing.page == Thing::none;
+    return !slots_[unit].free && slots_[unit].item.page == PagedItem::none;
   }
-  /// What a thing is worth, by its first unit.
+  /// What a item is worth, by its first unit.
   void set_worth(std::uint32_t unit, double worth) { slots_[unit].worth = static_cast<float>(worth); }
 
  private:
   struct Slot {
-    Thing thing;
-    std::uint32_t first = 0, count = 1;  ///< of the thing
-    float worth = 0.0F;                  ///< in the first unit of a thing
+    PagedItem item;
+    std::uint32_t first = 0, count = 1;  ///< of the item
+    float worth = 0.0F;                  ///< in the first unit of a item
     bool free = true;
   };
   std::vector<Slot> slots_;

@@ -10,7 +10,7 @@
 
 namespace roam::training {
 
-const char* name(Verdict verdict) {
+const char* to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::inside:
       return "inside";

@@ -24,7 +24,7 @@ enum class Verdict : std::uint8_t {
 };
 
 /// "inside", "backs", "over low rooms", "on top", "smaller" or "unfinished".
-[[nodiscard]] const char* name(Verdict verdict);
+[[nodiscard]] const char* to_string(Verdict verdict);
 
 /// Places that hang together for a body of `narrowest`.
 struct Component {

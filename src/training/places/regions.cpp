@@ -13,7 +13,7 @@ std::string why(const Passage& passage) {
   const double width = 2.0 * passage.radius;
   if (passage.opening && passage.opening->kind == Opening::Kind::lintel)
     return fmt::format("lintel that a radius of {:.2f} m passes under", passage.radius);
-  return fmt::format("{} {:.2f} m wide", passage.opening ? name(passage.opening->kind) : "passage", width);
+  return fmt::format("{} {:.2f} m wide", passage.opening ? to_string(passage.opening->kind) : "passage", width);
 }
 
 /// Where the middle of a body of `radius` may be that stands at, or touches, one of the places.

@@ -101,7 +101,7 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
 
 }  // namespace
 
-const char* name(ProbeLimit::Kind kind) {
+const char* to_string(ProbeLimit::Kind kind) {
   using Kind = ProbeLimit::Kind;
   switch (kind) {
     case Kind::door:

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "import/reader/file_names.h"
+#include "import/reader/format_table.h"
 
 namespace roam::reader {
 namespace {
@@ -23,29 +24,15 @@ namespace fs = std::filesystem;
 /// No texture is larger; an encoded one of this size would not be drawn by any card.
 constexpr std::uintmax_t image_bytes_limit = 512u << 20;
 
-/// How encoded images begin, and the plugin that reads them.
-struct Signature {
-  std::string_view start;
-  const char* plugin;
-};
-constexpr std::array<Signature, 8> signatures{{{"\xff\xd8\xff", "jpeg"},
-                                               {"\x89PNG", "png"},
-                                               {std::string_view("II*\0", 4), "tiff"},
-                                               {std::string_view("MM\0*", 4), "tiff"},
-                                               {"DDS ", "dds"},
-                                               {"GIF8", "gif"},
-                                               {"BM", "bmp"},
-                                               {"\x01\xda", "rgb"}}};
-/// Formats that do not say what they are, and text; by the extension of the file.
-constexpr std::array<std::string_view, 12> by_name{"tga",  "rgb", "rgba", "sgi", "bw",  "int",
-                                                   "inta", "pnm", "ppm",  "pgm", "pbm", "hdr"};
-
+/// By how the image begins, else by the extension of its file. Empty for what is none that is decoded.
 std::string plugin_for(const std::string& bytes, const std::string& name) {
-  for (const Signature& signature : signatures) {
-    if (std::string_view(bytes).starts_with(signature.start)) return signature.plugin;
-  }
   const std::string extension = extension_of(name);
-  return std::find(by_name.begin(), by_name.end(), extension) == by_name.end() ? "" : extension;
+  std::string_view by_name;
+  for (const ImageFormat& image : image_formats) {
+    if (!image.start.empty() && std::string_view(bytes).starts_with(image.start)) return std::string(image.plugin);
+    if (image.start.empty() && image.extension == extension) by_name = image.plugin;
+  }
+  return std::string(by_name);
 }
 
 /// The entry of a folder that has this name in any case of letters; empty when there is none.

@@ -1,19 +1,25 @@
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
-#include "import/reader/file_names.h"
+#include "files/unnamed_file.h"
 #include "import/reader/sandbox/sandbox.h"
 
 #ifdef __linux__
+#include <linux/capability.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #endif
 
 // Sanitizers reserve terabytes of address space; a limit on it would end the reader before it begins.
@@ -46,8 +52,42 @@ bool is_alone() {
   return none || std::next(thread) == std::filesystem::directory_iterator();
 }
 
-}  // namespace
+#ifdef __linux__
+/// Whether every descriptor above `last` is closed.
+bool close_above(int last) {
+  if (close_range(static_cast<unsigned>(last) + 1, ~0u, 0) == 0) return true;
+  // Linux before 5.9, and containers that do not know the call.
+  std::vector<int> above;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", none)) {
+    const int number = std::atoi(entry.path().filename().c_str());
+    if (number > last) above.push_back(number);
+  }
+  for (const int number : above) close(number);
+  return !none;
+}
 
+/// Where memory runs out, the system ends this process before the program that started it.
+void be_ended_first() {
+  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  constexpr std::string_view most = "1000";
+  [[maybe_unused]] const ssize_t written = write(file, most.data(), most.size());
+  close(file);
+}
+
+/// Gives up what root may do and others may not. Returns whether nothing of it is left.
+bool drop_capabilities() {
+  // Root alone can, and only root gets them back by starting a program.
+  for (int right = 0; prctl(PR_CAPBSET_READ, right) >= 0; ++right) prctl(PR_CAPBSET_DROP, right);
+  prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none{};
+  return syscall(SYS_capset, &header, none.data()) == 0;
+}
+#endif
+
+/// Returns whether all limits hold.
 bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
   bool all = true;
 #ifdef ROAM_SHADOW_MEMORY
@@ -67,13 +107,15 @@ bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
   const pid_t parent = getppid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);
-  all = close_range(static_cast<unsigned>(last_descriptor) + 1, ~0u, 0) == 0 && all;
+  be_ended_first();
+  all = close_above(last_descriptor) && all;
 #endif
   return all;
 }
 
+/// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
 bool enter_empty_folder() {
-  std::string folder = temporary_folder() + "/roam-empty-XXXXXX";
+  std::string folder = files::temporary_folder() + "/roam-empty-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr) return false;
   const bool inside = chdir(folder.c_str()) == 0;
   // A folder that is gone takes no new file.
@@ -81,17 +123,35 @@ bool enter_empty_folder() {
   return inside;
 }
 
-Confinement enter(const Rights& rights, int highest_landlock) {
+/// Which of Landlock, seccomp and no_new_privs hold.
+Confinement give_up_rights(const Rights& rights, int highest_landlock) {
   Confinement confinement;
 #ifdef __linux__
-  confinement.no_new_privileges = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
+  const bool gains_none = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
+#else
+  const bool gains_none = false;
 #endif
-  if (confinement.no_new_privileges) {
-    const bool alone = is_alone();
-    const int landlock = restrict_files(rights, highest_landlock);
-    confinement.landlock = alone ? landlock : 0;
-    confinement.system_calls = restrict_system_calls();
-  }
+  if (!gains_none) return confinement;
+  const bool alone = is_alone();
+  const int landlock = restrict_files(rights, highest_landlock);
+  confinement.landlock = alone ? landlock : 0;
+#ifdef __linux__
+  confinement.no_new_privileges = drop_capabilities();
+#endif
+  confinement.system_calls = restrict_system_calls();
+  return confinement;
+}
+
+}  // namespace
+
+Confinement confine(const Rights& rights, int last_descriptor, int highest_landlock,
+                    const std::function<void()>& prepare) {
+  const bool limits = limit_process(rights, last_descriptor);
+  const bool empty_folder = enter_empty_folder();
+  prepare();
+  Confinement confinement = give_up_rights(rights, highest_landlock);
+  confinement.limits = limits;
+  confinement.empty_folder = empty_folder;
   return confinement;
 }
 

@@ -8,12 +8,14 @@
 ///     Landlock        reads below the scene's folders and the named files; no other file is opened, none is written
 ///     system calls    (seccomp) starts no program or process, maps no code, opens no socket; creates, changes and
 ///                     removes no file; the process is killed when it tries
-///     no_new_privs    gains no rights by starting a program
-///     limits          memory, size of its unnamed file, no core dump; it dies with the program that started it
+///     no_new_privs    gains no rights by starting a program, and keeps none of root's
+///     limits          memory, size of its unnamed file, no core dump; it dies with the program that started it, and
+///                     before that where memory runs out
 ///
-/// Each wall that the kernel lacks is skipped; enter() says which hold.
+/// Each wall that the kernel lacks is skipped; confine() says which hold.
 
 #include <cstdint>
+#include <functional>
 
 #include "import/scene_scope.h"
 #include "roam/import.h"
@@ -30,18 +32,15 @@ struct Rights {
 
 inline constexpr int any_landlock = 1 << 20;
 
-/// Limits memory and closes every descriptor above `last_descriptor`. Returns whether all of it holds. Call it first:
-/// what follows loads libraries.
-[[nodiscard]] bool limit_process(const Rights& rights, int last_descriptor);
+/// Puts up all walls in their order; says which hold. `prepare` runs when memory is limited, in an empty folder, and
+/// before the other walls stand: it loads the libraries that are needed, and opens what is written; nothing that comes
+/// after can. Call it first. Every descriptor above `last_descriptor` is closed. `highest_landlock` lets a test stand
+/// for an older kernel.
+[[nodiscard]] Confinement confine(
+    const Rights& rights, int last_descriptor, int highest_landlock = any_landlock,
+    const std::function<void()>& prepare = [] {});
 
-/// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
-bool enter_empty_folder();
-
-/// Gives the rights up; says which of Landlock, seccomp and no_new_privs hold. `highest_landlock` lets a test stand for
-/// an older kernel. Nothing that comes after can load a library.
-[[nodiscard]] Confinement enter(const Rights& rights, int highest_landlock = any_landlock);
-
-/// The parts of enter(). Each returns whether it holds; restrict_files the version of Landlock, or 0.
+/// Parts of confine(). Each returns whether it holds; restrict_files the version of Landlock, or 0.
 [[nodiscard]] int restrict_files(const Rights& rights, int highest_landlock);
 [[nodiscard]] bool restrict_system_calls();
 

@@ -105,7 +105,7 @@ bool restrict_system_calls() {
   if (filter == nullptr) return false;
   // The process set no_new_privs itself.
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
-  // Threads that are there already get it, too; Landlock cannot do that. See enter().
+  // Threads that are there already get it, too; Landlock cannot do that. See confine().
   seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
   // Calls by another processor's numbers, which the rules do not know.
   seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);

@@ -1,31 +1,17 @@
 #pragma once
 /// \file
-/// What is paged: tiles, and pages of the index; and how soon a body could reach them.
-
-#include <cstdint>
+/// The body that a pager reads for, and how soon it could reach a box.
 
 #include "roam/math.h"
 #include "roam/sweep.h"
 
 namespace roam::paging {
 
-/// A tile of a page, or the page itself.
-struct Thing {
-  static constexpr std::uint32_t none = UINT32_MAX;
-  static constexpr std::uint32_t whole = UINT32_MAX;
-
-  std::uint32_t page = none;
-  std::uint32_t tile = whole;
-
-  [[nodiscard]] bool is_page() const { return tile == whole; }
-  bool operator==(const Thing&) const = default;
-};
-
-/// The body for which everything is done, as it was told last.
-class Traveller {
+/// The body that a pager was updated with last.
+class TrackedBody {
  public:
-  Traveller() = default;
-  Traveller(const Body& body, const Vec3& place, const Vec3& velocity);
+  TrackedBody() = default;
+  TrackedBody(const Body& body, const Vec3& place, const Vec3& velocity);
 
   /// Seconds until the body could be at the box: soonest straight ahead, twice as late to the side, thrice behind.
   [[nodiscard]] double time_to(const Box& box) const;
@@ -39,7 +25,7 @@ class Traveller {
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const Vec3& place() const { return place_; }
   /// Whether what was planned for `other` serves this one too.
-  [[nodiscard]] bool like(const Traveller& other) const;
+  [[nodiscard]] bool like(const TrackedBody& other) const;
 
  private:
   /// From the body's axis to the nearest point of the box.

@@ -1,4 +1,4 @@
-#include "view/histogram.h"
+#include "histogram.h"
 
 #include <algorithm>
 #include <cmath>

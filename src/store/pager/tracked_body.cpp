@@ -1,4 +1,4 @@
-#include "store/pager/thing.h"
+#include "store/pager/tracked_body.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -19,14 +19,14 @@ constexpr double same_place = 0.25, same_velocity = 1.0;
 
 }  // namespace
 
-Traveller::Traveller(const Body& body, const Vec3& place, const Vec3& velocity)
+TrackedBody::TrackedBody(const Body& body, const Vec3& place, const Vec3& velocity)
     : body_(body),
       place_(place),
       velocity_(velocity),
       speed_(glm::length(velocity)),
       pace_(std::max(least_pace, speed_)) {}
 
-Vec3 Traveller::way_to(const Box& box) const {
+Vec3 TrackedBody::way_to(const Box& box) const {
   Vec3 way;
   for (int k = 0; k < 3; ++k) {
     const double tall = k == 2 ? body_.half_height : 0.0;
@@ -35,11 +35,11 @@ Vec3 Traveller::way_to(const Box& box) const {
   return way;
 }
 
-double Traveller::gap(const Box& box) const {
+double TrackedBody::gap(const Box& box) const {
   return std::max(0.0, glm::length(way_to(box)) - body_.radius - Pager::margin);
 }
 
-double Traveller::time_to(const Box& box) const {
+double TrackedBody::time_to(const Box& box) const {
   const Vec3 way = way_to(box);
   const double length = glm::length(way), distance = length - body_.radius - Pager::margin;
   if (!(distance > 0.0)) return 0.0;
@@ -47,9 +47,9 @@ double Traveller::time_to(const Box& box) const {
   return distance / pace_ * (1.0 + turn);
 }
 
-bool Traveller::holds(const Box& box) const { return gap(box) <= held_distance + held_seconds * speed_; }
+bool TrackedBody::holds(const Box& box) const { return gap(box) <= held_distance + held_seconds * speed_; }
 
-bool Traveller::like(const Traveller& other) const {
+bool TrackedBody::like(const TrackedBody& other) const {
   return body_.radius == other.body_.radius && glm::length(place_ - other.place_) < same_place &&
          glm::length(velocity_ - other.velocity_) < same_velocity;
 }

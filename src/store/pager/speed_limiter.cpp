@@ -1,4 +1,4 @@
-#include "store/pager/governor.h"
+#include "store/pager/speed_limiter.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -19,8 +19,8 @@ constexpr double two_updates = 2.0 / 60.0;
 /// Part of what was found by which a body may move before it is looked again.
 constexpr double trusted_part = 0.25;
 
-/// The gap between the body's surface and the nearest thing that is still to come, or `reach`.
-double gap(const Residents& residents, const Traveller& t, double reach) {
+/// The gap between the body's surface and the nearest item that is still to come, or `reach`.
+double gap(const Residents& residents, const TrackedBody& t, double reach) {
   Contact nearest;
   Collector collector(Collector::Kind::contacts, reach, {&nearest, 1});
   query::collect_of(PagedScene(residents, PagedScene::What::coming), {t.body(), t.place()}, {}, collector);
@@ -29,23 +29,23 @@ double gap(const Residents& residents, const Traveller& t, double reach) {
 
 }  // namespace
 
-void Governor::look(const Residents& residents, const Traveller& traveller, double latency, bool changed,
-                    bool complete) {
+void SpeedLimiter::look(const Residents& residents, const TrackedBody& tracked, double latency, bool changed,
+                        bool complete) {
   latency_ = latency;
   if (complete) {
     ready_ = limit_ = std::numeric_limits<double>::infinity();
     radius_ = -1.0;
     return;
   }
-  const double reach = std::clamp(horizon_ * traveller.speed(), least_reach, greatest_reach);
-  const double moved = glm::length(traveller.place() - place_);
-  const bool same_body = traveller.body().radius == radius_ && traveller.body().half_height == half_height_;
+  const double reach = std::clamp(horizon_ * tracked.speed(), least_reach, greatest_reach);
+  const double moved = glm::length(tracked.place() - place_);
+  const bool same_body = tracked.body().radius == radius_ && tracked.body().half_height == half_height_;
   if (changed || !same_body || moved > trusted_part * found_ || reach > 2.0 * reach_) {
-    place_ = traveller.place();
-    radius_ = traveller.body().radius;
-    half_height_ = traveller.body().half_height;
+    place_ = tracked.place();
+    radius_ = tracked.body().radius;
+    half_height_ = tracked.body().half_height;
     reach_ = reach;
-    found_ = gap(residents, traveller, reach);
+    found_ = gap(residents, tracked, reach);
     ready_ = found_;
   } else {
     ready_ = found_ - moved;
@@ -53,8 +53,8 @@ void Governor::look(const Residents& residents, const Traveller& traveller, doub
   limit_ = std::max(least_limit, ready_ / (latency_ + two_updates));
 }
 
-bool Governor::anything_coming(const Residents& residents, const Traveller& traveller, double reach) {
-  return gap(residents, traveller, reach) < reach;
+bool SpeedLimiter::anything_coming(const Residents& residents, const TrackedBody& tracked, double reach) {
+  return gap(residents, tracked, reach) < reach;
 }
 
 }  // namespace roam::paging

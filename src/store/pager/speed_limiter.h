@@ -2,21 +2,22 @@
 /// \file
 /// How fast a body may go, so that what it comes to is known by then.
 
+#include "store/pager/paged_item.h"
 #include "store/pager/residents.h"
-#include "store/pager/thing.h"
+#include "store/pager/tracked_body.h"
 
 namespace roam::paging {
 
 /// Of the thread that moves the body.
-class Governor {
+class SpeedLimiter {
  public:
-  explicit Governor(double horizon) : horizon_(horizon) {}
+  explicit SpeedLimiter(double horizon) : horizon_(horizon) {}
 
   /// Looks how far everything is known around the body, or concludes it from when it looked last. `changed`: something
   /// came or went; `complete`: everything is there.
-  void look(const Residents& residents, const Traveller& traveller, double latency, bool changed, bool complete);
+  void look(const Residents& residents, const TrackedBody& tracked, double latency, bool changed, bool complete);
   /// Whether anything within `reach` (m) of the body is unknown and has not failed.
-  [[nodiscard]] static bool anything_coming(const Residents& residents, const Traveller& traveller, double reach);
+  [[nodiscard]] static bool anything_coming(const Residents& residents, const TrackedBody& tracked, double reach);
 
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] double ready() const { return ready_; }

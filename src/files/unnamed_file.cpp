@@ -1,0 +1,59 @@
+#include "files/unnamed_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "roam/error.h"
+
+namespace roam::files {
+namespace {
+
+Descriptor open_one() {
+  const std::string folder = temporary_folder();
+#ifdef O_TMPFILE
+  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (file.is_open()) return file;
+#endif
+  std::string name = folder + "/roam-XXXXXX";
+  Descriptor named(::mkostemp(name.data(), O_CLOEXEC));
+  if (named.is_open()) ::unlink(name.c_str());
+  return named;
+}
+
+Error refused(const std::string& what, const char* verb, int reason) {
+  return Error(fmt::format(
+      "{}: {} cannot be {} there: {}. Free some space, or name a folder that has some by the environment variable "
+      "TMPDIR, or allow more memory.",
+      temporary_folder(), what, verb, std::strerror(reason)));
+}
+
+}  // namespace
+
+UnnamedFile::UnnamedFile(std::string what) : what_(std::move(what)), file_(open_one()), why_none_(errno) {}
+
+void UnnamedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  if (!file_.is_open()) throw refused(what_, "kept", why_none_);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = again([&] {
+      return ::pwrite(file_.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    });
+    if (n <= 0) throw refused(what_, "kept", errno);
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+void UnnamedFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = again([&] {
+      return ::pread(file_.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    });
+    if (n <= 0) throw refused(what_, "read", errno);
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace roam::files

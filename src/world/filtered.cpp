@@ -1,0 +1,62 @@
+#include "roam/filtered.h"
+
+#include <algorithm>
+
+#include "math/mix.h"
+#include "world/data.h"
+
+namespace roam {
+
+Filtered::Filtered(const Space& space) : space_(&space), state_(next_revision()) {}
+Filtered::Filtered(LiveSpace& space) : space_(&space), live_(&space), state_(next_revision()) {}
+
+void Filtered::ignore(ObjectId object) {
+  if (object == no_object) return;
+  const auto at = std::lower_bound(ignored_.begin(), ignored_.end(), object);
+  if (at != ignored_.end() && *at == object) return;
+  ignored_.insert(at, object);
+  state_ = next_revision();
+}
+
+void Filtered::stop_ignoring(ObjectId object) {
+  const auto at = std::lower_bound(ignored_.begin(), ignored_.end(), object);
+  if (at == ignored_.end() || *at != object) return;
+  ignored_.erase(at);
+  state_ = next_revision();
+}
+
+void Filtered::ignore_only(std::span<const ObjectId> objects) {
+  std::vector<ObjectId> only(objects.begin(), objects.end());
+  std::sort(only.begin(), only.end());
+  only.erase(std::unique(only.begin(), only.end()), only.end());
+  if (!only.empty() && only.back() == no_object) only.pop_back();
+  if (only == ignored_) return;
+  ignored_.swap(only);
+  state_ = next_revision();
+}
+
+bool Filtered::ignores(ObjectId object) const { return ObjectFilter{ignored_, nullptr}.ignores(object); }
+
+bool Filtered::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  return live_ != nullptr && live_->update(body, place, velocity);
+}
+
+SpaceFacts Filtered::facts() const {
+  SpaceFacts facts = space_->facts();
+  if (facts.revision) facts.revision = mix(*facts.revision) + state_;
+  return facts;
+}
+
+FirstImpact Filtered::ask_first(const Query& query, Vicinity* vicinity) const {
+  if (ignored_.empty()) return ask_first_of(*space_, query, vicinity);
+  const ObjectFilter filter = this->filter(query);
+  return ask_first_of(*space_, {query.body, query.from, query.motion, &filter}, vicinity);
+}
+
+void Filtered::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+  if (ignored_.empty()) return ask_near_of(*space_, query, collector, vicinity);
+  const ObjectFilter filter = this->filter(query);
+  ask_near_of(*space_, {query.body, query.from, query.motion, &filter}, collector, vicinity);
+}
+
+}  // namespace roam

@@ -1,0 +1,286 @@
+#include "roam/instances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/finite.h"
+#include "math/mix.h"
+#include "roam/filtered.h"
+#include "text/number.h"
+#include "world/box_tree.h"
+#include "world/floor_only.h"
+#include "world/frame.h"
+#include "world/many.h"
+#include "world/query.h"
+
+namespace roam {
+namespace {
+
+/// The number of the first instance.
+constexpr ObjectId first_instance = ObjectId{1} << 31;
+
+/// As many as there are numbers for triangles of (frame.h).
+constexpr std::size_t most_instances = std::size_t{1} << 30;
+
+/// Rounding of a turned point or way, of its largest length: a difference, two products, their sum, and the cosine's
+/// own, four times over.
+constexpr double turn_rounding = 0x1p-48;
+
+void check(const Pose& pose) {
+  if (!is_finite(pose.position) || !std::isfinite(pose.heading)) throw Error("the pose of an instance is not finite");
+  if (largest(pose.position) > coordinate_limit) {
+    throw Error("an instance cannot be put " + number_text(largest(pose.position)) +
+                " m from the origin; the limit is " + number_text(coordinate_limit) + " m");
+  }
+}
+
+/// The space itself, or what it is a part of.
+const Space& unfiltered(const Space& space) {
+  const Space* inner = &space;
+  while (const auto* filtered = dynamic_cast<const Filtered*>(inner)) inner = &filtered->space();
+  return *inner;
+}
+
+/// The query without the filters that name instances alone.
+Query for_base(const Query& query) {
+  for (const ObjectFilter* f = query.ignored; f != nullptr; f = f->also) {
+    if (!f->objects.empty() && f->objects.front() < first_instance) return query;
+  }
+  return {query.body, query.from, query.motion};
+}
+
+/// The box about a turned box.
+Box turned(const Box& box, const query::Frame& frame) {
+  if (box.empty()) return box;
+  const Vec3 half = 0.5 * box.size(), center = frame.to_scene(box.center());
+  const double c = std::abs(frame.cosine), s = std::abs(frame.sine);
+  const Vec3 around(c * half.x + s * half.y, s * half.x + c * half.y, half.z);
+  // Rounding is far below the slack of the tree.
+  return {center - around, center + around};
+}
+
+}  // namespace
+
+Vec3 Pose::to_scene(const Vec3& p) const {
+  const double c = std::cos(heading), s = std::sin(heading);
+  return position + Vec3(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+}
+
+Vec3 Pose::to_instance(const Vec3& p) const {
+  const double c = std::cos(heading), s = std::sin(heading);
+  const Vec3 v = p - position;
+  return {c * v.x + s * v.y, c * v.y - s * v.x, v.z};
+}
+
+Vec3 Velocity::at(const Pose& pose, const Vec3& point) const {
+  const Vec3 arm = point - pose.position;
+  return linear + turning * Vec3(-arm.y, arm.x, 0.0);
+}
+
+struct Instances::State {
+  struct Instance {
+    std::shared_ptr<const World> world;  ///< null: removed
+    const WorldData* data = nullptr;
+    Pose pose;
+    Velocity velocity;
+    InstanceLabel label;
+    query::Frame frame;
+  };
+
+  explicit State(const Space& unmoved) : space(unmoved), error(std::max(unmoved.largest_error(), usual_error)) {}
+
+  const Space& space;               ///< what does not move
+  LiveSpace* live = nullptr;        ///< the same, where it is to be updated
+  std::vector<Instance> instances;  ///< the first one is number first_instance
+  BoxTree tree;
+  std::uint64_t state = next_revision();  ///< another number after each change, in all of the program
+  double error;                           ///< the largest of all, metres
+  bool lossless = false;                  ///< one of the worlds is
+
+  [[nodiscard]] std::uint32_t index(ObjectId instance) const {
+    const std::uint32_t i = instance - first_instance;
+    if (instance < first_instance || i >= instances.size() || !instances[i].world) {
+      throw Error("there is no instance with the number " + std::to_string(instance));
+    }
+    return i;
+  }
+  [[nodiscard]] const Instance& at(ObjectId instance) const { return instances[index(instance)]; }
+
+  void put(std::uint32_t i) {
+    Instance& it = instances[i];
+    it.frame = {it.pose.position, std::cos(it.pose.heading), std::sin(it.pose.heading),
+                query::instance_bit | TriangleId{i} << 32, first_instance + i};
+    tree.change({{turned(it.data->reach, it.frame), i}}, {});
+    state = next_revision();
+  }
+
+  /// A query as an instance sees it.
+  struct Seen {
+    query::Frame frame;
+    Query query;
+
+    Seen(const query::Frame& of, const Query& asked) : frame(of) {
+      frame.pad = turn_rounding * (largest(asked.from - of.position) + largest(asked.motion));
+      query.body = {asked.body.radius + frame.pad, asked.body.half_height};
+      query.from = of.to_instance(asked.from);
+      query.motion = of.to_instance_way(asked.motion);
+    }
+    [[nodiscard]] query::Part part(const WorldData& data, double reach) const {
+      return query::part_of(query, query::reached(query, reach).meets(data.reach));
+    }
+  };
+
+  [[nodiscard]] bool is_ignored(std::uint32_t i, const Query& query) const {
+    return query.ignored != nullptr && query.ignored->ignores(first_instance + i);
+  }
+
+  /// Offers the collector what comes near of one instance.
+  void offer(std::uint32_t i, const Query& query, Collector& collector) const {
+    const Instance& it = instances[i];
+    const Seen seen(it.frame, query);
+    const query::FloorOnly* const floor = collector.floor();
+    std::optional<query::FloorOnly> turned;
+    if (floor != nullptr) collector.take_floor_only(turned.emplace(floor->seen_in(seen.frame, seen.query.from)));
+    collector.enter(&seen.frame);
+    if (collector.only() != nullptr) {
+      query::collect_one(it.data->index, seen.query, collector);
+    } else {
+      query::collect(*it.data, seen.query, seen.part(*it.data, collector.asked()), 0, collector);
+    }
+    collector.enter(nullptr);
+    if (floor != nullptr) collector.take_floor_only(*floor);
+  }
+};
+
+Instances::Instances(const Space& space) : state_(std::make_unique<State>(space)) {
+  if (dynamic_cast<const Instances*>(&unfiltered(space)) != nullptr) {
+    throw Error("instances cannot be put into a space of instances: add them to that one");
+  }
+}
+Instances::Instances(LiveSpace& space) : Instances(static_cast<const Space&>(space)) { state_->live = &space; }
+Instances::~Instances() = default;
+
+ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label) {
+  State& s = *state_;
+  check(pose);
+  if (!world) throw Error("an instance needs a world");
+  if (world->largest_error() > s.error) {
+    throw Error("cannot add an instance: its world is stored to " + number_text(world->largest_error()) +
+                " m, and this space is exact to " + number_text(s.error) + " m; build it with BuildOptions::lossless");
+  }
+  if (world->stats().triangles > query::source_bits) {
+    throw Error("cannot add an instance: its world has more than 4 billion triangles; divide it");
+  }
+  if (s.instances.size() >= most_instances) throw Error("there are no more numbers for instances");
+  const auto i = static_cast<std::uint32_t>(s.instances.size());
+  s.lossless |= world->data_->lossless;
+  const WorldData* const data = world->data_.get();
+  s.instances.push_back({std::move(world), data, pose, {}, std::move(label), {}});
+  s.put(i);
+  return first_instance + i;
+}
+
+void Instances::remove(ObjectId instance) {
+  State& s = *state_;
+  const std::uint32_t i = s.index(instance);
+  s.tree.change({}, {i});
+  s.instances[i] = {};
+  s.state = next_revision();
+}
+
+void Instances::set_pose(ObjectId instance, const Pose& pose) {
+  check(pose);
+  const std::uint32_t i = state_->index(instance);
+  Pose& old = state_->instances[i].pose;
+  if (old.position == pose.position && old.heading == pose.heading) return;
+  old = pose;
+  state_->put(i);
+}
+
+void Instances::set_velocity(ObjectId instance, const Velocity& velocity) {
+  if (!is_finite(velocity.linear) || !std::isfinite(velocity.turning)) {
+    throw Error("the velocity of an instance is not finite");
+  }
+  state_->instances[state_->index(instance)].velocity = velocity;
+}
+
+const Pose& Instances::pose(ObjectId instance) const { return state_->at(instance).pose; }
+const Velocity& Instances::velocity(ObjectId instance) const { return state_->at(instance).velocity; }
+const World& Instances::world(ObjectId instance) const { return *state_->at(instance).world; }
+
+std::vector<ObjectId> Instances::instances() const {
+  std::vector<ObjectId> all;
+  for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
+    if (state_->instances[i].world) all.push_back(first_instance + i);
+  }
+  return all;
+}
+
+bool Instances::has(ObjectId instance) const {
+  const std::uint32_t i = instance - first_instance;
+  return instance >= first_instance && i < state_->instances.size() && state_->instances[i].world;
+}
+
+bool Instances::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  return state_->live != nullptr && state_->live->update(body, place, velocity);
+}
+
+SpaceFacts Instances::facts() const {
+  const State& s = *state_;
+  SpaceFacts facts = s.space.facts();
+  facts.bounds.include(s.tree.bounds());
+  facts.largest_error = s.error;
+  if (facts.revision) facts.revision = mix(*facts.revision) + s.state;
+  return facts;
+}
+
+Object Instances::object(TriangleId triangle) const {
+  if (!query::is_of_instance(triangle)) return state_->space.object(triangle);
+  const auto i = static_cast<std::uint32_t>((triangle & ~query::instance_bit) >> 32);
+  if (i >= state_->instances.size() || !state_->instances[i].world) return {};
+  const State::Instance& it = state_->instances[i];
+  if ((triangle & query::source_bits) >= it.world->stats().triangles) return {};
+  return {first_instance + i, it.label.name, it.label.user_data};
+}
+
+TriangleId Instances::source_triangle(TriangleId triangle) {
+  return !query::is_of_instance(triangle) ? triangle : triangle & query::source_bits;
+}
+
+FirstImpact Instances::ask_first(const Query& query, Vicinity* vicinity) const {
+  const State& s = *state_;
+  FirstImpact first = ask_first_of(s.space, for_base(query), vicinity);
+  double until = first.time;
+  s.tree.along(query::reached(query, query::hit_reach), until, [&](std::uint32_t i, const Interval&) {
+    if (s.is_ignored(i, query)) return;
+    const State::Instance& it = s.instances[i];
+    const State::Seen seen(it.frame, query);
+    FirstImpact met = query::first_impact(*it.data, seen.query, seen.part(*it.data, query::hit_reach));
+    if (!met.hit) return;
+    met.triangle |= it.frame.triangles;
+    met.object = it.frame.object;
+    if (met.contact) met.contact = seen.frame.in_scene(*met.contact);
+    if (first.hit && !query::is_earlier(met, first)) return;
+    first = met;
+    until = first.time;
+  });
+  return first;
+}
+
+void Instances::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+  const State& s = *state_;
+  if (const FirstImpact* const only = collector.only(); only && query::is_of_instance(only->triangle)) {
+    return s.offer(s.index(only->object), query, collector);
+  }
+  if (s.lossless && collector.only() == nullptr) collector.demand(query::lossless_tolerance);
+  ask_near_of(s.space, for_base(query), collector, vicinity);
+  if (collector.only() != nullptr) return;
+  Sweep look = query::reached(query, collector.reach());
+  s.tree.near(look, [&](std::uint32_t i, const Interval&) {
+    if (!s.is_ignored(i, query)) s.offer(i, query, collector);
+    look = query::reached(query, collector.reach());
+  });
+}
+
+}  // namespace roam

@@ -1,0 +1,57 @@
+// What is written to a disk that is full, or beyond a limit of the system: a sentence, a status, and no half of a file.
+#include <gtest/gtest.h>
+
+#include "messages.h"
+#include "program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class FullDisk : public testing::Test {
+ protected:
+  void SetUp() override {
+    scene_ = folder_.write("floor.obj", "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nv -10 10 0\nf 1 2 3 4\n");
+    fs::create_directories(folder_.file("disk"));
+    setenv("XDG_CONFIG_HOME", folder_.file("config").c_str(), 1);
+  }
+  /// Runs the program in a world where the folder "disk" is a disk of 64 kB with 2 kB left; then lists what is there.
+  [[nodiscard]] ProgramResult run(const std::string& arguments) const {
+    return run_program("/bin/sh", {"-c", "exec unshare -rm /bin/sh -c '" + mount() +
+                                             " && dd if=/dev/zero of=" + folder_.file("disk/filler") +
+                                             " bs=1k count=62 2>/dev/null; " ROAM_PROGRAM " " + arguments +
+                                             "; status=$?; ls " + folder_.file("disk") + "; exit $status'"});
+  }
+  void expect_told(const std::string& arguments, const std::string& why) const {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << arguments << result.err;
+    EXPECT_TRUE(contains(result.err, why)) << result.err;
+    EXPECT_EQ(result.out, "filler\n") << arguments;
+  }
+  [[nodiscard]] bool can_mount() const {
+    return run_program("/bin/sh", {"-c", "exec unshare -rm /bin/sh -c '" + mount() + "'"}).status == 0;
+  }
+  [[nodiscard]] std::string mount() const { return "mount -t tmpfs -o size=64k none " + folder_.file("disk"); }
+
+  const TestFolder folder_;
+  std::string scene_;
+};
+
+TEST_F(FullDisk, IsSaidOfPicturesAndFilms) {
+  if (!can_mount()) GTEST_SKIP() << "no disk can be mounted here";
+  const std::string view = "view " + scene_ + " --headless --size 640x480 --mode fly ";
+  expect_told(view + "--screenshot " + folder_.file("disk/shot.png"), "shot.png: No space left on device; make room");
+  expect_told(view + "--time 0.5 --record " + folder_.file("disk/film.mp4"), "the disk is full: make room");
+  expect_told("make gallery -o " + folder_.file("disk/gallery.ply"), "gallery.ply: No space left on device; make room");
+}
+
+TEST_F(FullDisk, IsLikeALimitOfTheSystem) {
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", "ulimit -f 2; exec " ROAM_PROGRAM " view " + scene_ +
+                            " --headless --size 640x480 --mode fly --screenshot " + folder_.file("disk/shot.png")});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "shot.png: File too large")) << result.err;
+  EXPECT_TRUE(fs::is_empty(folder_.file("disk")));
+}
+
+}  // namespace

@@ -1,0 +1,105 @@
+// Pictures of ways and scenes of any size, drawn in little memory.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "picture/cut.h"
+#include "picture/way.h"
+
+namespace {
+
+using namespace roam::app::picture;
+using roam::Mesh;
+
+void nobody(std::uint64_t) {}
+
+TEST(PictureMemory, HoldsFewPlacesOfAWayOfAnyLength) {
+  // Round and round, a little lower each time, and once near to something.
+  Record record;
+  roam::StepReport report;
+  report.height = 1.8;
+  const auto place = [](int i) {
+    const double angle = 1e-3 * i;
+    return roam::Vec3(10.0 * std::cos(angle), 10.0 * std::sin(angle), 100.0 - 1e-5 * i);
+  };
+  const int steps = 300'000, nearest = 123'456;
+  for (int i = 0; i <= steps; ++i) {
+    report.from = place(std::max(i - 1, 0));
+    report.to = place(i);
+    report.clearance = i == nearest ? 0.31 : 0.5;
+    report.segments.clear();
+    roam::Segment corner;
+    corner.position = report.to;
+    corner.height = 1.8;
+    corner.clearance = report.clearance;
+    if (i > 0) report.segments.push(corner);
+    append(record, report, i == 0);
+    ASSERT_LE(record.places.size(), Record::most);
+  }
+  const Way way = simplified(record, 0.001);
+  EXPECT_NEAR(way.length, 10.0 * 1e-3 * steps, 1.0);
+  ASSERT_LT(way.nearest, record.places.size());
+  EXPECT_EQ(record.places[way.nearest].clearance, 0.31);
+  EXPECT_NEAR(glm::distance(record.places[way.nearest].position, place(nearest)), 0.0, 1e-12);
+  EXPECT_LE(way.tolerance, 1.0);
+  EXPECT_GT(way.tolerance, 0.001);
+}
+
+TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
+  // A wavy field, cut in its middle: the same lines, held in little.
+  const std::uint32_t n = 300;
+  Mesh mesh;
+  for (std::uint32_t y = 0; y <= n; ++y) {
+    for (std::uint32_t x = 0; x <= n; ++x)
+      mesh.vertices.emplace_back(x, y, 10.0 * std::sin(0.1 * x) * std::sin(0.1 * y));
+  }
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x;
+      mesh.triangles.push_back({a, a + 1, a + n + 1});
+      mesh.triangles.push_back({a + 1, a + n + 2, a + n + 1});
+    }
+  }
+  const PlanView view{LevelMap({{0, 0}, {n, n}}, 0), {0.5}, {}, 1.0};
+  const Cuts all = cut({&mesh, 1}, Turn{}, {&view, 1}, {}, nobody);
+  const std::size_t most = 4000;
+  ASSERT_GT(all.plans[0].walls.size(), 2 * most);
+  Cutter cutter(Turn{}, {&view, 1}, {}, most);
+  for (std::size_t first = 0; first < mesh.triangles.size(); first += 5000) {
+    Mesh some{"", mesh.vertices, {}};
+    for (std::size_t t = first; t < std::min(first + 5000, mesh.triangles.size()); ++t) {
+      some.triangles.push_back(mesh.triangles[t]);
+    }
+    cutter.add({&some, 1}, nobody);
+  }
+  const Cuts few = cutter.take();
+  EXPECT_LE(few.plans[0].walls.size(), most);
+  EXPECT_GT(few.plans[0].walls.size(), most / 8);
+  // Every line that was cut is still drawn where it was.
+  for (const Segment& s : all.plans[0].walls) {
+    double nearest = 1e9;
+    for (const Segment& held : few.plans[0].walls) nearest = std::min(nearest, glm::distance(held.a, s.a));
+    EXPECT_LT(nearest, 10.0);
+  }
+}
+
+TEST(PictureMemory, CutsNothingThatLiesElsewhere) {
+  const PlanView view{LevelMap({{-1, -2}, {3, 4}}, 0), {5.0, 8.0}, {1.5}, 1.0};
+  const Turn turn{{100, 200, 7}, 0.0, 1.0};  // a quarter
+  const Cutter cutter(turn, {&view, 1}, {});
+  const roam::Box box = cutter.box();
+  for (const auto& corner : {roam::Vec3(-1, -2, 3.5), roam::Vec3(3, 4, 8)}) {
+    bool found = false;
+    for (const double x : {box.lower.x, box.upper.x}) {
+      for (const double y : {box.lower.y, box.upper.y}) {
+        for (const double z : {box.lower.z, box.upper.z}) {
+          found |= glm::distance(turn(roam::Vec3(x, y, z)), corner) < 1e-5;
+        }
+      }
+    }
+    EXPECT_TRUE(found);
+  }
+}
+
+}  // namespace
