@@ -35,7 +35,7 @@ constexpr std::uint64_t sources_memory = 128u << 20;
 
 /// Bytes of holes that a file may have, and how many for each byte of it that is on the disk. A hole costs its author
 /// nothing, and whoever hashes it as much as other bytes.
-constexpr std::uint64_t kMostHoles = 16u << 20, kHolesPerByte = 16;
+constexpr std::uint64_t most_holes = 16u << 20, holes_per_byte = 16;
 
 /// Hashes a file as its bytes, those of holes without reading them.
 class FileHash {
@@ -77,7 +77,7 @@ class FileHash {
     if (bytes == 0) return;
     holes_ += bytes;
     const std::uint64_t on_disk = 512 * static_cast<std::uint64_t>(status_.st_blocks);
-    if (holes_ > kMostHoles && (holes_ - kMostHoles) / kHolesPerByte > on_disk) {
+    if (holes_ > most_holes && (holes_ - most_holes) / holes_per_byte > on_disk) {
       throw Error(
           fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
                       "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
