@@ -76,7 +76,7 @@ class RunReader {
   };
   static_assert(sizeof(Entry) == 48);
   struct Footer;
-  friend void write_run(const std::filesystem::path&, const std::string&, const RunContent&, std::span<const RunItem>);
+  friend void write_run(const Folder&, const std::string&, const RunContent&, std::span<const RunItem>);
 
   void get(std::uint64_t offset, std::span<std::byte> out) const;
   [[noreturn]] void refuse(const char* why) const;
