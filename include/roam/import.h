@@ -89,7 +89,7 @@ struct Georeference {
   Vec3 origin{0.0};
 };
 
-/// The walls around the process that reads files, as far as the kernel has them. docs/importing.md says what each one
+/// The walls around the process that reads files, as far as the kernel has them. SECURITY.md says what each one
 /// stops.
 struct Confinement {
   int landlock = 0;                ///< version of Landlock that keeps it to the scene's files; 0: the kernel has none
