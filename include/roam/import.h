@@ -32,13 +32,15 @@
 
 namespace roam {
 
-/// The axis of a file that points up. Reading rotates it to +z:
-/// x: (x, y, z) -> (-z, y, x);  y: (x, y, z) -> (x, -z, y);  z: as it is.
-enum class UpAxis : std::uint8_t { x, y, z };
+/// The axis of a file that points up. Reading rotates it to +z: (x, y, z) becomes
+/// x: (-z, y, x);  y: (x, -z, y);  z: (x, y, z);  minus_x: (z, y, -x);  minus_y: (x, z, -y);  minus_z: (x, -y, -z).
+enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
 /// The length of 1 in a file: metre, centimetre, millimetre, international foot (0.3048 m), inch (0.0254 m).
 enum class LengthUnit : std::uint8_t { m, cm, mm, ft, in };
 
-/// Takes "x", "y" or "z". Throws roam::Error otherwise.
+/// "x", "y", "z", "-x", "-y" or "-z".
+[[nodiscard]] const char* to_string(UpAxis up);
+/// The reverse of to_string. Throws roam::Error for other texts.
 [[nodiscard]] UpAxis parse_up_axis(std::string_view text);
 /// Takes "m", "cm", "mm", "ft" or "in". Throws roam::Error otherwise.
 [[nodiscard]] LengthUnit parse_length_unit(std::string_view text);
