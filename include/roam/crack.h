@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// A gap of the floor into which a small enough body falls. See docs/training.md for what is one.
+/// A gap of the floor into which a small enough body falls. See docs/cracks.md for what is one.
 struct Crack {
   enum class Kind : std::uint8_t {
     crack,      ///< carried over by a large enough body or foot

@@ -12,7 +12,7 @@
 ///
 /// passage.h says how wide the widest way is; this says what that means to one body, or to many in one search. A yes is
 /// said of a way that is wide enough and that a real Walker has gone. A no comes with what decides: a door, a headroom,
-/// a step, the wall beside an end. `roam probe` asks just this; docs/training.md, "Probing", has it in a shell's words.
+/// a step, the wall beside an end. `roam probe` asks just this; docs/probing.md has it in a shell's words.
 ///
 /// Lengths are metres, up is +z. Same input, same bits. Functions may be called at the same time for one survey.
 /// Library target roam::ways.

@@ -9,7 +9,7 @@
 ///       walker.set_regions(profile->regions);
 ///     }
 ///
-/// Library target roam::profile. docs/training.md describes the file member by member. A reader of format version 1
+/// Library target roam::profile. docs/profile.md describes the file member by member. A reader of format version 1
 /// takes every file of version 1, and passes over members that it does not know.
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 /// Xie & Niu 2020 (PLoS ONE 15(2): e0229038, figure 6) roam n random paths with a radius that goes down where the
 /// viewpoint cannot enter and up where it flies off. Method::paper does that and no more; Method::interval finds both
 /// ends from the scene itself, by the widest way (passage.h) and the cracks of the floor, and proves them by trials
-/// with the real Walker just inside and just outside. docs/training.md has the definitions, the measured errors and
-/// what is certified.
+/// with the real Walker just inside and just outside. docs/training.md has the method, docs/cracks.md
+/// the measured errors of the lower end.
 ///
 /// It takes a second or so for some rooms, 5 to 30 s for a furnished house, a mine or a dam of 2 million triangles.
 ///
