@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// A gap of the floor that a small enough body falls into. Metres.
+/// A gap of the floor that a small enough body falls into; docs/cracks.md defines it. Metres.
 struct Crack {
   enum class Kind : std::uint8_t {
     crack,      ///< a large enough body or support disc spans it

@@ -11,7 +11,8 @@
 ///     }
 ///
 /// `passable` means that a way is wide enough (passage.h) and that a Walker has gone it. Otherwise `limit` names the
-/// obstacle: a door, a headroom, a step, a wall beside an end. `roam probe` is its program.
+/// obstacle: a door, a headroom, a step, a wall beside an end. `roam probe` is its program;
+/// docs/probing.md explains the answers.
 ///
 /// Metres, up is +z. The same input gives the same bits. Thread-safe. Target roam::ways.
 

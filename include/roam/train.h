@@ -9,7 +9,7 @@
 /// Method::paper is figure 6 of Xie & Niu 2020 (PLoS ONE 15(2): e0229038): it roams random paths, with a smaller radius
 /// where the body cannot enter, and a larger one where it falls. Method::interval finds both ends of the interval from
 /// the widest ways (passage.h) and the cracks of the floor, and confirms them by trials with a Walker. docs/training.md
-/// has definitions and measured errors.
+/// has the definitions, docs/cracks.md the measured errors.
 ///
 /// Lengths in metres. The same survey, options and seed give the same bits. Thread-safe. Target roam::training.
 
