@@ -333,7 +333,7 @@ TEST(StoreBuildResume, RepairsJustWhatIsDamaged) {
   write_ply(folder.file("b.ply"), field(548, 0.5, {9000.0, 0.0, 0.0}));
   auto o = options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("s"));
   o.lossless = true;
-  o.import.up = roam::UpAxis::y;
+  o.import.up = roam::UpAxis::minus_y;
   o.import.unit = roam::LengthUnit::ft;
   o.import.ignore = {"nothing of this name"};
   roam::build_store(o);

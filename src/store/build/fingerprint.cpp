@@ -123,7 +123,7 @@ std::string name_in(const ScenePart& part, const fs::path& file) {
 
 std::string text_of(const ImportOptions& options) {
   Json json = {{"up", nullptr}, {"metres_per_unit", metres_per(options.unit)}, {"ignore", options.ignore}};
-  if (options.up) json["up"] = std::string(1, "xyz"[static_cast<int>(*options.up)]);
+  if (options.up) json["up"] = to_string(*options.up);
   if (!options.allow.empty()) {
     json["allow"] = Json::array();
     for (const fs::path& folder : options.allow)
@@ -138,8 +138,8 @@ void read_as(const std::string& text, ImportOptions& options) {
   try {
     const Json json = Json::parse(text);
     read.up.reset();
-    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
-      if (json.at("up") == std::string(1, "xyz"[static_cast<int>(up)])) read.up = up;
+    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
+      if (json.at("up") == to_string(up)) read.up = up;
     }
     for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
       if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
@@ -191,7 +191,8 @@ Sources::Seen Sources::status(const fs::path& file, Number* number) {
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   // Not the time of modification: anybody may set that back.
-  return {static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
+  return {
+      static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
 void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {
