@@ -40,7 +40,7 @@ struct Options {
   bool json = false;
 };
 
-// While a world is built there are the meshes and the index: docs/stores.md.
+// While a world is built both the meshes and the index are in memory.
 constexpr double building_bytes = 60.0;  // a triangle
 constexpr double radius = 0.3;           // m
 

@@ -26,7 +26,7 @@ if(ROAM_TOOLS)
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
 endif()
 
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/roamConfig.cmake.in roamConfig.cmake INSTALL_DESTINATION ${roam_package_dir})

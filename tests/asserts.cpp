@@ -42,7 +42,7 @@ TEST(Asserts, HoldWhileABodyWalksAndFlies) {
       const double angle = 0.05 * i;
       walker.step({.velocity = 3.0 * Vec3(std::cos(angle), std::sin(angle), 0.1)}, 1.0 / 60.0);
     }
-    EXPECT_GT(walker.report().clearance, 0.0);
+    EXPECT_GT(walker.report().axis_clearance, 0.0);
   }
   int hits = 0;
   for (int i = 0; i < 300; ++i) {

@@ -162,6 +162,14 @@ TEST(Info, AppliesUnitAndUpAxis) {
   EXPECT_EQ(report["bounds"]["max"], (std::vector<double>{0.2, 0, 0.02}));
 }
 
+TEST(Info, TurnsAnAxisThatPointsDown) {
+  const TestFolder folder;
+  const nlohmann::json report = info({folder.write("room.obj", room_obj()), "--up=-y"});
+  // (x, y, z) becomes (x, z, -y).
+  EXPECT_EQ(report["bounds"]["min"], (std::vector<double>{0, 0, -2}));
+  EXPECT_EQ(report["bounds"]["max"], (std::vector<double>{20, 3, 2}));
+}
+
 TEST(Info, LeavesOutWhatIsIgnored) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj());

@@ -220,7 +220,7 @@ TEST(FloatingPoint, Routes) {
     const roam::RouteResult result = roam::follow(walker, way);
     bits(result.length);
     bits(result.simulated);
-    bits(result.least_clearance);
+    bits(result.least_axis_clearance);
     bits(result.end);
     const roam::WalkerSettings person;
     for (const Vec3& place : roam::standing(way, person)) bits(place);

@@ -44,7 +44,8 @@ TEST(ImportDisplay, ShowsTheTrianglesThatAreWalkedOn) {
   for (const auto& [name, content] : scenes_at("12")) {
     const auto file = folder.write(name, content);
     for (const ImportOptions& options :
-         {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}, ImportOptions{.up = UpAxis::x}}) {
+         {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}, ImportOptions{.up = UpAxis::x},
+          ImportOptions{.up = UpAxis::minus_y}}) {
       const ImportedScene scene = import_scene(file, options);
       const Shown shown = show({file}, options);
       EXPECT_GT(shown.triangles.size(), 0u) << name;

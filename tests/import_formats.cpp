@@ -59,7 +59,7 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
     EXPECT_EQ(notes_contain(scene, "axis is up"), up != "Z_UP");
     // Words for the command line and for a program.
     EXPECT_TRUE(notes_contain(scene, "read it with its unit (--unit in)"));
-    EXPECT_EQ(notes_contain(scene, "read it with up = y (--up y)"), up == "Y_UP");
+    EXPECT_EQ(notes_contain(scene, "read it with up = y (--up=y)"), up == "Y_UP");
   }
   const auto file = folder.write("floor.dae", collada("Y_UP", "0.0254"));
   const ImportedScene told = import_scene(file, {.up = UpAxis::y, .unit = LengthUnit::in});
@@ -152,6 +152,9 @@ TEST(ImportFormats, TurnsEachAxisUpAndScalesEachUnit) {
   EXPECT_EQ(first_triangle(file, {.up = UpAxis::z})[0], Vec3(1, 2, 3));
   EXPECT_EQ(first_triangle(file, {.up = UpAxis::y})[0], Vec3(1, -3, 2));
   EXPECT_EQ(first_triangle(file, {.up = UpAxis::x})[0], Vec3(-3, 2, 1));
+  EXPECT_EQ(first_triangle(file, {.up = UpAxis::minus_x})[0], Vec3(3, 2, -1));
+  EXPECT_EQ(first_triangle(file, {.up = UpAxis::minus_y})[0], Vec3(1, 3, -2));
+  EXPECT_EQ(first_triangle(file, {.up = UpAxis::minus_z})[0], Vec3(1, -2, -3));
   EXPECT_EQ(first_triangle(file, {.unit = LengthUnit::cm})[0], Vec3(0.01, 0.02, 3 * 0.01));
   EXPECT_EQ(first_triangle(file, {.unit = LengthUnit::mm})[1], Vec3(4 * 0.001, 5 * 0.001, 6 * 0.001));
   EXPECT_EQ(first_triangle(file, {.unit = LengthUnit::ft})[0], Vec3(0.3048, 2 * 0.3048, 3 * 0.3048));
@@ -167,6 +170,7 @@ TEST(ImportFormats, MakesNoNegativeZeros) {
 
 TEST(ImportFormats, ParsesAxesAndUnitsAndRefusesOthers) {
   EXPECT_EQ(parse_up_axis("y"), UpAxis::y);
+  for (const char* axis : {"x", "y", "z", "-x", "-y", "-z"}) EXPECT_STREQ(to_string(parse_up_axis(axis)), axis);
   EXPECT_EQ(parse_length_unit("in"), LengthUnit::in);
   EXPECT_EQ(metres_per(parse_length_unit("ft")), 0.3048);
   EXPECT_THROW(static_cast<void>(parse_up_axis("Y")), Error);

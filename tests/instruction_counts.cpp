@@ -130,7 +130,7 @@ void sweep_all(const roam::World& world, Queries queries) {
 void step_all(roam::Walker& walker, int steps, double speed) {
   for (int i = 0; i < steps; ++i) {
     const double angle = 0.02 * i;
-    kept += walker.step({.velocity = speed * Vec3{std::cos(angle), std::sin(angle), 0.1}}, 1.0 / 60.0).clearance;
+    kept += walker.step({.velocity = speed * Vec3{std::cos(angle), std::sin(angle), 0.1}}, 1.0 / 60.0).axis_clearance;
   }
 }
 

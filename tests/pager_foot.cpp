@@ -74,7 +74,7 @@ TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
       for (int i = 0; i < 1500 && w.position().x < 28.0; ++i) {
         const StepReport& r = w.step({{1.4, 0.0, 0.0}}, frame);
         lowest = std::min(lowest, w.feet().z);
-        if (!r.carried) continue;
+        if (!r.bridging) continue;
         ++carried;
         if (r.met_unknown) {
           ++told;

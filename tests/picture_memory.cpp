@@ -27,12 +27,12 @@ TEST(PictureMemory, HoldsFewPlacesOfAWayOfAnyLength) {
   for (int i = 0; i <= steps; ++i) {
     report.from = place(std::max(i - 1, 0));
     report.to = place(i);
-    report.clearance = i == nearest ? 0.31 : 0.5;
+    report.axis_clearance = i == nearest ? 0.31 : 0.5;
     report.segments.clear();
     roam::Segment corner;
     corner.position = report.to;
     corner.height = 1.8;
-    corner.clearance = report.clearance;
+    corner.axis_clearance = report.axis_clearance;
     if (i > 0) report.segments.push(corner);
     append(record, report, i == 0);
     ASSERT_LE(record.places.size(), Record::most);

@@ -248,7 +248,7 @@ TEST(PictureSheet, NamesTheLeastCertifiedClearanceOfAFlight) {
     if (place.clearance < least) where = place.position;
     least = std::min(least, place.clearance);
   }
-  EXPECT_DOUBLE_EQ(least, drawn.report.result.least_clearance);  // what --trace and the report say
+  EXPECT_DOUBLE_EQ(least, drawn.report.result.least_axis_clearance);  // what --trace and the report say
   const Lines mark = drawn.only<Lines>("plan nearest");
   const Point centre = 0.5 * (mark.lines.at(0).at(0) + mark.lines.at(0).at(2));
   const Point start = drawn.only<Disc>("plan start").centre;

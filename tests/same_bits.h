@@ -38,12 +38,12 @@ class Bits {
   void operator()(const roam::StepReport& r) {
     (*this)(r.to);
     (*this)(r.elapsed);
-    (*this)(r.clearance);
-    (*this)(r.least_clearance);
+    (*this)(r.axis_clearance);
+    (*this)(r.least_axis_clearance);
     for (const roam::Segment& c : r.segments) {
       (*this)(c.position);
       (*this)(c.time);
-      (*this)(c.clearance);
+      (*this)(c.axis_clearance);
     }
     for (const roam::Contact& c : r.contacts) (*this)(c);
   }

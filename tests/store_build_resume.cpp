@@ -267,6 +267,22 @@ TEST(StoreBuildResume, TakesAFileThatChangedButNotInSizeForChanged) {
   expect_same(folder.file("s"), folder.file("fresh"));
 }
 
+TEST(StoreBuildResume, SeesAChangeBehindATimeThatWasSetBack) {
+  const TestFolder folder;
+  const fs::path scene = folder.file("a.ply");
+  write_ply(scene, field(60, 0.5, {0.0, 0.0, 0.0}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(3200));  // what changed just now is hashed again in any case
+  const auto o = options({scene.string()}, folder.file("s"));
+  roam::build_store(o);
+  EXPECT_TRUE(roam::build_store(o).unchanged);
+  const auto size = fs::file_size(scene);
+  const auto time = fs::last_write_time(scene);
+  write_ply(scene, field(60, 0.5, {1.0, 0.0, 0.0}));
+  fs::last_write_time(scene, time);
+  ASSERT_EQ(fs::file_size(scene), size);
+  EXPECT_FALSE(roam::build_store(o).unchanged);
+}
+
 TEST(StoreBuildResume, ReadsAndBuildsOnlyWhatChanged) {
   const TestFolder folder;
   write_ply(folder.file("a.ply"), field(548, 0.5, {0.0, 0.0, 0.0}));
@@ -317,7 +333,7 @@ TEST(StoreBuildResume, RepairsJustWhatIsDamaged) {
   write_ply(folder.file("b.ply"), field(548, 0.5, {9000.0, 0.0, 0.0}));
   auto o = options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("s"));
   o.lossless = true;
-  o.import.up = roam::UpAxis::y;
+  o.import.up = roam::UpAxis::minus_y;
   o.import.unit = roam::LengthUnit::ft;
   o.import.ignore = {"nothing of this name"};
   roam::build_store(o);

@@ -59,7 +59,7 @@ inline Crossing cross(Walk& w, const Vec3& velocity, double dt, double goal) {
   const int most = static_cast<int>(2.0 * way / (std::abs(velocity.x) * dt)) + 60;
   for (int i = 0; i < most && w.walker.position().x < goal; ++i) {
     const StepReport& r = w.step(velocity, dt);
-    c.carried += r.carried ? 1 : 0;
+    c.carried += r.bridging ? 1 : 0;
     c.lowest = std::min(c.lowest, w.feet());
     c.highest = std::max(c.highest, w.feet());
     c.fell |= r.has(EventKind::fell) || w.feet() < -1.0;

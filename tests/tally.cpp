@@ -17,7 +17,7 @@ StepReport step(double x, double clearance) {
   report.segments.push({Vec3(x, 4.0, 0.0), 1.8, 0.3, 1.0, 0.0, true});
   report.to = {x, 4.0, 0.0};
   report.elapsed = 1.0;
-  report.least_clearance = clearance;
+  report.least_axis_clearance = clearance;
   report.least_gap = clearance - 0.3;
   return report;
 }
@@ -40,7 +40,7 @@ TEST(Tally, SumsStepsAndTakesTheLeastClearance) {
   tally.add_placement(step(0.0, 0.9));
   EXPECT_EQ(tally.steps, 0U);
   EXPECT_EQ(tally.length, 0.0);
-  EXPECT_EQ(tally.least_clearance, 0.9);
+  EXPECT_EQ(tally.least_axis_clearance, 0.9);
   tally.add_step(step(0.0, 0.5));
   StepReport slow = step(0.0, 0.7);
   slow.events.push({EventKind::slowed});
@@ -50,7 +50,7 @@ TEST(Tally, SumsStepsAndTakesTheLeastClearance) {
   EXPECT_EQ(tally.length, 14.0);
   EXPECT_EQ(tally.simulated, 2.0);
   EXPECT_EQ(tally.throttled, 1U) << "a step counts once";
-  EXPECT_EQ(tally.least_clearance, 0.5);
+  EXPECT_EQ(tally.least_axis_clearance, 0.5);
   EXPECT_EQ(tally.least_gap, 0.5 - 0.3);
 }
 
@@ -59,7 +59,7 @@ TEST(Tally, KnowsNoClearanceOfABodyThatDoesNotFit) {
   tally.add_placement(step(0.0, 0.0));
   tally.add_step(step(0.0, 0.6));
   tally.add_step(step(0.0, 0.0));
-  EXPECT_EQ(tally.least_clearance, 0.6);
+  EXPECT_EQ(tally.least_axis_clearance, 0.6);
   EXPECT_EQ(tally.least_gap, 0.6 - 0.3);
 }
 

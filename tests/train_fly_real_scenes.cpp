@@ -1,4 +1,4 @@
-// Flying in real scenes: answers that were looked at by eye (docs/training.md, "Real scenes"), in few places.
+// Flying in real scenes: answers that were looked at by eye (docs/proofs.md, "Trained"), in few places.
 #include <gtest/gtest.h>
 
 #include <cmath>

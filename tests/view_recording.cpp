@@ -140,7 +140,7 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
     report.height = 1.8;
     report.radius = 0.3;
     report.elapsed = 0.01;
-    report.clearance = report.least_clearance = clearance;
+    report.axis_clearance = report.least_axis_clearance = clearance;
     return report;
   };
   WalkLog log({}, true);
@@ -151,7 +151,7 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   log.take(step(2.0, 0.0), Mode::ghost, 0.01);
   EXPECT_EQ(log.tally().steps, 2u);
   EXPECT_EQ(log.tally().length, 2.0);
-  EXPECT_EQ(log.tally().least_clearance, 0.4);
+  EXPECT_EQ(log.tally().least_axis_clearance, 0.4);
   int of_the_step = 0;
   log.take_pieces().each(100, [&](std::span<const Piece> pieces) {
     for (const Piece& piece : pieces) {

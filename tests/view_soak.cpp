@@ -125,11 +125,11 @@ void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool d
   const double grown = static_cast<double>(resident_bytes()) - static_cast<double>(before);
   std::cout << session.log().tally().steps << " steps, " << session.log().tally().length << " m, "
             << static_cast<double>(before) * 1e-6 << " MB after the first minute, " << grown * 1e-6
-            << " MB more at the end, least clearance " << session.log().tally().least_clearance << " m\n";
+            << " MB more at the end, least clearance " << session.log().tally().least_axis_clearance << " m\n";
   EXPECT_EQ(session.roamer().problem(), "");
   EXPECT_GT(session.log().tally().steps, frames / 2);
   EXPECT_GT(session.log().tally().length, 0.5 * static_cast<double>(frames) / 60.0);
-  EXPECT_GE(session.log().tally().least_clearance, plan.walker.radius - 1e-6);
+  EXPECT_GE(session.log().tally().least_axis_clearance, plan.walker.radius - 1e-6);
   // Bookmarks are kept, 100 bytes each; the allocator keeps some slack. A leak of 100 bytes a step would be more. In
   // less than a minute, not all of the scene has been seen and sent to the driver.
   const double unseen = drawn && settled < 3600 ? 16e6 : 0.0;

@@ -53,14 +53,14 @@ TEST(FootUnknown, IsCarriedByWhatMayBeFloorAndSaysSo) {
   split.walk_out(w);
   for (int i = 0; i < 30; ++i) {
     split.step(w, 0.0);
-    EXPECT_TRUE(w.report().carried);
+    EXPECT_TRUE(w.report().bridging);
     EXPECT_TRUE(w.report().met_unknown);
     EXPECT_TRUE(w.report().has(EventKind::met_unknown));
     EXPECT_NEAR(w.feet().z, 0.0, near_ground);
   }
   deliver(split.space, split.far, floor_between(1.0, 20.0, 0.0));
   split.step(w, 0.0);
-  EXPECT_TRUE(w.report().carried) << "the far side is as near as it might have been";
+  EXPECT_TRUE(w.report().bridging) << "the far side is as near as it might have been";
   EXPECT_FALSE(w.report().met_unknown);
 }
 
@@ -68,7 +68,7 @@ TEST(FootUnknown, FallsWhenThereTurnsOutToBeNoFloor) {
   HalfASplit split;
   Walker w(split.space, person(0.51), Mode::walk, {-1.0, 0.0, 0.95});
   split.walk_out(w);
-  ASSERT_TRUE(w.report().carried);
+  ASSERT_TRUE(w.report().bridging);
   deliver(split.space, split.far, floor_between(1.0, 20.0, -2.0));
   bool fell = false;
   for (int i = 0; i < 60; ++i) {
@@ -85,7 +85,7 @@ TEST(FootUnknown, OfFloorAloneIsCarriedAsIfAllWereKnown) {
   (void)split.space.expect({{-20.0, 5.0, 3.0}, {20.0, 10.0, 6.0}});
   Walker w(split.space, person(0.51), Mode::walk, {-1.0, 0.0, 0.95});
   split.walk_out(w);
-  EXPECT_TRUE(w.report().carried);
+  EXPECT_TRUE(w.report().bridging);
   EXPECT_FALSE(w.report().met_unknown);
 }
 
@@ -102,7 +102,7 @@ TEST(FootUnknown, IsNotCarriedByWhatLiesTooDeepOrTooHigh) {
     Walker w(space, person(1.8), Mode::walk, {-1.0, 0.0, 0.95});
     for (int i = 0; i < 180 && w.position().x < 0.8; ++i) {
       w.step({{1.0, 0.0, 0.0}}, frame);
-      ASSERT_FALSE(w.report().carried) << box.lower.z;
+      ASSERT_FALSE(w.report().bridging) << box.lower.z;
     }
     for (int i = 0; i < 120; ++i) w.step({}, frame);
     EXPECT_NEAR(w.feet().z, box.upper.z < 0.0 ? -0.5 : -8.0, near_ground);
@@ -139,14 +139,14 @@ TEST(FootUnknown, WaitsWhereItWasPutUntilTheRimsAreKnown) {
     Walker w(space, person(0.52), Mode::walk, {0.5, 0.0, 0.85});
     for (int i = 0; i < 60; ++i) {
       w.step({}, frame);
-      EXPECT_TRUE(w.report().met_unknown && w.report().carried);
+      EXPECT_TRUE(w.report().met_unknown && w.report().bridging);
       EXPECT_NEAR(w.feet().z, -0.05, near_ground);
     }
     deliver(space, left, floor_between(-20.0, 0.0, floors ? 0.0 : -8.9));
     deliver(space, right, floor_between(1.0, 20.0, floors ? 0.0 : -8.9));
     space.update();
     for (int i = 0; i < 30; ++i) w.step({}, frame);
-    EXPECT_EQ(w.report().carried, floors);
+    EXPECT_EQ(w.report().bridging, floors);
     EXPECT_FALSE(w.report().met_unknown);
     if (floors) {
       EXPECT_NEAR(w.feet().z, 0.0, near_ground);
@@ -165,7 +165,7 @@ TEST(FootUnknown, WhoFallsIsNotHeldByWhatIsBesideTheWay) {
   space.update();
   Walker w(space, person(0.52), Mode::walk, {0.5, 0.0, 8.0});
   for (int i = 0; i < 120; ++i) w.step({}, frame);
-  EXPECT_TRUE(w.report().carried);
+  EXPECT_TRUE(w.report().bridging);
   EXPECT_FALSE(w.report().met_unknown);
   EXPECT_NEAR(w.feet().z, 0.0, near_ground) << "it came down where the floor is";
 }
@@ -203,7 +203,7 @@ Walker standing_over_it(const Counting& space) {
   Walker w(space, person(0.645), Mode::walk, {-0.7, 0.0, 0.95});
   for (int i = 0; i < 240 && w.position().x < 0.6; ++i) w.step({{1.0, 0.0, 0.0}}, frame);
   for (int i = 0; i < 3; ++i) w.step({}, frame);
-  EXPECT_TRUE(w.report().carried);
+  EXPECT_TRUE(w.report().bridging);
   return w;
 }
 
@@ -213,7 +213,7 @@ TEST(FootAtRest, LooksForADiscOnce) {
   space.asked = 0;
   for (int i = 0; i < 60; ++i) {
     w.step({}, frame);
-    EXPECT_TRUE(w.report().carried);
+    EXPECT_TRUE(w.report().bridging);
   }
   EXPECT_EQ(space.asked, 0);
   w.step({{0.1, 0.0, 0.0}}, frame);
@@ -240,7 +240,7 @@ TEST(FootAtRest, LooksAgainWhenAnythingHasChanged) {
   space.world = build(split(3.0));
   ++space.changes;
   w.step({}, frame);
-  EXPECT_FALSE(w.report().carried) << "the far side has gone";
+  EXPECT_FALSE(w.report().bridging) << "the far side has gone";
 }
 
 TEST(FootAtRest, LooksEachTimeWhereChangesAreNotTold) {
@@ -252,7 +252,7 @@ TEST(FootAtRest, LooksEachTimeWhereChangesAreNotTold) {
   EXPECT_GT(space.asked, 10);
   space.world = build(split(3.0));
   w.step({}, frame);
-  EXPECT_FALSE(w.report().carried);
+  EXPECT_FALSE(w.report().bridging);
 }
 
 }  // namespace

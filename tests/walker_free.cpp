@@ -24,9 +24,9 @@ TEST(WalkerFree, FliesFarFromWallsForManyStepsOnOneAnswer) {
 TEST(WalkerFree, AsksNothingWhereItRests) {
   ChangingRoom room(walled_hall(1.0), true);
   Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
-  const double clearance = w.report().clearance;
+  const double clearance = w.report().axis_clearance;
   const int before = room.asked();
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).clearance, clearance);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).axis_clearance, clearance);
   EXPECT_EQ(room.asked(), before);
 }
 
@@ -65,9 +65,9 @@ TEST(WalkerFree, TellsTheClearanceOfAChangedSpaceWhereItRests) {
   for (const bool tells : {true, false}) {
     ChangingRoom room(hall(), tells);
     Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
-    EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+    EXPECT_EQ(w.step({}, frame).axis_clearance, 1.3);
     room.become(walled_hall(0.5));
-    const double clearance = w.step({}, frame).clearance;
+    const double clearance = w.step({}, frame).axis_clearance;
     EXPECT_LE(clearance, 0.5);
     EXPECT_GE(clearance, 0.3 + 0.2 * 7.0 / 8.0 - 0.002);
   }
@@ -134,10 +134,10 @@ TEST(WalkerFree, AClearanceThatWasLowGrowsAgain) {
   ChangingRoom room(m, true);
   Walker w(room, ball(0.3), Mode::fly, {-3.0, 0.0, 0.0});
   double least = 2.0;
-  for (int i = 0; i < 120; ++i) least = std::min(least, w.step({{3.0, 0.0, 0.0}}, frame).clearance);
+  for (int i = 0; i < 120; ++i) least = std::min(least, w.step({{3.0, 0.0, 0.0}}, frame).axis_clearance);
   EXPECT_LT(least, 0.4);
   EXPECT_GE(least, 0.3 + 0.1 * 3.0 / 4.0 - 0.004);
-  EXPECT_EQ(w.report().clearance, 1.3);
+  EXPECT_EQ(w.report().axis_clearance, 1.3);
 }
 
 TEST(WalkerFree, AWorldThatIsAssignedIsAnotherWorld) {
@@ -166,7 +166,7 @@ TEST(WalkerFree, ChangingTheModeInAChangedSpaceFreesTheBody) {
       room.become(walled_hall(w.position().x + ahead));
       const StepReport& r = w.set_mode(Mode::walk);
       EXPECT_NE(r.has(EventKind::freed), r.has(EventKind::held));
-      EXPECT_EQ(r.clearance > 0.0, !w.held());
+      EXPECT_EQ(r.axis_clearance > 0.0, !w.held());
       if (!w.held()) {
         EXPECT_GE(margin(room.judge(), r), 0.0);
       }
@@ -177,9 +177,9 @@ TEST(WalkerFree, ChangingTheModeInAChangedSpaceFreesTheBody) {
 /// What was told of the body where it is, and of the piece that ends there, is true.
 void expect_true_or_none(const ChangingRoom& room, const Walker& w) {
   const StepReport& r = w.report();
-  EXPECT_LE(r.clearance, room.judge().distance(w.body(), w.position(), 2.0) + 1e-6);
+  EXPECT_LE(r.axis_clearance, room.judge().distance(w.body(), w.position(), 2.0) + 1e-6);
   for (const roam::Segment& c : r.segments) {
-    EXPECT_LE(c.clearance, room.judge().distance(Body::capsule(c.radius, c.height), c.position, 2.0) + 1e-6);
+    EXPECT_LE(c.axis_clearance, room.judge().distance(Body::capsule(c.radius, c.height), c.position, 2.0) + 1e-6);
   }
 }
 
@@ -232,7 +232,7 @@ TEST(WalkerFree, ALowBodyIsMeasuredInTheSpaceAsItIs) {
     w.step({.velocity = Vec3(0.0), .crouch = true}, frame);
     ASSERT_TRUE(w.crouched());
     expect_true_or_none(room, w);
-    EXPECT_GE(w.report().least_clearance, 0.3 - 1e-6);
+    EXPECT_GE(w.report().least_axis_clearance, 0.3 - 1e-6);
   }
 }
 
@@ -263,7 +263,7 @@ TEST(WalkerFree, ToldClearancesAreAsNearTheTruthAsIsSaid) {
       ASSERT_GE(margin(judge, r, 0.1), 0.0);
       if (!r.contacts.empty() || r.segments.size() > 1) continue;
       const double truth = judge.over(w.body(), r.from, r.to - r.from, 2.0);
-      ASSERT_GE(r.clearance, least_told(truth, settings, w.skin())) << flight << " " << i << " " << truth;
+      ASSERT_GE(r.axis_clearance, least_told(truth, settings, w.skin())) << flight << " " << i << " " << truth;
       ++judged;
     }
   }
@@ -275,12 +275,12 @@ TEST(WalkerFree, WhoRestsIsToldTheClearanceOfThePlace) {
   add_box(m, {-0.05, 0.5, -5.0}, {0.05, 0.6, 5.0});  // a post
   ChangingRoom room(m, true);
   Walker w(room, ball(0.3), Mode::fly, {-1.5, 0.0, 0.0});
-  const double passing = w.step({{180.0, 0.0, 0.0}}, frame).clearance;
+  const double passing = w.step({{180.0, 0.0, 0.0}}, frame).axis_clearance;
   EXPECT_LE(passing, 0.5);
   EXPECT_GE(passing, least_told(0.5, w.settings(), w.skin()));
-  EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+  EXPECT_EQ(w.step({}, frame).axis_clearance, 1.3);
   const int before = room.asked();
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).clearance, 1.3);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(w.step({}, frame).axis_clearance, 1.3);
   EXPECT_EQ(room.asked(), before);
 }
 
@@ -290,7 +290,7 @@ TEST(WalkerFree, ALongWayPastAPostSaysLittleOfWhereItEnds) {
   ChangingRoom room(m, true);
   Walker w(room, ball(0.3), Mode::fly, {-0.1, 0.0, 0.0});
   w.step({{-120.0, 0.0, 0.0}}, frame);
-  EXPECT_EQ(w.step({{-0.1, 0.0, 0.0}}, frame).clearance, 1.3);
+  EXPECT_EQ(w.step({{-0.1, 0.0, 0.0}}, frame).axis_clearance, 1.3);
 }
 
 TEST(WalkerFree, RemembersAsWellFarFromTheOrigin) {

@@ -78,7 +78,7 @@ TEST(Carrying, IsOfAFootThatIsLargerThanHalfTheGap) {
   Person person(options);
   static_cast<void>(person.walker.resize(0.3, 0.6));
   while (person.walker.position().x < 3.0) person.walk(1.0 / 60.0);
-  ASSERT_TRUE(person.walker.report().carried);
+  ASSERT_TRUE(person.walker.report().bridging);
   EXPECT_EQ(roam::carrying(person.walker, 0.5), roam::Carrying::yes);
   EXPECT_EQ(roam::carrying(person.walker, 0.4), roam::Carrying::no);
 }

@@ -21,7 +21,7 @@ void must_not_carry(const Mesh& m, double support_radius, const Vec3& start, con
       without.step(velocity, dt);
       ASSERT_EQ(with.walker.position(), without.walker.position()) << what << ", step " << i << " of " << dt << " s";
     }
-    EXPECT_EQ(with.count(EventKind::carried), 0) << what;
+    EXPECT_EQ(with.count(EventKind::bridged), 0) << what;
   }
 }
 
@@ -90,7 +90,7 @@ TEST(Overhang, DoesNotCarryOverAHoleJoinedToAnOpenDrop) {
   Walk w(pit, person(0.45), Mode::walk, {-5.0, 0.0, 0.95});
   for (int i = 0; i < 600 && !w.walker.report().has(EventKind::fell); ++i) w.step({1.4, 0.0, 0.0});
   EXPECT_TRUE(w.walker.report().has(EventKind::fell));
-  EXPECT_GT(w.count(EventKind::carried), 0);
+  EXPECT_GT(w.count(EventKind::bridged), 0);
   // A disc of 0.45 m reaches back over the slot by what its rim bulges in: less than 0.3 m.
   EXPECT_GT(w.walker.position().x, -0.3);
   EXPECT_LT(w.walker.position().x, 0.5);
@@ -134,7 +134,7 @@ TEST(Overhang, CarriesNowhereAFreeDiscHasRoomInRandomHoles) {
     Walk w(m, person(foot, 0.2), Mode::walk, {-5.0, 0.0, 0.95});
     for (int i = 0; i < 3000 && w.walker.position().x < 5.0; ++i) {
       const StepReport& r = w.step({speed, 0.3 * speed * std::sin(0.02 * i), 0.0}, dt);
-      if (r.carried) {
+      if (r.bridging) {
         ++carried;
         // A millimetre for what storing may cost.
         if (carried % 97 == 0) {

@@ -37,7 +37,7 @@ TEST(Recovery, AStartInTheMiddleOfAWallIsHeldAndSaidAndAGhostGetsOut) {
   Walker w(world, {}, Mode::walk, {2.0, 0.0, 0.95});
   EXPECT_TRUE(w.held());
   EXPECT_TRUE(w.report().has(EventKind::held));
-  EXPECT_EQ(w.report().clearance, 0.0);
+  EXPECT_EQ(w.report().axis_clearance, 0.0);
   w.step({{1.0, 0.0, 0.0}}, 1.0);
   EXPECT_EQ(w.position(), Vec3(2.0, 0.0, 0.95));
   EXPECT_TRUE(w.report().held);
@@ -255,14 +255,14 @@ TEST(Recovery, ABodyThatIsHeldWhereItFitsIsToldItsClearance) {
   Walker w(world, {}, Mode::walk, {25.0, 0.0, 1.0});
   const double lowest = 0.3 + 0.5 * 7.0 / 8.0 - 2e-3;  // of what a look tells, space.h
   for (int i = 0; i < 300 && !w.held(); ++i) {
-    EXPECT_GE(w.step({}, 1.0 / 60.0).least_clearance, lowest);
+    EXPECT_GE(w.step({}, 1.0 / 60.0).least_axis_clearance, lowest);
   }
   ASSERT_TRUE(w.held() && w.report().put_back);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_GE(w.report().clearance, lowest);
-    EXPECT_LE(w.report().clearance, judge.distance(w.body(), w.position(), 2.0));
-    EXPECT_EQ(w.report().least_clearance, w.report().clearance);
-    EXPECT_NEAR(w.report().least_gap, w.report().clearance - 0.3, 1e-12);
+    EXPECT_GE(w.report().axis_clearance, lowest);
+    EXPECT_LE(w.report().axis_clearance, judge.distance(w.body(), w.position(), 2.0));
+    EXPECT_EQ(w.report().least_axis_clearance, w.report().axis_clearance);
+    EXPECT_NEAR(w.report().least_gap, w.report().axis_clearance - 0.3, 1e-12);
     w.step({{1.0, 0.0, 0.0}}, 1.0 / 60.0);
   }
 }
@@ -277,13 +277,13 @@ TEST(Recovery, AHeldBodyThatBecomesSlimIsToldTheClearanceOfTheSlimOne) {
   Walker w(world, {}, Mode::walk, {0.0, 0.0, 0.0});
   for (int i = 0; i < 1200 && !w.held(); ++i) w.step({}, 1.0 / 60.0);
   ASSERT_TRUE(w.held());
-  EXPECT_NEAR(w.report().clearance, 0.35, 0.01);
+  EXPECT_NEAR(w.report().axis_clearance, 0.35, 0.01);
   w.resize(0.1, 0.0);
   w.step({}, 0.0);
   ASSERT_FALSE(w.held());
   ASSERT_EQ(w.report().radius, 0.1);
-  EXPECT_LE(w.report().clearance, judge.distance(w.body(), w.position(), 2.0));
-  EXPECT_GE(w.report().clearance, 0.1 - 1e-6);
+  EXPECT_LE(w.report().axis_clearance, judge.distance(w.body(), w.position(), 2.0));
+  EXPECT_GE(w.report().axis_clearance, 0.1 - 1e-6);
 }
 
 TEST(Recovery, AHeldBodyIsHeldInEveryModeThatCollides) {

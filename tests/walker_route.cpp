@@ -51,7 +51,7 @@ TEST(Route, IsReachedExactlyAndTakesLengthBySpeedWhenNothingIsInTheWay) {
   EXPECT_NEAR(r.length, 10.0 + std::sqrt(50.0), 1e-6);
   EXPECT_NEAR(r.simulated, r.length / 50.0, 1e-6);
   EXPECT_NEAR(r.end.y, 7.0, 1e-6);
-  EXPECT_NEAR(r.least_clearance, 1.3, 1e-9);  // capped at radius and reach
+  EXPECT_NEAR(r.least_axis_clearance, 1.3, 1e-9);  // capped at radius and reach
 }
 
 TEST(Route, DoesNotCutCorners) {
@@ -80,7 +80,7 @@ TEST(Route, AWaypointBehindAWallIsBlockedByThatWall) {
     EXPECT_GE(r.blocked_at->triangle, 2u);
     EXPECT_FALSE(r.blocked_at->opening);
     EXPECT_EQ(r.waypoints, 1u);
-    EXPECT_GE(r.least_clearance, 0.3 - 1e-6);
+    EXPECT_GE(r.least_axis_clearance, 0.3 - 1e-6);
     EXPECT_LT(r.simulated, 10.0);
   }
 }
@@ -255,7 +255,7 @@ TEST(Route, IsHeldWhereItNeverFindsGround) {
   const RouteResult r = follow(floor_mesh(), {}, Mode::walk, {{25.0, 0.0, 0.95}, {30.0, 0.0, 0.95}});
   EXPECT_EQ(r.outcome, Outcome::held);
   EXPECT_GE(r.least_gap, 0.75);  // nothing came near: three quarters at least of how far clearances are told
-  EXPECT_NEAR(r.least_clearance, r.least_gap + 0.3, 1e-12);
+  EXPECT_NEAR(r.least_axis_clearance, r.least_gap + 0.3, 1e-12);
 }
 
 TEST(Route, TellsTheClearanceOfItsMovesWhereSomethingComesUponTheBody) {
@@ -264,14 +264,14 @@ TEST(Route, TellsTheClearanceOfItsMovesWhereSomethingComesUponTheBody) {
   Walker walker(world, {}, Mode::fly, {0.0, 0.0, 1.5});
   roam::Route route(walker, std::vector<Vec3>{{0.0, 0.0, 1.5}, {10.0, 0.0, 1.5}});
   for (int i = 0; i < 60; ++i) route.advance();
-  const double least = route.result().least_clearance;
+  const double least = route.result().least_axis_clearance;
   EXPECT_GT(least, 0.3);
   const double x = walker.position().x;
   scenes::add_wall(m, x, -10.0, x, 10.0, 0.0, 3.0);
   world = scenes::build(m);
   while (!route.done()) route.advance();
   EXPECT_EQ(route.result().outcome, Outcome::held);
-  EXPECT_EQ(route.result().least_clearance, least);
+  EXPECT_EQ(route.result().least_axis_clearance, least);
   EXPECT_NEAR(route.result().least_gap, least - 0.3, 1e-12);
 }
 

@@ -134,15 +134,15 @@ inline double margin(const Judge& judge, const roam::StepReport& step) {
   Vec3 at = step.from;
   for (const roam::Segment& c : step.segments) {
     const roam::Body body = roam::Body::capsule(c.radius, c.height);
-    const double enough = std::max(c.radius, c.clearance) + 0.001;
+    const double enough = std::max(c.radius, c.axis_clearance) + 0.001;
     const double true_clearance =
         c.teleport ? judge.distance(body, c.position, enough) : judge.over(body, at, c.position - at, enough);
-    least = std::min({least, true_clearance - (c.radius - promise), true_clearance - (c.clearance - promise)});
+    least = std::min({least, true_clearance - (c.radius - promise), true_clearance - (c.axis_clearance - promise)});
     at = c.position;
   }
   const roam::Body body = roam::Body::capsule(step.radius, step.height);
-  const double here = judge.distance(body, step.to, std::max(step.radius, step.clearance) + 0.001);
-  return std::min({least, here - (step.radius - promise), here - (step.clearance - promise)});
+  const double here = judge.distance(body, step.to, std::max(step.radius, step.axis_clearance) + 0.001);
+  return std::min({least, here - (step.radius - promise), here - (step.axis_clearance - promise)});
 }
 
 /// The same of a body whose radius does not change: minus infinity where it does.

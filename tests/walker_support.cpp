@@ -41,7 +41,7 @@ TEST(Support, LetsABodyFallWhereTheFootIsTooSmallAtAnySpeed) {
           Walk w(m, person(0.5 * width - less), Mode::walk, {-0.7, 0.1, 0.95});
           EXPECT_TRUE(cross(w, {speed, 0.0, 0.0}, dt, width + 0.5).fell)
               << width << " " << less << " " << speed << " " << dt;
-          EXPECT_EQ(w.count(EventKind::carried), 0);
+          EXPECT_EQ(w.count(EventKind::bridged), 0);
         }
       }
     }
@@ -92,7 +92,7 @@ TEST(Support, FindsAHigherOrLowerFarSide) {
       EXPECT_TRUE(c.across) << rise << " " << speed;
       w.go({0.0, 0.0, 0.0}, 0.2);
       EXPECT_NEAR(w.feet(), rise, near_ground) << rise << " " << speed;
-      EXPECT_FALSE(w.walker.report().carried);
+      EXPECT_FALSE(w.walker.report().bridging);
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(Support, GoesOnInThePlaneOfARamp) {
         ASSERT_NEAR(feet.z, rise * feet.x + lifted, 0.02) << degrees << " " << turned << " at " << i;
       }
       EXPECT_GE(glm::dot(w.walker.position(), across), 2.3);
-      EXPECT_GT(w.count(EventKind::carried), 0);
+      EXPECT_GT(w.count(EventKind::bridged), 0);
     }
   }
 }
@@ -178,7 +178,7 @@ TEST(Support, ClimbsStairsAsWithoutAndCrossesASplitAboveThem) {
     without.step({1.0, 0.0, 0.0});
     ASSERT_EQ(with.walker.position(), without.walker.position()) << i;
   }
-  EXPECT_EQ(with.count(EventKind::carried), 0);
+  EXPECT_EQ(with.count(EventKind::bridged), 0);
   EXPECT_TRUE(cross(with, {1.0, 0.0, 0.0}, frame, 5.5).across);
   EXPECT_NEAR(with.feet(), 8 * 0.17, near_ground);
   // And down again.
@@ -199,7 +199,7 @@ TEST(Support, StandsOnABlockInTheSplit) {
     Walk w(m, person(0.32), Mode::walk, {-0.7, 0.0, 0.95});
     EXPECT_TRUE(cross(w, {1.4, 0.0, 0.0}, frame, 0.8).across);
     EXPECT_NEAR(w.feet(), top, near_ground);
-    EXPECT_FALSE(w.walker.report().carried);
+    EXPECT_FALSE(w.walker.report().bridging);
   }
 }
 
@@ -242,18 +242,18 @@ TEST(Support, StandsStillTurnsRoundAndCrouchesOverACrack) {
   add_box(m, {-0.2, -10.0, 1.3}, {1.45, 10.0, 1.6});  // a beam over the crack
   Walk w(m, person(0.645), Mode::walk, {-1.0, 0.0, 0.95});
   EXPECT_TRUE(cross(w, {1.0, 0.0, 0.0}, frame, 0.6).across);
-  EXPECT_TRUE(w.walker.report().carried);
+  EXPECT_TRUE(w.walker.report().bridging);
   EXPECT_TRUE(w.walker.crouched());
   const Vec3 rest = w.walker.position();
   w.go(Vec3(0.0), 5.0);
   EXPECT_EQ(w.walker.position(), rest);
   w.go({0.0, 1.0, 0.0}, 1.0);
-  EXPECT_TRUE(w.walker.report().carried);
+  EXPECT_TRUE(w.walker.report().bridging);
   for (int i = 0; i < 200 && w.walker.position().x > -1.0; ++i) w.step({-1.0, 0.0, 0.0});
   EXPECT_NEAR(w.feet(), 0.0, near_ground);
-  EXPECT_FALSE(w.walker.report().carried);
+  EXPECT_FALSE(w.walker.report().bridging);
   EXPECT_FALSE(w.walker.crouched());
-  EXPECT_EQ(w.count(EventKind::carried), 1);
+  EXPECT_EQ(w.count(EventKind::bridged), 1);
   EXPECT_EQ(w.count(EventKind::airborne), 0);
 }
 
@@ -270,14 +270,14 @@ TEST(Support, JumpsFromACrackAndOntoIt) {
       ASSERT_GT(w.feet(), -near_ground);
     }
     EXPECT_GT(highest, 0.4);
-    EXPECT_TRUE(w.walker.report().carried);
+    EXPECT_TRUE(w.walker.report().bridging);
     EXPECT_GT(w.count(EventKind::landed), 0);
     EXPECT_EQ(w.count(EventKind::fell), 0);
     // From the floor, and down over the middle of the crack.
     Walk onto(m, person(0.645), Mode::walk, {-0.3, 0.0, 0.95});
     onto.step({1.4, 0.0, 0.0}, dt, true);
     for (double t = 0.0; t < 1.0; t += dt) onto.step({t < 0.6 ? 1.4 : 0.0, 0.0, 0.0}, dt);
-    EXPECT_TRUE(onto.walker.report().carried) << dt;
+    EXPECT_TRUE(onto.walker.report().bridging) << dt;
     EXPECT_NEAR(onto.feet(), 0.0, near_ground);
   }
 }
@@ -290,10 +290,10 @@ TEST(Support, LandsOnACrackThatItNeverSawTheFloorOf) {
     for (double t = 0.0; t < 2.0; t += dt) w.step({w.feet() > 1.0 ? 1.0 : 0.0, 0.0, 0.0}, dt);
     EXPECT_NEAR(w.feet(), 0.0, near_ground) << dt;
     EXPECT_GT(w.walker.position().x, 0.3);
-    EXPECT_TRUE(w.walker.report().carried);
+    EXPECT_TRUE(w.walker.report().bridging);
   }
   Walk put(split(1.25), person(0.645), Mode::walk, {0.6, 0.0, 0.91});
-  EXPECT_TRUE(put.walker.report().carried);
+  EXPECT_TRUE(put.walker.report().bridging);
   EXPECT_NEAR(put.feet(), 0.0, near_ground);
 }
 

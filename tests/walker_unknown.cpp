@@ -116,7 +116,7 @@ TEST(WalkerUnknown, HoldsABodyThatIsInItAndLetsItGoByItself) {
       w.step({{3.0, 0.0, 0.0}}, frame);
       EXPECT_TRUE(w.held());
       EXPECT_TRUE(w.report().held && w.report().met_unknown);
-      EXPECT_EQ(w.report().clearance, 0.0);
+      EXPECT_EQ(w.report().axis_clearance, 0.0);
       EXPECT_EQ(w.position(), Vec3(15.0, 0.0, 1.0));
     }
     rooms.space.deliver(rooms.far, TwoRooms::room(10.0));
@@ -254,12 +254,12 @@ TEST(WalkerUnknown, ABodyAtRestWhereSomethingNewIsExpectedIsHeldAndSaysNoClearan
   TwoRooms rooms;
   Walker w(rooms.space, {}, Mode::walk, {5.0, 0.0, 1.0});
   w.step({}, frame);
-  EXPECT_GT(w.report().clearance, 0.0);
+  EXPECT_GT(w.report().axis_clearance, 0.0);
   const PatchId late = rooms.space.expect({{4.0, -1.0, -1.0}, {6.0, 1.0, 3.0}});
   rooms.update(w);
   w.step({}, frame);
   EXPECT_TRUE(w.held() && w.report().met_unknown);
-  EXPECT_EQ(w.report().clearance, 0.0);
+  EXPECT_EQ(w.report().axis_clearance, 0.0);
   rooms.space.deliver(late, World());
   rooms.update(w);
   w.step({{1.0, 0.0, 0.0}}, 1.0);
@@ -325,7 +325,7 @@ TEST(WalkerUnknown, ABodyPutBackToWhereAWallHasComeMeanwhileIsFreed) {
   ASSERT_TRUE(w.report().put_back);
   EXPECT_TRUE(w.report().has(EventKind::freed));
   EXPECT_FALSE(w.held());
-  EXPECT_GE(w.report().clearance, w.settings().radius - 1e-6);
+  EXPECT_GE(w.report().axis_clearance, w.settings().radius - 1e-6);
   EXPECT_NEAR(w.position().x, stood.x, 0.5);
 }
 
@@ -340,7 +340,7 @@ TEST(WalkerUnknown, ASafePlaceThatIsNoLongerFreeIsNotCalledSo) {
   w.set_mode(Mode::fly);
   EXPECT_TRUE(w.held());
   EXPECT_TRUE(w.report().met_unknown);
-  EXPECT_EQ(w.report().clearance, 0.0);
+  EXPECT_EQ(w.report().axis_clearance, 0.0);
 }
 
 }  // namespace

@@ -83,12 +83,12 @@ void expect_same(const Walker& a, const Walker& b) {
   ASSERT_EQ(a.held(), b.held());
   ASSERT_EQ(a.crouched(), b.crouched());
   const StepReport &r = a.report(), &s = b.report();
-  ASSERT_EQ(r.clearance, s.clearance);
+  ASSERT_EQ(r.axis_clearance, s.axis_clearance);
   ASSERT_EQ(r.least_gap, s.least_gap);
   ASSERT_EQ(r.segments.total(), s.segments.total());
   for (std::size_t i = 0; i < r.segments.size(); ++i) {
     ASSERT_EQ(r.segments[i].position, s.segments[i].position);
-    ASSERT_EQ(r.segments[i].clearance, s.segments[i].clearance);
+    ASSERT_EQ(r.segments[i].axis_clearance, s.segments[i].axis_clearance);
     ASSERT_EQ(r.segments[i].time, s.segments[i].time);
   }
   ASSERT_EQ(r.contacts.total(), s.contacts.total());

@@ -49,9 +49,9 @@ void SceneOptions::add_to(CLI::App& verb) {
 }
 
 void SceneOptions::add_reading_to(CLI::App& verb) {
-  verb.add_option("--up", up, "Axis that points up in the file (default: z; y for glTF)")
-      ->check(CLI::IsMember({"x", "y", "z"}))
-      ->type_name("x|y|z");
+  verb.add_option("--up", up, "Axis that points up in the file, e.g. --up=-y (default: z; y for glTF)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->type_name("AXIS");
   verb.add_option("--unit", unit, "Length of 1 in the file (default: m)")
       ->check(CLI::IsMember({"m", "cm", "mm", "ft", "in"}))
       ->type_name("m|cm|mm|ft|in");

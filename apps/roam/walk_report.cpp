@@ -102,14 +102,14 @@ std::string clearance_line(const WalkReport& report) {
   const std::string cap = result.least_gap < near_cap * reach
                               ? ""
                               : fmt::format("; it was looked for no farther than {:g} m from the surface", reach);
-  return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})", result.least_clearance,
+  return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})", result.least_axis_clearance,
                      result.least_gap, cap);
 }
 
 }  // namespace
 
 bool knows_clearance(const WalkReport& report) {
-  return report.mode != Mode::ghost && report.result.least_clearance > 0.0;
+  return report.mode != Mode::ghost && report.result.least_axis_clearance > 0.0;
 }
 
 std::string note_on_size(const WalkerSettings& body, const Box& scene) {
@@ -202,7 +202,7 @@ Json json_report(const WalkReport& report) {
                {"verified", nullptr},
                {"events", events}};
   if (knows_clearance(report)) {
-    json["least_clearance_m"] = result.least_clearance;
+    json["least_clearance_m"] = result.least_axis_clearance;
     json["least_gap_m"] = result.least_gap;
   }
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);

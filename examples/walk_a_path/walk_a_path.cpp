@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     roam::Walker walker(world, {.radius = 0.3, .height = 1.8}, roam::Mode::walk, path.front());
     const roam::RouteResult result = roam::follow(walker, path, {.speed = 5.0});
     std::printf("%s after %.1f m, never nearer than %.4f m to anything\n", roam::to_string(result.outcome),
-                result.length, result.least_clearance);
+                result.length, result.least_axis_clearance);
     if (result.blocked_at) {
       std::printf("blocked by \"%s\"\n", world.object_name(result.blocked_at->triangle).c_str());
     }

@@ -1,29 +1,24 @@
 #pragma once
 /// \file
-/// The customised intersector of Xie and Niu (2020, figure 5): a body moved through a scene graph as it is, without an
-/// index and without any preparation.
+/// Box intersector: sweeps a body through a scene graph without an index (Xie and Niu 2020, figure 5).
 ///
 ///     osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector({.radius = 0.3}, from, to);
 ///     osgUtil::IntersectionVisitor visitor(box);
 ///     scene->accept(visitor);
 ///     if (box->containsIntersections()) stop_at(box->getFirstIntersection().time);
 ///
-/// Nodes, drawables and triangles outside the box of the swept body are rejected; what is left goes through the
-/// certified sweep of roam/sweep.h. It finds every triangle that the visitor leads it to and that the body touches: at
-/// any distance from the origin and under any affine transform, mirrored, sheared and flattened ones included, for the
-/// body keeps its shape in the frame that it was given in and triangles are brought there, in doubles. Taken are the
-/// triangles of collectMeshes (Triangles.h). Which children of LOD and PagedLOD are visited is the visitor's business:
-/// it takes the loaded ones, or reads pages where it has a read callback (IntersectionVisitor::setReadCallback).
+/// Nodes, drawables and triangles outside of the box of the swept body are rejected; the rest goes through the
+/// certified sweep of roam/sweep.h. The body keeps its shape in its own frame: triangles are transformed there in
+/// doubles, so any affine transform is right. The triangles are those of collectMeshes (Triangles.h). The visitor
+/// chooses children of LOD and PagedLOD, and reads pages if it has a read callback.
 ///
-/// Two things are taken on trust, because looking after them would cost what they save:
-///   - Bounding spheres. They are floats, and osg::Transform computes them too small under a rotation that is scaled
-///     unevenly. What is allowed for at any rate are the roundings of the node's own coordinates, as often as eight
-///     nested transforms make them; setBoundsMargin is for the rest.
-///   - A KdTree, where a geometry has one (osgDB::Options::BUILD_KDTREES before loading, or osg::KdTreeBuilder) and the
-///     visitor uses it. It must have been built from the vertices as they are now. osg::KdTree drops primitives with
-///     two equal corners, among them triangles that are written as quads; geometries where it did are scanned.
+/// It relies on two things that it cannot check cheaply:
+///   - Bounding spheres hold their triangles. osg::Transform computes them too small under an uneven scale with a
+///     rotation: see setBoundsMargin. Rounding of eight nested transforms is allowed for.
+///   - A KdTree that the visitor uses was built from the present vertices. Geometries with triangles that osg::KdTree
+///     drops (two equal corners) are scanned.
 ///
-/// An intersector belongs to one thread at a time; several may traverse one graph at once as long as nobody changes it.
+/// For one thread at a time; several intersectors may traverse one graph that does not change.
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -38,53 +33,50 @@
 
 namespace osgRoam {
 
-/// How far the triangles under `node` reach beyond the bounding spheres of the nodes that they are under, metres,
-/// rounded up: what BoxIntersector::setBoundsMargin needs to miss nothing. Walks the whole graph, as it is loaded.
+/// Metres by which triangles under `node` reach beyond the bounding spheres above them, for setBoundsMargin. Visits the
+/// whole loaded graph.
 double boundsMargin(osg::Node& node);
 
 class BoxIntersector : public osgUtil::Intersector {
  public:
-  /// Moves `body` from `start` to `end` (its centre, metres), in the frame of the visited graph. Throws roam::Error for
-  /// a body or places that are not finite.
+  /// Moves the centre of `body` from `start` to `end`, metres, in the frame of the visited graph. Throws roam::Error if
+  /// they are not finite.
   BoxIntersector(const roam::Body& body, const osg::Vec3d& start, const osg::Vec3d& end);
-  /// The same in frame MODEL or VIEW, where a capsule's axis is that frame's z. A body has no radius in WINDOW and
-  /// PROJECTION: throws roam::Error.
+  /// As above, in frame MODEL or VIEW; a capsule's axis is the z of that frame. Throws roam::Error for other frames.
   BoxIntersector(CoordinateFrame frame, const roam::Body& body, const osg::Vec3d& start, const osg::Vec3d& end);
 
   const roam::Body& getBody() const { return _body; }
   const osg::Vec3d& getStart() const { return _start; }
   const osg::Vec3d& getEnd() const { return _end; }
 
-  /// One triangle that is met.
+  /// A triangle that the body meets.
   struct Intersection {
-    double time = 1.0;      ///< fraction of the way that is certified free of this triangle
-    double distance = 0.0;  ///< see roam::SweepResult: negative for a body that starts in touch
+    double time = 1.0;      ///< fraction of the motion that is certified free of it
+    double distance = 0.0;  ///< see roam::SweepResult; negative if they overlap at the start
     osg::NodePath nodePath;
     osg::ref_ptr<osg::Drawable> drawable;
     osg::ref_ptr<osg::RefMatrix> matrix;  ///< from the drawable's frame to the intersector's; null for identity
-    /// Which primitive of the drawable, counted as osgUtil's intersectors do: points, lines, triangles and quads each
-    /// count as one, polygons and fans as their triangles.
+    /// Number of the primitive, counted as osgUtil's intersectors do: polygons and fans count as their triangles.
     unsigned int primitiveIndex = 0;
     unsigned int half = 0;  ///< of a quad: 0 or 1
     roam::Feature feature = roam::Feature::face;
     osg::Vec3d localIntersectionPoint;   ///< on the triangle, in the drawable's frame
-    osg::Vec3d localIntersectionNormal;  ///< unit; the world normal brought into the drawable's frame as normals are
+    osg::Vec3d localIntersectionNormal;  ///< unit, in the drawable's frame
     osg::Vec3d worldIntersectionPoint;   ///< on the triangle, in the intersector's frame
-    osg::Vec3d worldIntersectionNormal;  ///< unit, from the point towards the body's axis: the way out
+    osg::Vec3d worldIntersectionNormal;  ///< unit, from the point towards the body's axis
 
-    /// Earliest first; of those that are touched at the start, deepest first.
+    /// Earliest first; among overlaps at the start, deepest first.
     bool operator<(const Intersection& other) const;
   };
   typedef std::multiset<Intersection> Intersections;
 
-  /// What was met. How much of it the intersection limit says: LIMIT_NEAREST, which is set at first and the fastest,
-  /// gives the earliest impact, LIMIT_ONE_PER_DRAWABLE the earliest with each drawable, LIMIT_ONE any, NO_LIMIT every
-  /// triangle on the whole way as if it were alone.
+  /// Intersections by the intersection limit: LIMIT_NEAREST (default, fastest) the earliest, LIMIT_ONE_PER_DRAWABLE the
+  /// earliest of each drawable, LIMIT_ONE any, NO_LIMIT each triangle on the whole motion.
   Intersections& getIntersections() { return _parent ? _parent->getIntersections() : _intersections; }
-  /// The earliest; default-constructed when there is none.
+  /// The earliest; default-constructed if there is none.
   Intersection getFirstIntersection();
 
-  /// A triangle whose box meets the box of the swept body.
+  /// A triangle whose box overlaps the box of the swept body.
   struct Candidate {
     roam::Triangle triangle;          ///< in the intersector's frame
     unsigned int drawable = 0;        ///< index into getCandidateDrawables()
@@ -95,8 +87,7 @@ class BoxIntersector : public osgUtil::Intersector {
     osg::NodePath nodePath;
     osg::ref_ptr<osg::Drawable> drawable;
   };
-  /// Gather candidates instead of sweeping: there will be no intersections. For callers with a narrow phase of their
-  /// own.
+  /// Collects candidates instead of intersections, for a narrow phase of your own.
   void setGatherCandidates(bool gather) { _gather = gather; }
   bool getGatherCandidates() const { return _gather; }
   const std::vector<Candidate>& getCandidates() const { return _parent ? _parent->getCandidates() : _candidates; }
@@ -104,8 +95,8 @@ class BoxIntersector : public osgUtil::Intersector {
     return _parent ? _parent->getCandidateDrawables() : _candidateDrawables;
   }
 
-  /// Metres by which bounding spheres and boxes are taken larger than they say. See boundsMargin. Throws
-  /// roam::Error for a margin that is negative or not finite.
+  /// Metres by which bounding spheres and boxes are enlarged; see boundsMargin. Throws roam::Error if negative or not
+  /// finite.
   void setBoundsMargin(double margin);
   double getBoundsMargin() const { return _boundsMargin; }
 

@@ -1,22 +1,17 @@
 #pragma once
 /// \file
-/// The one table of what keys do: the manipulator looks keys up in it, and help texts, settings files and manuals are
-/// written from it.
+/// Controls: the table of commands and their keys, for the manipulator, help texts and settings files.
 ///
 ///     osgRoam::Controls& controls = manipulator->controls();
 ///     controls.add("help", "H", "shows or hides this help", osgRoam::Controls::Kind::pressed);
-///     controls.rebind("forward = Z, Up\nleft = Q, Left\ndown = Page_Down");   // a French keyboard
+///     controls.rebind("forward = Z, Up\nleft = Q, Left\ndown = Page_Down");  // a French keyboard
 ///     std::cout << controls.text();
 ///
-/// A command has a name of its own, and any number of keys; a key belongs to one command. Keys are named by what is
-/// printed on them without Shift: "W", "1", "[", "Up", "Page_Down", "Shift", "F1", "Space", "Ctrl+1". Left and right
-/// Shift, Ctrl and Alt are one key each, and the keypad without Num Lock is the keys it stands for. Names are read in
-/// either case; "Comma" and "Plus" are words, since the characters part keys from each other.
+/// A command has any number of keys; a key belongs to one command. Key names are what is printed on the key: "W", "1",
+/// "[", "Up", "Page_Down", "Shift", "F1", "Space", "Comma", "Plus", "Ctrl+1", in either case. Left and right Shift,
+/// Ctrl and Alt are one key each; the keypad without Num Lock counts as the keys that it stands for.
 ///
-/// A Command that commands(), find() or lookup() leads to is where it is until the next add() or rebind(): copy what is
-/// to be kept.
-///
-/// Not for several threads at a time.
+/// References to commands are valid until the next add() or rebind(). Not thread-safe.
 
 #include <compare>
 #include <string>
@@ -29,11 +24,10 @@ namespace osgRoam {
 
 class Controls {
  public:
-  /// held: works as long as a key is down. pressed: works once each time a key goes down. gesture: of the mouse; in the
-  /// table so that people are told of it, but no key.
+  /// held: works while a key is down. pressed: works once per key press. gesture: of the mouse, listed for help texts.
   enum class Kind { held, pressed, gesture };
 
-  /// A key of the keyboard: osgGA::GUIEventAdapter::KeySymbol without Shift, and whether Ctrl is down with it.
+  /// A key: osgGA::GUIEventAdapter::KeySymbol without Shift, alone or with Ctrl.
   struct Key {
     int symbol = 0;
     bool ctrl = false;
@@ -42,41 +36,38 @@ class Controls {
 
   struct Command {
     std::string name;  ///< one word: "forward"
-    std::string help;  ///< what it does, for people: "walks or flies forward"
+    std::string help;  ///< "walks or flies forward"
     Kind kind = Kind::pressed;
-    std::vector<Key> keys;  ///< may be empty: then nothing calls it
-    std::string gesture;    ///< of a gesture: "Drag"
+    std::vector<Key> keys;  ///< may be empty
+    std::string gesture;    ///< for a gesture: "Drag"
   };
 
-  /// Adds a command at the end of the table, with its keys as in "W, Up"; of a gesture its name as people call it.
-  /// Throws roam::Error for a name that is there already or is not one word, for a key that is unknown, and for a key
-  /// that another command has.
+  /// Appends a command with its keys, such as "W, Up", or its gesture. Throws roam::Error if the name exists or is not
+  /// one word, or if a key is unknown or belongs to another command.
   void add(std::string_view name, std::string_view keys, std::string_view help, Kind kind);
 
-  /// Gives commands other keys, one line a command: "forward = W, Up". "forward =" takes all keys from it. Empty lines
-  /// and what follows a # are left out. All lines together are one change, so that keys can be swapped. Throws
-  /// roam::Error, and changes nothing, for an unknown command or key (naming the line), a gesture, and two commands on
-  /// one key (naming both).
+  /// Gives commands other keys, one line each: "forward = W, Up"; "forward =" for none. Empty lines and text after #
+  /// are ignored. All lines are one change, so keys can be swapped. Throws roam::Error, and changes nothing, for an
+  /// unknown command or key, a gesture, and two commands on one key.
   void rebind(std::string_view lines);
 
-  /// The table as rebind() reads it, gestures left out.
+  /// The table as rebind() reads it, without gestures.
   [[nodiscard]] std::string text() const;
 
   [[nodiscard]] const std::vector<Command>& commands() const { return _commands; }
-  /// Null when there is no such command. Ends with the next add() or rebind().
+  /// Null if there is no such command.
   [[nodiscard]] const Command* find(std::string_view name) const;
-  /// The command of a key, or null; ends likewise. `key` as osgGA::GUIEventAdapter::getUnmodifiedKey() says it, or
-  /// getKey() where that is 0. With Ctrl down "Ctrl+W" comes first and "W" second.
+  /// The command of a key, or null. `key` is osgGA::GUIEventAdapter::getUnmodifiedKey(), or getKey() if that is 0. With
+  /// Ctrl, "Ctrl+W" is tried before "W".
   [[nodiscard]] const Command* lookup(int key, bool ctrl) const;
 
-  /// What people press for a command: "W, Up", "Drag"; empty when nothing calls it.
+  /// Keys or gesture of a command: "W, Up", "Drag"; may be empty.
   [[nodiscard]] static std::string keyText(const Command& command);
-  /// "W", "Ctrl+1": what parseKey() reads.
+  /// "W", "Ctrl+1": the reverse of parseKey().
   [[nodiscard]] static std::string print(const Key& key);
   /// Throws roam::Error for an unknown name.
   [[nodiscard]] static Key parseKey(std::string_view name);
-  /// The symbol that stands for a key whatever Shift, Caps Lock and Num Lock do to it: 'W' becomes 'w', right Shift
-  /// left Shift, the keypad's Up Up.
+  /// The symbol of a key without Shift, Caps Lock and Num Lock: 'W' becomes 'w', right Shift left Shift.
   [[nodiscard]] static int canonical(int symbol);
 
  private:

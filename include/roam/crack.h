@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Gaps of a floor into which bodies fall. train.h finds those of a scene.
+/// Crack: a gap of a floor that bodies can fall into. train.h finds those of a scene.
 
 #include <cstdint>
 
@@ -8,18 +8,18 @@
 
 namespace roam {
 
-/// A gap of the floor into which a small enough body falls. See docs/training.md for what is one.
+/// A gap of the floor that a small enough body falls into; docs/cracks.md defines it. Metres.
 struct Crack {
   enum class Kind : std::uint8_t {
-    crack,      ///< carried over by a large enough body or foot
-    step_down,  ///< its bottom is floor that one walks on
-    open_drop,  ///< larger than any foot: a pit, a shaft, a cliff. Sets no radius.
+    crack,      ///< a large enough body or support disc spans it
+    step_down,  ///< its bottom is floor for walking
+    open_drop,  ///< larger than any support disc: a pit, a shaft, a cliff; limits no radius
   };
   Kind kind = Kind::crack;
-  Vec3 point{0.0};         ///< centre of the largest disc free of floor, at the level of the rim
-  double radius = 0.0;     ///< of that disc, m: a split of width w has w / 2
-  Vec3 direction{0.0};     ///< level unit vector across it
-  bool on_a_path = false;  ///< one of the paths goes over it
+  Vec3 point{0.0};         ///< centre of the largest level disc free of floor, at the height of the rim
+  double radius = 0.0;     ///< of that disc: half the width of a split
+  Vec3 direction{0.0};     ///< unit, level, across it
+  bool on_a_path = false;  ///< a path crosses it
 };
 
 /// "crack", "step_down" or "open_drop".

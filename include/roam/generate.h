@@ -14,8 +14,8 @@
 ///
 /// Coordinates are doubles in metres, up is +z. Triangles are wound counter-clockwise seen from the open air: from
 /// inside a gallery, from outside a building. Meshes that touch share their border vertices bit by bit, so that the
-/// surface has no cracks; docs/gallery.md lists what is closed, what is open, what is from the paper and what is our
-/// choice.
+/// surface has no cracks; docs/proofs.md, "The made gallery", lists what is closed, what is open, what is from the
+/// paper and what is our choice.
 ///
 /// Options out of range throw roam::Error. All functions are safe to call from any thread. Library target
 /// roam::generate.

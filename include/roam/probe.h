@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether a body of a given size gets from one place to another, and if not, what stops it and what is missing.
+/// Probe: whether a body of a given size gets from one position to another, and what stops it if not.
 ///
 ///     const roam::ProbeQuestion question{.from = {2, 0.3, 1}, .to = {18, -0.4, 1}};
 ///     const roam::ProbeAnswer answer = roam::probe(survey, question, {.radius = 0.3, .height = 1.9});
@@ -10,12 +10,11 @@
 ///       std::cout << to_string(answer.limit->kind) << " " << answer.limit->size << " m\n";  // "door 0.52 m"
 ///     }
 ///
-/// passage.h says how wide the widest way is; this says what that means to one body, or to many in one search. A yes is
-/// said of a way that is wide enough and that a real Walker has gone. A no comes with what decides: a door, a headroom,
-/// a step, the wall beside an end. `roam probe` asks just this; docs/training.md, "Probing", has it in a shell's words.
+/// `passable` means that a way is wide enough (passage.h) and that a Walker has gone it. Otherwise `limit` names the
+/// obstacle: a door, a headroom, a step, a wall beside an end. `roam probe` is its program;
+/// docs/probing.md explains the answers.
 ///
-/// Lengths are metres, up is +z. Same input, same bits. Functions may be called at the same time for one survey.
-/// Library target roam::ways.
+/// Metres, up is +z. The same input gives the same bits. Thread-safe. Target roam::ways.
 
 #include <cstdint>
 #include <functional>
@@ -32,110 +31,104 @@
 
 namespace roam {
 
-/// What is asked for every size. The floors are those of the survey: its slope limit is the walker's.
+/// The question, for all sizes. The slope limit is that of the survey.
 struct ProbeQuestion {
-  Vec3 from{0.0};                         ///< of the feet or the eyes, taken down to the floor; flying: of the centre
-  Vec3 to{0.0};                           ///< the same
+  Vec3 from{0.0};                         ///< of feet or eyes, which drop to the floor below; flying: of the centre
+  Vec3 to{0.0};                           ///< likewise
   Mode mode = Mode::walk;                 ///< walk or fly
-  double step = 0.3;                      ///< >= 0: what walking climbs at once; see climbed()
+  double step = 0.3;                      ///< >= 0: see climbed()
   double spacing = 0.2;                   ///< as PassageOptions::spacing
-  double support_radius = 0.0;            ///< of the walker's foot, see WalkerSettings; 0: none of its own
-  std::uint64_t most_places = 4'000'000;  ///< of one search, as PassageOptions::most_places
-  /// As PassageOptions::progress, for each search there is; but false ends it all: probe() throws Cancelled.
+  double support_radius = 0.0;            ///< see WalkerSettings; 0: none
+  std::uint64_t most_places = 4'000'000;  ///< of each search, as PassageOptions::most_places
+  /// As PassageOptions::progress, for each search. Returning false makes probe() throw Cancelled.
   std::function<bool(std::uint64_t)> progress = {};
 };
 
 struct ProbedSize {
   double radius = 0.3;
-  double height = 0.6;  ///< at least twice the radius; exactly that, as flying must be: a sphere. A person: say 1.8
+  double height = 0.6;  ///< >= 2 * radius; flying == 2 * radius, a sphere; 1.8 for a person
 };
 
-/// What a body of that size climbs: a sphere at most its radius, a capsule at most what is below its round head when it
-/// stands on its round foot.
+/// The step that a body of that size climbs: a sphere at most its radius, a capsule at most height - 2 * radius.
 [[nodiscard]] double climbed(const ProbeQuestion& question, const ProbedSize& size);
 
-/// The body as a Walker takes it, its eye as apply() in profile.h has it. Throws Error for a size that no walker has.
+/// Settings of the walker that goes the way. Throws Error if a Walker refuses the size.
 [[nodiscard]] WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size,
                                          double slope_degrees = 45.0);
 
-/// How the walker fared that was sent along the way.
+/// How the walker fared on the way.
 struct ProbeWalk {
   Outcome outcome = Outcome::reached;
-  Vec3 at{0.0};      ///< of its centre: where it came to, lost the ground, or stopped
-  Vec3 on_way{0.0};  ///< the place of Passage::way that is nearest to it
+  Vec3 at{0.0};      ///< its centre at the end
+  Vec3 on_way{0.0};  ///< the nearest point of Passage::way
 };
 
-/// What decides: the narrowest place of the way, or what stops the body.
+/// The limit: the narrowest position of the way, or the obstacle.
 struct ProbeLimit {
   enum class Kind : std::uint8_t {
-    door,    ///< walls on both sides; `size` from one to the other
-    lintel,  ///< something above and below, met aslant; `size` is the diameter of the largest body that passes
-    gap,     ///< flying: any two sides; `size` from one to the other
-    edge,    ///< a wall on one side, and on the other the floor ends; `size` from the wall to the axis
-    start,   ///< `from` lies beside a wall; `size` from it to the axis. Or under a ceiling: see `too_low`
-    target,  ///< the same of `to`
-    height,  ///< a lower body passes; `size` is the height from the feet that one of this radius may have
-    step,    ///< who stepped more would pass; `size` is by how much the floor rises or falls at once
-    apart,   ///< nothing joins both ends: here what is reached from them comes nearest to each other; no `size`.
-             ///< Told only where that is 1 m or nearer on foot, and 2 m flying
+    door,    ///< walls on both sides; `size` is the distance between them
+    lintel,  ///< surfaces above and below at an angle; `size` is the diameter of the largest body that passes
+    gap,     ///< flying: any two surfaces; `size` is the distance between them
+    edge,    ///< a wall on one side, the end of the floor on the other; `size` is from the wall to the axis
+    start,   ///< `from` is beside a wall, and `size` is from it to the axis; or under a ceiling, see `too_low`
+    target,  ///< likewise for `to`
+    height,  ///< headroom; `size` is the height that a body of this radius may have
+    step,    ///< a step of the floor; `size` is its height
+    apart,   ///< no way: here the positions reached from both ends come nearest, within 1 m, flying 2 m; no `size`
   };
   Kind kind = Kind::door;
-  Vec3 point{0.0};       ///< the middle of what is measured; of a height and a step on the floor
-  Vec3 direction{0.0};   ///< unit, along what is measured
-  Vec3 heading{0.0};     ///< unit, level, as the way leads there; 0: not known
-  Vec3 feet{0.0};        ///< where the body stands there; flying: its centre
-  double size = 0.0;     ///< what there is
-  double needed = 0.0;   ///< what the body needs; of a step what it climbs
-  double width = 0.0;    ///< of a height: how wide it is there for a body that passes; 0: not known, or not narrow
-  double along = 0.0;    ///< of the way up to there
-  bool too_low = false;  ///< of an end: a headroom is measured, not a distance
+  Vec3 point{0.0};       ///< middle of the measured distance; for a height or step, on the floor
+  Vec3 direction{0.0};   ///< unit, along the measured distance
+  Vec3 heading{0.0};     ///< unit, level, along the way; 0: unknown
+  Vec3 feet{0.0};        ///< of the body there; flying: its centre
+  double size = 0.0;     ///< available
+  double needed = 0.0;   ///< by the body; for a step, what it climbs
+  double width = 0.0;    ///< for a height: width for a body that passes; 0: unknown or not narrow
+  double along = 0.0;    ///< length of the way up to there
+  bool too_low = false;  ///< for an end: `size` is a headroom
 };
 
-/// "door", "lintel", "gap", "edge", "end" (of both), "height", "step" or "apart".
+/// "door", "lintel", "gap", "edge", "end" (start and target), "height", "step" or "apart".
 [[nodiscard]] const char* to_string(ProbeLimit::Kind kind);
 
 struct ProbeAnswer {
   ProbedSize size;
-  bool passable = false;     ///< there is a way that is wide enough, and the walker has gone it
-  bool wide_enough = false;  ///< there is one, whatever the walker did
-  Passage passage;           ///< the widest way for bodies that are as high and climb as much
-  double narrowest = 0.0;    ///< no way for a body of a radius up to that was looked for
-  /// Where a way is wide enough: as Passage::proven. Else: that none for a body of this radius exists is certified; of
-  /// an end that is too low, that it is.
+  bool passable = false;     ///< a way is wide enough, and the walker has gone it
+  bool wide_enough = false;  ///< a way is wide enough
+  Passage passage;           ///< the widest way for bodies of this height and step
+  double narrowest = 0.0;    ///< smallest radius searched for
+  /// If wide_enough: Passage::proven. Otherwise: it is certified that no way for this radius exists, or that an end is
+  /// too low.
   bool proven = false;
-  Vec3 start{0.0}, target{0.0};  ///< where a body stands for `from` and `to`: at most 2 m aside, in sight
-  /// None where nothing on the way is as narrow as is looked for. Of a no, none where nothing joins both ends (not
-  /// passage.found) and they come nowhere near each other: two floors, say.
+  Vec3 start{0.0}, target{0.0};  ///< where the body stands for `from` and `to`: at most 2 m aside, in sight
+  /// None if nothing limits the way, or if no way was found and both ends are far apart.
   std::optional<ProbeLimit> limit;
-  double missing = 0.0;           ///< what `limit` leaves too little for the body; 0 where it is enough, and for apart
-  std::optional<Vec3> room;       ///< where an end is in the way: the nearest place found where it would not be
-  std::optional<ProbeWalk> walk;  ///< where the way is wide enough
+  double missing = 0.0;           ///< max(0, needed - size) of the limit; 0 for `apart`
+  std::optional<Vec3> room;       ///< if an end is the limit: the nearest position with room
+  std::optional<ProbeWalk> walk;  ///< if wide_enough
 };
 
-/// Nobody can be at an end, nor near it, or it lies off the scene by more than its diagonal and 100 m: what() begins
-/// with "from" or "to" and says why.
+/// No body fits at an end or near it, or the end is farther from the scene than its diagonal + 100 m. what() begins
+/// with "from" or "to".
 class NoRoomAtEnd : public Error {
  public:
   NoRoomAtEnd(const std::string& why, const std::optional<Vec3>& place) : Error(why), nearest(place) {}
-  std::optional<Vec3> nearest;  ///< the nearest place found where a body of the smallest radius asked for has room
+  std::optional<Vec3> nearest;  ///< nearest position with room for the smallest radius
 };
 
-/// The answers for all sizes, in their order. Sizes of one height that climb alike share one search. Throws Error for
-/// sizes that no walker has, and flying for one that is no sphere, what widest_way throws, NoRoomAtEnd, and Cancelled
-/// when `progress` says so.
+/// Answers for all sizes, in their order. Sizes of the same height and step share one search. Throws Error for sizes
+/// that a Walker refuses, and, flying, for one that is no sphere; what widest_way throws; NoRoomAtEnd; Cancelled.
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
                                              std::span<const ProbedSize> sizes);
-/// The answer for one.
+/// As above, for one size.
 [[nodiscard]] ProbeAnswer probe(const Survey& survey, const ProbeQuestion& question, const ProbedSize& size);
 
-/// The way as places of the body's centre, for follow(); empty where none was found. Flying, it keeps so near the
-/// scene, as far as the ends allow, that who goes it has not left it.
+/// The way as positions of the body's centre, for follow(); empty if there is none. A flying way stays near the scene.
 [[nodiscard]] std::vector<Vec3> probed_path(const Survey& survey, const ProbeQuestion& question,
                                             const ProbeAnswer& answer);
 
-/// Places that the smallest bodies come to from both ends, at most `most` from each, for a picture of a no: of the
-/// feet, flying of the centre. Flying, none farther beyond the box of the scene than some metres, nor from an end that
-/// lies there. Throws Cancelled when `progress` says so.
+/// Positions that the smallest body reaches from each end, at most `most` each, for a picture: of the feet, flying of
+/// the centre near the scene. Throws Cancelled.
 struct ProbeReach {
   std::vector<Vec3> from_start, from_target;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What training found out about a scene, kept beside it, so that everybody who roams there has a body that fits.
+/// Profile: a file beside a scene with the body that fits it, written by training and by SizeLearner.
 ///
 ///     const roam::ImportedScene scene = roam::import_scene("dam.ply");
 ///     const auto profile = roam::find_profile("dam.ply", roam::identity_of(scene.meshes));  // reads dam.ply.roam.json
@@ -9,8 +9,7 @@
 ///       walker.set_regions(profile->regions);
 ///     }
 ///
-/// Library target roam::profile. docs/training.md describes the file member by member. A reader of format version 1
-/// takes every file of version 1, and passes over members that it does not know.
+/// Target roam::profile. docs/profile.md describes the file.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,74 +28,69 @@ namespace roam {
 
 struct StoreInfo;
 
-/// By what a scene, or the store that was made of it, is known again.
+/// Identity of a scene, or of its store.
 struct SceneIdentity {
-  /// Of a scene: XXH3-128 over the corners of all triangles in their order, each three little-endian doubles, in 32
-  /// hexadecimal digits, as `roam info` prints it. The same triangles in another file format have the same hash; names
-  /// do not count. Empty where only the store is known.
+  /// XXH3-128 of the corners of all triangles in order, as little-endian doubles: 32 hexadecimal digits, as `roam info`
+  /// prints them. Independent of file format and names. Empty for a store.
   std::string hash;
-  std::string geometry_hash;    ///< of a store: StoreInfo::geometry_hash; empty where only the scene is known
+  std::string geometry_hash;    ///< StoreInfo::geometry_hash; empty for a scene
   std::uint64_t triangles = 0;  ///< in the scene
   Box bounds;                   ///< of the scene's triangles, metres
 };
 
-/// Reads every triangle once: about 10 ns each. Throws roam::Error for one that uses a vertex which its mesh has not.
+/// Reads every triangle, 10 ns each. Throws roam::Error if a vertex index is out of range.
 [[nodiscard]] SceneIdentity identity_of(std::span<const Mesh> meshes);
 [[nodiscard]] SceneIdentity identity_of(const StoreInfo& store);
 
 struct Profile {
   static constexpr int version = 1;
 
-  SceneIdentity scene;  ///< that was trained on
+  SceneIdentity scene;
 
   Mode mode = Mode::walk;       ///< walk or fly
-  double radius = 0.0;          ///< of the body, m
-  double height = 0.0;          ///< of the body, m: twice the radius for a sphere
-  double support_radius = 0.0;  ///< of the foot, m; 0: none of its own
+  double radius = 0.0;          ///< m
+  double height = 0.0;          ///< m; 2 * radius for a sphere
+  double support_radius = 0.0;  ///< m; 0: none
   double step = 0.3;            ///< m
   double slope_degrees = 45.0;
-  std::optional<double> largest;  ///< upper end of the feasible interval, m; none: no opening limits it
+  std::optional<double> largest;  ///< upper end of the feasible interval of radii, m; none: unlimited
   double smallest = 0.0;          ///< lower end, m; 0: no crack
   std::vector<SizeRegion> regions;
-  /// "interval" or "paper", by train.h; or "roaming": learned by a SizeLearner.
-  std::string method = "interval";
-  bool complete = true;  ///< false: training was interrupted, and this is the best so far
+  std::string method = "interval";  ///< "interval" or "paper" (train.h), or "roaming" (SizeLearner)
+  bool complete = true;             ///< false: training was interrupted
 
-  /// Whether it is of this scene. Where the hash, or the geometry hash, is known of both, that decides. A scene and a
-  /// store have neither in common: then the number of triangles and the box of them all decide, to the last bit, for
-  /// nothing else of the source is left in a store. What has no hash at all, as Profile{}, is of no scene.
+  /// Whether this profile is of the scene: by a hash that both have; between a scene and a store, by the number of
+  /// triangles and their exact bounds. False if either has no hash.
   [[nodiscard]] bool belongs_to(const SceneIdentity& other) const;
 };
 
-/// Throws roam::Error, naming the member, its value and its range, for numbers that no body has.
+/// Throws roam::Error if a member is out of range, with its value and range.
 void check(const Profile& profile);
 
-/// Where the profile of a scene is; the scene need not be there. "dam.ply" has "dam.ply.roam.json" beside it, a folder
-/// of tiles "Data/" has "Data.roam.json", and so have their stores, "dam.ply.roam" and "Data.roam". A store elsewhere,
-/// "dam.roam", has "dam.roam.json".
+/// Path of a scene's profile. "dam.ply" and its store "dam.ply.roam" have "dam.ply.roam.json"; the folder "Data/" and
+/// its store "Data.roam" have "Data.roam.json"; another store "dam.roam" has "dam.roam.json". The scene need not exist.
 [[nodiscard]] std::filesystem::path profile_path(const std::filesystem::path& scene);
-/// Of several files or folders that make one scene: beside the first, named by all: "a.ply+b.ply.roam.json".
-/// Both throw roam::Error for an empty path.
+/// Of a scene of several files: beside the first, named by all: "a.ply+b.ply.roam.json". Both throw roam::Error for an
+/// empty path.
 [[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
 
-/// Throws roam::Error naming file, line or member, and what to do, for what is no profile, is of a newer version, or
-/// holds numbers out of range, and for a file that is a link, a pipe or a device.
+/// Throws roam::Error if the file is no profile, of a newer version, has members out of range, or is a link, pipe or
+/// device. The message names file, line or member, and what to do. Unknown members are ignored.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
-/// Written under a temporary name, synced and renamed: whole or as it was. Throws roam::Error naming the file when it
-/// cannot be written, and for what check refuses.
+/// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
+/// does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
-/// The profile beside a scene, see profile_path; none when there is no such file. Throws what load_profile throws.
+/// Loads the file profile_path(scene), if it exists. Throws as load_profile does.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
 
-/// The same, and throws roam::Error where it is not of the scene that was read: train again.
+/// As above, and throws roam::Error if the profile is of another scene.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity);
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
                                                   const SceneIdentity& identity);
 
-/// A person's settings with the profile's body: its radius, height, step, slope and support; the eye stays where it is,
-/// or at the top of a lower body, and is in the centre of a sphere, as WalkerSettings::sphere has it. The regions are
-/// for Walker::set_regions. Nothing here asks of which scene the profile is.
+/// `settings` with the profile's radius, height, step, slope and support radius. The eye stays, but at most at the top
+/// of the body, and in the centre of a sphere. Pass the regions to Walker::set_regions. Does not check the scene.
 [[nodiscard]] WalkerSettings apply(const Profile& profile, const WalkerSettings& settings);
 
 }  // namespace roam

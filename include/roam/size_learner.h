@@ -1,25 +1,23 @@
 #pragma once
 /// \file
-/// Learning the size of a body while it roams, where training has not said everything (or nothing).
+/// Size learner: adapts a body's size while it roams, where training is incomplete or missing.
 ///
 ///     roam::SizeLearner learner(profile, {.radius_min = 0.2});
 ///     for (;;) {
 ///       walker.step(input, dt);
 ///       if (const auto lesson = learner.watch(walker, input.velocity, dt)) {
 ///         std::cout << "an opening or a gap " << lesson->width << " m wide\n";
-///         learner.take(walker, *lesson);          // or do not: it is an offer
+///         learner.take(walker, *lesson);  // optional
 ///       }
 ///     }
 ///     roam::save_profile(learner.profile(), roam::profile_path("dam.ply"));
 ///
-/// Two things are learned, the two of the paper's figure 6 where they are met and no earlier: *cannot enter*, so the
-/// body becomes smaller at that opening and nowhere else; *flies off*, so the foot becomes larger, everywhere. A lesson
-/// is only offered when it has been tried: the smaller body has a certified way through the opening, and a Walker with
-/// the larger foot has gone to where the body lost the ground, and is carried there. Nothing that is learned lets a
-/// body violate what Walker promises.
+/// It learns the two cases of figure 6 of Xie & Niu 2020. If a body cannot enter an opening, it becomes smaller there.
+/// If it falls into a crack, its support disc becomes larger everywhere. A lesson is offered only after a trial: the
+/// smaller body has a certified way through the opening, or a Walker with the larger disc is carried where the body
+/// fell.
 ///
-/// From one thread at a time, the one that moves the body; watch() allocates only when it has a lesson. Library target
-/// roam::profile.
+/// For the thread that moves the body. watch() allocates only with a lesson. Target roam::profile.
 
 #include <cstdint>
 #include <optional>
@@ -29,40 +27,40 @@
 
 namespace roam {
 
-/// What a body could do about what stopped it.
+/// A change of size that would help. Metres.
 struct Lesson {
   enum class Kind : std::uint8_t {
     narrower,  ///< a smaller body in a region
-    support,   ///< a larger foot, everywhere
+    support,   ///< a larger support disc everywhere
   };
   Kind kind = Kind::narrower;
-  Vec3 at{0.0};                 ///< the middle of the opening, or of the body where it fell, metres
-  SizeRegion region;            ///< of a narrower body: where, and its size
-  double support_radius = 0.0;  ///< of a larger foot, metres
-  double width = 0.0;           ///< of the opening, or of the gap of the floor, metres
+  Vec3 at{0.0};                 ///< middle of the opening, or the body's centre where it fell
+  SizeRegion region;            ///< for `narrower`
+  double support_radius = 0.0;  ///< for `support`
+  double width = 0.0;           ///< of the opening or crack
 };
 
 struct LearnLimits {
-  double radius_min = 0.15;  ///< m: no smaller body is offered
-  double support_max = 1.0;  ///< m: no larger foot is offered
-  double patience = 0.5;     ///< s that a body pushes against an opening before it is looked at
+  double radius_min = 0.15;  ///< m: smallest body offered
+  double support_max = 1.0;  ///< m: largest support disc offered
+  double patience = 0.5;     ///< s of pushing against an opening before it is measured
 };
 
 class SizeLearner {
  public:
-  /// Goes on from what is known: `known`, whose radius and support_radius are those of the walker outside all regions.
-  /// Throws roam::Error for a radius or limits out of range.
+  /// Starts from `known`. Its radius and support_radius are those of the walker outside all regions. Throws roam::Error
+  /// if it or the limits are out of range.
   explicit SizeLearner(Profile known, const LearnLimits& limits = {});
 
-  /// After each step, and after placing (with 0 seconds). `wish` is the velocity that was wished for, m/s. The same
-  /// lesson is offered once while it lasts; it comes again when the body comes again.
+  /// Call after each step with the desired velocity, m/s, and the seconds of the step; after placing, with 0. Offers a
+  /// lesson once each time that the body meets its cause.
   [[nodiscard]] std::optional<Lesson> watch(const Walker& walker, const Vec3& wish, double seconds);
 
-  /// The walker gets the size, and the profile holds it. After a fall it is put back to where it last stood firmly.
+  /// Gives the size to the walker and the profile. After a fall, puts the walker back to where it last stood firmly.
   void take(Walker& walker, const Lesson& lesson);
 
   [[nodiscard]] const Profile& profile() const { return profile_; }
-  /// Whether something was learned since saved().
+  /// Whether profile() changed since saved().
   [[nodiscard]] bool changed() const { return changed_; }
   void saved() { changed_ = false; }
 

@@ -36,7 +36,7 @@ enum class EventKind : std::uint8_t {
   slowed,       ///< the wish was faster than SpaceFacts::speed_limit and was followed at that speed
   narrowed,     ///< became a smaller body, in a region or on command: see Walker::set_regions
   widened,      ///< became a larger one again
-  carried,      ///< stepped over a crack that its foot carries it over: see WalkerSettings::support_radius
+  bridged,      ///< stepped over a crack that its support disc spans: see WalkerSettings::support_radius
 };
 
 /// The name of a kind as it stands above: "slid", "stepped_up", ...
@@ -92,7 +92,7 @@ struct Segment {
   /// and a body that is being freed). Never less than radius - 1e-6 otherwise. On a free way it is too low by at most a
   /// quarter of the gap, two skins and 2 mm: Space::clearance measures more closely. A merged piece has the least of
   /// its parts.
-  double clearance = 0.0;
+  double axis_clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is said about the way
 };
 
@@ -113,17 +113,16 @@ struct StepReport {
   /// Certified lower bound of the clearance at `to`, metres, capped at radius + clearance_reach: that of the way which
   /// ends there, or, where the body did not move, of the place. 0: none (ghost, held while embedded, or something that
   /// moved overlaps it until the next step frees it).
-  double clearance = 0.0;
-  double least_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
+  double axis_clearance = 0.0;
+  double least_axis_clearance = 0.0;  ///< the least over all pieces and `to`, metres, capped likewise
   /// The least clearance - radius over the same, metres, each with its own radius: how near the surface came.
   double least_gap = 0.0;
   double elapsed = 0.0;  ///< seconds that were simulated: dt, or less when throttled
   /// Metres per second, downward: the fastest landing of this step; 0: none.
   double landing_speed = 0.0;
-  Vec3 ground_velocity{
-      0.0};               ///< metres per second, of the ground that moves under the body: see Stance::ground_velocity
+  Vec3 ground_velocity{0.0};  ///< metres per second, of the moving ground under the body: see Stance::ground_velocity
   bool grounded = false;  ///< stands on something (walk mode)
-  bool carried = false;   ///< stands on its foot over a crack: see WalkerSettings::support_radius
+  bool bridging = false;  ///< its support disc spans the crack below it: see WalkerSettings::support_radius
   bool blocked = false;   ///< could not go on in the wished direction in this step; contacts.back() is why
   bool held = false;      ///< see EventKind::held: the same as Walker::held()
   bool put_back = false;  ///< see EventKind::put_back

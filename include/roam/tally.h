@@ -20,9 +20,9 @@ struct Tally {
   std::uint64_t steps = 0;
   double length = 0.0;     ///< metres that the centre moved, placing not counted
   double simulated = 0.0;  ///< seconds
-  /// Metres, certified, over all moves; capped as StepReport::clearance is. Of the axis: a body that becomes smaller on
+  /// Metres, certified, over all moves; capped as StepReport::axis_clearance is. Of the axis: a body that becomes smaller on
   /// the way may come nearer with it. 0: none was certified yet.
-  double least_clearance = 0.0;
+  double least_axis_clearance = 0.0;
   /// The same of the body's surface, in the size that it had there: the least clearance - radius.
   double least_gap = 0.0;
   std::uint64_t throttled = 0;  ///< steps that ended early or were slowed, see EventKind

@@ -1,20 +1,17 @@
 #pragma once
 /// \file
-/// Which sizes of a body can go everywhere in a scene and fall nowhere; and what to use where no one size can.
+/// Training: the sizes of a body that pass everywhere in a scene and fall nowhere.
 ///
 ///     const roam::Training t = roam::train(survey, {.height = 1.8});
 ///     if (t.feasible) std::cout << "a radius of " << t.radius << " m serves all " << t.paths.size() << " paths\n";
 ///     if (t.places > 0) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));  // profile.h
 ///
-/// Xie & Niu 2020 (PLoS ONE 15(2): e0229038, figure 6) roam n random paths with a radius that goes down where the
-/// viewpoint cannot enter and up where it flies off. Method::paper does that and no more; Method::interval finds both
-/// ends from the scene itself, by the widest way (passage.h) and the cracks of the floor, and proves them by trials
-/// with the real Walker just inside and just outside. docs/training.md has the definitions, the measured errors and
-/// what is certified.
+/// Method::paper is figure 6 of Xie & Niu 2020 (PLoS ONE 15(2): e0229038): it roams random paths, with a smaller radius
+/// where the body cannot enter, and a larger one where it falls. Method::interval finds both ends of the interval from
+/// the widest ways (passage.h) and the cracks of the floor, and confirms them by trials with a Walker. docs/training.md
+/// has the definitions, docs/cracks.md the measured errors.
 ///
-/// It takes a second or so for some rooms, 5 to 30 s for a furnished house, a mine or a dam of 2 million triangles.
-///
-/// Same survey, options and seed, same bits. Safe to call from any thread. Library target roam::training.
+/// Lengths in metres. The same survey, options and seed give the same bits. Thread-safe. Target roam::training.
 
 #include <cstdint>
 #include <functional>
@@ -37,61 +34,60 @@ enum class Method : std::uint8_t { interval, paper };
 /// "interval" or "paper".
 [[nodiscard]] const char* to_string(Method method);
 
-/// What is being done, in the order in which it is.
+/// Stages of training, in order.
 enum class TrainStage : std::uint8_t {
-  places,         ///< places are looked for
-  planning,       ///< paths are planned between them
-  cracks,         ///< cracks of the floor are looked for
-  walking,        ///< walkers go along the planned paths
-  beside_paths,   ///< smaller openings are looked for beside them
-  trials,         ///< bodies just inside and just outside both ends are sent
-  roaming_paths,  ///< Method::paper: the paths are roamed
+  places,         ///< finds free positions
+  planning,       ///< plans paths between them
+  cracks,         ///< finds cracks of the floor
+  walking,        ///< walks the planned paths
+  beside_paths,   ///< finds narrower openings beside them
+  trials,         ///< tries bodies just inside and just outside both ends
+  roaming_paths,  ///< Method::paper: roams the paths
 };
 
 struct TrainOptions {
   Mode mode = Mode::walk;  ///< walk or fly
   Method method = Method::interval;
   std::uint64_t seed = 1;  ///< of the paths
-  int paths = 0;           ///< that are planned; 0: 5, or one for each dead-end room where there are more
-  /// m: what lets less than this radius through is for nobody. It decides no body that is answered, and gets no region.
-  /// More than half of the largest radius that there can be counts as that half. Ways are looked at, and told of, down
-  /// to 0.05 m or this, whichever is less.
+  int paths = 0;           ///< number of paths; 0: 5, or one for each dead-end room if there are more
+  /// Openings narrower than this radius are ignored: they neither limit the result nor get a region. At most half of
+  /// the largest possible radius is used. Ways are reported down to min(0.05, radius_min).
   double radius_min = 0.15;
-  double radius_max = 1.0;   ///< of the body, m: larger ones are not looked for
-  double support_max = 1.0;  ///< of the foot, m: a crack that is wider is an open drop, where a body is held back
-  double height = 0.0;   ///< of the body on foot, m: say 1.8 for a person; 0: the paper's sphere. WalkerSettings{}: 1.8
-  double step = 0.3;     ///< m, see WalkerSettings
-  double spacing = 0.2;  ///< m, see PassageOptions
-  double speed = 1.4;    ///< of the trials, m/s
+  double radius_max = 1.0;   ///< largest radius searched for
+  double support_max = 1.0;  ///< largest radius of a support disc; a wider crack is an open drop
+  double height = 0.0;       ///< of a walking body: 1.8 for a person; 0: a sphere
+  double step = 0.3;         ///< see WalkerSettings
+  double spacing = 0.2;      ///< see PassageOptions
+  double speed = 1.4;        ///< of the trials, m/s
   int threads = 0;       ///< >= 0; 0: one per core
-  /// Called now and then, from any one thread at a time, with what is being done and how much of it, in [0, 1].
-  /// Returning false ends training: what is known by then is answered, with Training::complete false.
+  /// Called now and then, from one thread at a time, with the stage and the fraction of it that is done, in [0, 1].
+  /// Returning false ends training; the result so far has Training::complete false.
   std::function<bool(TrainStage stage, double done)> progress = {};
 };
 
-/// A planned path: the widest way between two places that were drawn.
+/// A path: the widest way between two random positions.
 struct TrainedPath {
-  Vec3 from{0.0}, to{0.0};         ///< of the feet, or the centre when flying
-  std::vector<Vec3> way;           ///< likewise; on foot not for follow() as it is: see standing() in standing.h
-  std::optional<double> largest;   ///< radius that passes, m; none: not limited
-  double smallest = 0.0;           ///< half the width of the widest crack on the way, m; 0: there is none
-  std::optional<Opening> opening;  ///< that decides `largest`
+  Vec3 from{0.0}, to{0.0};         ///< of the feet; flying: of the centre
+  std::vector<Vec3> way;           ///< likewise; standing.h turns feet into centres, which follow() takes
+  std::optional<double> largest;   ///< radius that passes; none: unlimited
+  double smallest = 0.0;           ///< half the width of the widest crack on the way; 0: none
+  std::optional<Opening> opening;  ///< limits `largest`
   std::vector<Trial> trials;
 };
 
-/// Two places that were drawn as the ends of a path, and that no walker came between: it does not count as one.
+/// A planned path that no walker completed. It does not count as a path.
 struct UnwalkedPath {
   Vec3 from{0.0}, to{0.0};             ///< of the feet
   Outcome outcome = Outcome::blocked;  ///< of the last walker
-  Vec3 at{0.0};                        ///< where it ended, of the feet
+  Vec3 at{0.0};                        ///< its feet at the end
 };
 
-/// What decides one end of the interval.
+/// The opening or crack that decides an end of the interval.
 struct Decisive {
   enum class Kind : std::uint8_t { opening, split };
   Kind kind = Kind::opening;
   Vec3 point{0.0};
-  double width = 0.0;   ///< m: of the door, or the split
+  double width = 0.0;
   Vec3 direction{0.0};  ///< unit, across
 };
 
@@ -100,23 +96,23 @@ struct Decisive {
 
 /// Why a part of the scene was left out.
 enum class LeftOut : std::uint8_t {
-  none,            ///< it was trained
-  backs,           ///< the backs of triangles look at it: outside, or within walls
+  none,            ///< trained
+  backs,           ///< faced by the backs of triangles: outside, or within walls
   on_top,          ///< on top of something
-  over_low_rooms,  ///< on top of rooms that are lower than the body
-  small_or_open,   ///< small beside the rest, or open to the sky, and windings do not tell whether it is inside
-  unfinished,      ///< open country, not looked at whole
+  over_low_rooms,  ///< on top of rooms lower than the body
+  small_or_open,   ///< small or open to the sky, and windings do not tell whether it is inside
+  unfinished,      ///< open country, not searched whole
   much_smaller,    ///< than the rest
   no_path,         ///< no path was planned in it
 };
 
-/// What of the scene hangs together for the smallest body, and is no scrap.
+/// A part of the scene that is connected for the smallest body.
 struct ConnectedPart {
-  Vec3 place{0.0};    ///< where it is widest: of the feet, or the centre when flying
+  Vec3 place{0.0};    ///< its widest position: of the feet; flying: of the centre
   double area = 0.0;  ///< m2 of floor; 0 when flying
   std::uint64_t places = 0;
   bool trained = false;  ///< paths were planned in it
-  bool whole = true;     ///< false: not all of it was looked at
+  bool whole = true;     ///< false: not searched whole
   LeftOut left_out = LeftOut::none;
 };
 
@@ -124,97 +120,94 @@ struct ConnectedPart {
 enum class Nowhere : std::uint8_t {
   empty_scene,     ///< no triangle
   no_floor,        ///< no triangle is level enough
-  over_low_rooms,  ///< there is room on top of rooms that are lower than the body alone: see `parts`
-  no_room,         ///< not even the smallest body fits anywhere
+  over_low_rooms,  ///< only on top of rooms lower than the body: see `parts`
+  no_room,         ///< the smallest body fits nowhere
 };
 
-/// A trial that ended otherwise than the geometry says it must.
+/// A trial whose outcome contradicts the geometry.
 struct Contradiction {
   enum class Body : std::uint8_t {
-    chosen,           ///< the body that is answered, along the whole path: must come through
-    chosen_back,      ///< the same, back up over a gap: must come through
-    inside_opening,   ///< just narrower than the path's opening: must come through
-    outside_opening,  ///< just wider: must be stopped
-    wide_foot,        ///< on a foot that is just wide enough for the crack: must come through
-    small_foot,       ///< on one that is just too small: must fall
+    chosen,           ///< the resulting body on the whole path: should arrive
+    chosen_back,      ///< the same, back up over a gap: should arrive
+    inside_opening,   ///< just narrower than the path's opening: should arrive
+    outside_opening,  ///< just wider: should be stopped
+    wide_foot,        ///< support disc just wide enough for the crack: should arrive
+    small_foot,       ///< support disc just too small: should fall
   };
   Body body = Body::chosen;
   Trial trial;
 };
 
-/// A gap too shallow for a foot to be carried over: the floor at its bottom carries it.
+/// A crack so shallow that its bottom carries the body.
 struct Trench {
   Crack crack;
-  double depth = 0.0;  ///< m
+  double depth = 0.0;
 };
 
-/// How Method::paper ended.
+/// Result of Method::paper.
 struct PaperResult {
   enum class Ending : std::uint8_t {
     settled,        ///< `radius` passes all paths
-    contradiction,  ///< a body that was blocked is not larger than one that fell, or by less than a centimetre
+    contradiction,  ///< a blocked body is smaller than one that fell, or larger by less than a centimetre
     too_small,      ///< the smallest is blocked
     too_large,      ///< the largest falls
     out_of_trials,  ///< 20 of one path
     cancelled,
   };
   Ending ending = Ending::cancelled;
-  double radius = 0.0;           ///< that passes all paths, or passed most of them: the smallest of those; 0: none did
-  std::optional<Trial> fallen;   ///< the largest that fell
-  std::optional<Trial> blocked;  ///< the smallest that was blocked
+  double radius = 0.0;           ///< smallest that passed most paths; 0: none
+  std::optional<Trial> fallen;   ///< largest that fell
+  std::optional<Trial> blocked;  ///< smallest that was blocked
 };
 
 struct Training {
-  Mode mode = Mode::walk;            ///< as asked
-  Method method = Method::interval;  ///< likewise
-  /// The body that serves: use it from now on. profile_of() makes a Profile of it, and apply() settings. Where no place
-  /// was found (places 0), or no path planned, it is only what a person has.
-  double radius = 0.0;          ///< m
-  double height = 0.0;          ///< m: as asked; of a sphere twice the radius
-  double support_radius = 0.0;  ///< of its foot, m; 0: it needs none of its own
-  double step = 0.3;            ///< that it climbs, m: TrainOptions::step or less, a sphere at most its radius
-  double slope_degrees = 45.0;  ///< that it climbs: the survey's
+  Mode mode = Mode::walk;
+  Method method = Method::interval;
+  // The body to use; see profile_of() and apply(). Without positions or paths it is that of a person.
+  double radius = 0.0;
+  double height = 0.0;          ///< TrainOptions::height; 2 * radius for a sphere
+  double support_radius = 0.0;  ///< 0: none needed
+  double step = 0.3;            ///< at most TrainOptions::step; a sphere's at most its radius
+  double slope_degrees = 45.0;  ///< of the survey
 
-  bool feasible = false;             ///< one body without a foot of its own serves all paths
+  bool feasible = false;             ///< one body without a support disc passes all paths
   bool complete = true;              ///< false: ended early
-  std::optional<TrainStage> ended;   ///< where it ended early
-  std::optional<Nowhere> nowhere;    ///< where no place was found and that was looked for to the end
-  std::optional<PaperResult> paper;  ///< of Method::paper, where a place was found
+  std::optional<TrainStage> ended;   ///< the stage that ended early
+  std::optional<Nowhere> nowhere;    ///< why no free position was found
+  std::optional<PaperResult> paper;  ///< of Method::paper
 
-  /// Between which one radius serves all paths, m; over uneven rims from above `smallest` on. 0: no crack. None: free.
-  double smallest = 0.0;
-  std::optional<double> largest;
-  /// The smallest radius that comes over all cracks on the paths in both directions, m: `smallest`, or more where a rim
-  /// is higher than the one opposite; infinite where none that was tried does.
+  // The interval of radii that pass all paths; over uneven rims it begins above `smallest`.
+  double smallest = 0.0;          ///< 0: no crack
+  std::optional<double> largest;  ///< none: unlimited
+  /// Smallest radius that crosses all cracks of the paths both ways: `smallest`, or more over an uneven rim; infinite
+  /// if no tried radius does.
   double least = 0.0;
-  /// m: from here on the rims of these cracks carry without any doubt; a body between `least` and this sags.
-  double carried = 0.0;
-  std::optional<Crack> hardest;  ///< with such a rim, where it decides `least`
-  double trapped_radius = 0.0;   ///< a sphere that rolls without a foot cannot climb out of the widest crack below this
-  double least_foot = 0.0;       ///< m: the smallest foot that is carried over all cracks; 0: there are none
+  double carried = 0.0;          ///< smallest radius that crosses them without sagging
+  std::optional<Crack> hardest;  ///< crack with an uneven rim that decides `least`
+  double trapped_radius = 0.0;   ///< a smaller sphere cannot roll out of the widest crack
+  double least_foot = 0.0;       ///< smallest support disc that spans all cracks; 0: no crack
   std::optional<Trench> trench;  ///< the widest that the body sinks into
 
   std::vector<TrainedPath> paths;
   std::vector<UnwalkedPath> unwalked;
-  std::uint64_t uncertain_ways = 0;  ///< that were planned and could be certified for no size; they do not count
-  std::vector<Crack> cracks;         ///< of the floor that was reached, widest first
+  std::uint64_t uncertain_ways = 0;  ///< planned, but certified for no size; not counted as paths
+  std::vector<Crack> cracks;         ///< of the reached floor, widest first
   bool all_cracks = true;            ///< false: ended before all were found
-  std::vector<Decisive> decisive;    ///< of the upper end, then of the lower, where there is one
-  std::vector<SizeRegion> regions;   ///< where another size is to be used, and why
-  std::vector<ConnectedPart> parts;  ///< those that were trained, then those left out; most places first
-  std::uint64_t separate = 0;        ///< parts that paths were looked for in, without a way between them; scraps count
+  std::vector<Decisive> decisive;    ///< of the upper end, then of the lower
+  std::vector<SizeRegion> regions;   ///< where another size is needed, and why
+  std::vector<ConnectedPart> parts;  ///< trained ones first, then by number of positions
+  std::uint64_t separate = 0;        ///< searched parts without a way between them, small ones included
   std::vector<Contradiction> contradictions;
   std::uint64_t triangles = 0;  ///< in the scene
-  std::uint64_t places = 0;     ///< free places looked at
+  std::uint64_t places = 0;     ///< free positions searched
   double seconds = 0.0;         ///< of wall clock; the only member that differs between runs
 };
 
-/// Throws roam::Error for options out of range. A scene with no free place, no floor, no room that is high enough, or
-/// rooms without a way between them is no error: the facts above say it.
+/// Throws roam::Error if options are out of range. A scene without floor, room or paths is no error; see Training.
 [[nodiscard]] Training train(const Survey& survey, const TrainOptions& options = {});
 
-/// The profile of what was trained, ready to be saved: all members, of the scene that `survey` was built of (another
-/// identity_of where it was read from a store). A training that found no place (Training::places 0) is not worth it.
+/// The profile of a training, ready to be saved. For a survey of a store's triangles pass identity_of(store.info()). It
+/// is of no use if Training::places is 0.
 [[nodiscard]] Profile profile_of(const Training& training, const Survey& survey);
 [[nodiscard]] Profile profile_of(const Training& training, const SceneIdentity& scene);
 

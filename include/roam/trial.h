@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One walk or flight along a planned way by a body of one size, and how it ended.
+/// Trial: one walk or flight of a body along a planned way, and its outcome.
 
 #include <cstddef>
 
@@ -11,10 +11,10 @@ namespace roam {
 
 struct Trial {
   double radius = 0.0;
-  double support_radius = 0.0;  ///< 0: none of its own
+  double support_radius = 0.0;  ///< 0: none
   Outcome outcome = Outcome::reached;
-  Vec3 at{0.0};          ///< of the centre when it ended
-  std::size_t path = 0;  ///< of Training::paths
+  Vec3 at{0.0};          ///< its centre at the end, metres
+  std::size_t path = 0;  ///< index into Training::paths
 };
 
 }  // namespace roam

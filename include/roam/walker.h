@@ -4,7 +4,7 @@
 ///
 ///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, start);
 ///     const roam::StepReport& step = walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
-///     std::cout << walker.position().x << " is at least " << step.clearance << " m from every wall\n";
+///     std::cout << walker.position().x << " is at least " << step.axis_clearance << " m from every wall\n";
 ///
 /// What is promised, for any speed and any time step, in fly and walk mode:
 ///   - the body only moves along straight pieces that the space has certified free: in this step or, in a space that

@@ -2,7 +2,7 @@
 /// \file
 /// The lower end: the gaps of a floor that bodies fall into, found from the floor itself.
 ///
-/// docs/training.md, "Cracks", has the definitions, the method and what was measured.
+/// docs/cracks.md has the definitions, the method and what was measured.
 
 #include <algorithm>
 #include <functional>

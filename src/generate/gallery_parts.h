@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the dam gallery is made of. docs/gallery.md describes it with a plan.
+/// What the dam gallery is made of. docs/proofs.md, "The made gallery", has the plan.
 
 #include <memory>
 #include <string>

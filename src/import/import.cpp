@@ -20,6 +20,7 @@ struct NamedUnit {
   double metres;
 };
 constexpr std::array<NamedUnit, 5> units{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}}};
+constexpr std::array<const char*, 6> axes{"x", "y", "z", "-x", "-y", "-z"};
 
 std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
   std::uint64_t bytes = 0;
@@ -31,11 +32,13 @@ std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
 
 }  // namespace
 
+const char* to_string(UpAxis up) { return axes[static_cast<std::size_t>(up)]; }
+
 UpAxis parse_up_axis(std::string_view text) {
-  if (text == "x") return UpAxis::x;
-  if (text == "y") return UpAxis::y;
-  if (text == "z") return UpAxis::z;
-  throw Error(fmt::format("'{}' is no axis; give x, y or z.", text));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (axes[i] == text) return static_cast<UpAxis>(i);
+  }
+  throw Error(fmt::format("'{}' is no axis; give x, y, z, -x, -y or -z.", text));
 }
 
 LengthUnit parse_length_unit(std::string_view text) {

@@ -42,10 +42,7 @@ std::vector<std::string> arguments_of(const Reading& reading) {
   const SceneScope& scope = reading.scope;
   for (const fs::path& folder : scope.folders) arguments.insert(arguments.end(), {"--folder", folder.string()});
   for (const fs::path& file : scope.files) arguments.insert(arguments.end(), {"--file", file.string()});
-  if (options.up) {
-    constexpr const char* names[] = {"x", "y", "z"};
-    arguments.insert(arguments.end(), {"--up", names[static_cast<int>(*options.up)]});
-  }
+  if (options.up) arguments.insert(arguments.end(), {"--up", to_string(*options.up)});
   for (const std::string& pattern : options.ignore) arguments.insert(arguments.end(), {"--ignore", pattern});
   if (const auto& frame = reading.frame) {
     const Vec3& o = frame->origin;

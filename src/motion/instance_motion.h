@@ -7,7 +7,7 @@
 namespace roam::walking {
 
 /// The movement is so short that a body sees it as straight.
-struct Shift {
+struct InstanceMotion {
   ObjectId instance = no_object;
   const World* world = nullptr;
   Pose from, to;
@@ -23,8 +23,8 @@ struct Shift {
   [[nodiscard]] double bulge(const Vec3& point, const Vec3& way) const;
 };
 
-/// Where a body goes.
-struct Shifted {
+/// How a body responds to it.
+struct Response {
   Vec3 way{0.0};           ///< metres
   double clearance = 0.0;  ///< certified over the way, of everything, metres; of a rest, of the instance alone
   double rested = 0.0;     ///< certified of the place, where the body rested there while the instance moved before

@@ -52,7 +52,7 @@ bool is_frequent(EventKind kind) {
     case EventKind::landed:
     case EventKind::crouched:
     case EventKind::stood:
-    case EventKind::carried:
+    case EventKind::bridged:
       return true;
     case EventKind::fell:
     case EventKind::placed:
@@ -187,7 +187,7 @@ void Move::go(const Vec3& motion, double certified) {
     Segment& last = report.segments.back();
     last.position = place;
     last.time = time;
-    last.clearance = std::min(last.clearance, certified);
+    last.axis_clearance = std::min(last.axis_clearance, certified);
     ++merged_;
   } else {
     report.segments.push({place, height, settings.radius, time, certified, false});

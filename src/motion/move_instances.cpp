@@ -14,12 +14,12 @@
 namespace roam {
 namespace walking {
 
-Vec3 Shift::turned(const Vec3& v) const {
+Vec3 InstanceMotion::turned(const Vec3& v) const {
   const double angle = to.heading - from.heading;
   return angle == 0.0 ? v : Pose{Vec3(0.0), angle}.to_scene(v);
 }
 
-double Shift::bulge(const Vec3& point, const Vec3& way) const {
+double InstanceMotion::bulge(const Vec3& point, const Vec3& way) const {
   const double angle = std::abs(to.heading - from.heading);
   if (angle == 0.0) return 0.0;
   const double arm = glm::length(point - from.position);
@@ -43,7 +43,7 @@ std::optional<double> gap_over(const Space& space, const Query& way, double reac
 }
 
 /// The same between a body that goes by `way` and the instance that is shifted meanwhile.
-std::optional<double> gap_to_instance(const Shift& shift, const Body& body, const Vec3& place, const Vec3& way,
+std::optional<double> gap_to_instance(const InstanceMotion& shift, const Body& body, const Vec3& place, const Vec3& way,
                                       double reach) {
   const Vec3 from = shift.from.to_instance(place), to = shift.to.to_instance(place + way);
   const double rounding = turn_rounding * (largest(from) + largest(to));
@@ -55,7 +55,7 @@ std::optional<double> gap_to_instance(const Shift& shift, const Body& body, cons
 constexpr double steepest_squeeze = 4.0;
 
 /// Whether the instance stays out of the body's reach: it stays in a ball about its origin that goes along.
-bool is_far(const Shift& shift, const Body& body, const Vec3& place) {
+bool is_far(const InstanceMotion& shift, const Body& body, const Vec3& place) {
   const Box bounds = shift.world->bounds();
   if (bounds.empty()) return true;
   const double ball = glm::length(glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper)));
@@ -73,26 +73,26 @@ void Walker::State::begin_shifts() {
   fitted_ = !held() && looked_at_ == revision();
 }
 
-bool Walker::State::is_concerned(const walking::Shift& shift) const {
+bool Walker::State::is_concerned(const walking::InstanceMotion& shift) const {
   if (mode_ == Mode::ghost || held()) return false;
   if (gait_.object == shift.instance && (gait_.grounded() || gait_.ground_velocity != Vec3(0.0))) return true;
   if (walking::is_far(shift, body(), at_.place)) return false;
   return !walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), 0.0);
 }
 
-std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const walking::Shift& shift) {
+std::optional<walking::Response> Walker::State::response(const Space& rest, const walking::InstanceMotion& shift) {
   // A part may need two segments: a rest and the way.
   const bool has_room = !shifted_ || report_.segments.size() + 2 <= decltype(report_.segments)::capacity;
   const double reach = settings_.clearance_reach;
-  const auto along = [&](const Vec3& way) -> std::optional<walking::Shifted> {
+  const auto along = [&](const Vec3& way) -> std::optional<walking::Response> {
     const auto to_instance = walking::gap_to_instance(shift, body(), at_.place, way, reach);
     if (!to_instance) return std::nullopt;
-    if (way == Vec3(0.0)) return walking::Shifted{way, settings_.radius + *to_instance};
+    if (way == Vec3(0.0)) return walking::Response{way, settings_.radius + *to_instance};
     if (!has_room) return std::nullopt;
     const auto to_rest = walking::gap_over(rest, {body(), at_.place, way}, reach);
     if (!to_rest) return std::nullopt;
     const double clearance = settings_.radius + std::min(*to_instance, *to_rest);
-    return walking::Shifted{way, clearance, std::min(rested_, settings_.radius + *to_rest)};
+    return walking::Response{way, clearance, std::min(rested_, settings_.radius + *to_rest)};
   };
   const bool stands = gait_.object == shift.instance && gait_.grounded();
   const bool drifts = gait_.object == shift.instance && !gait_.grounded();
@@ -100,7 +100,7 @@ std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const 
   const Vec3 own = stands ? carried : drifts ? gait_.ground_velocity * shift.seconds : Vec3(0.0);
   // As far as the rest of the scene lets it, a skin away, and along what is in the way.
   walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
-  const auto towards = [&](const Vec3& wish) -> std::optional<walking::Shifted> {
+  const auto towards = [&](const Vec3& wish) -> std::optional<walking::Response> {
     if (largest(wish) > walking::longest_way) return std::nullopt;
     const walking::Advance part = move.probe(wish);
     const Vec3 first = part.embedded ? Vec3(0.0) : wish * part.fraction;
@@ -124,7 +124,7 @@ std::optional<walking::Shifted> Walker::State::shifted(const Space& rest, const 
   return std::nullopt;
 }
 
-void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to) {
+void Walker::State::take(const walking::InstanceMotion& shift, const walking::Response& to) {
   if (to.way == Vec3(0.0)) {
     rested_ = std::min(rested_, to.clearance);
   } else {
@@ -152,7 +152,7 @@ void Walker::State::take(const walking::Shift& shift, const walking::Shifted& to
   gait_.foot.lasts = gait_.disc.found = false;
 }
 
-void Walker::State::append(const walking::Shift& shift, const walking::Shifted& to) {
+void Walker::State::append(const walking::InstanceMotion& shift, const walking::Response& to) {
   const double infinity = std::numeric_limits<double>::infinity();
   auto& segments = report_.segments;
   if (rested_ < infinity) {
@@ -171,7 +171,7 @@ void Walker::State::append(const walking::Shift& shift, const walking::Shifted& 
     if (goes_on && glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
       last.position = at_.place + to.way;
       last.time = shift.begin + shift.seconds;
-      last.clearance = std::min(last.clearance, to.clearance);
+      last.axis_clearance = std::min(last.axis_clearance, to.clearance);
       return;
     }
   }
@@ -224,7 +224,7 @@ class Movement {
         velocity_(instances.velocity(instance)),
         begin_(instances.pose(instance)),
         dt_(dt) {
-    const walking::Shift whole = shift(0.0, dt);
+    const walking::InstanceMotion whole = shift(0.0, dt);
     double arm = 0.0, radius = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       bool seen = true;
@@ -264,10 +264,10 @@ class Movement {
     std::size_t number;
     Walker::State* body;
     Filtered rest;
-    walking::Shifted to;
+    walking::Response to;
   };
 
-  [[nodiscard]] walking::Shift shift(double begin, double seconds) const {
+  [[nodiscard]] walking::InstanceMotion shift(double begin, double seconds) const {
     return {instance_,
             &instances_.world(instance_),
             after(begin_, velocity_, begin),
@@ -278,9 +278,9 @@ class Movement {
 
   /// All bodies and the instance, or none of them; then the number of the body that cannot.
   std::optional<std::size_t> go(double begin, double seconds) {
-    const walking::Shift part = shift(begin, seconds);
+    const walking::InstanceMotion part = shift(begin, seconds);
     for (Met& it : met_) {
-      const std::optional<walking::Shifted> to = it.body->shifted(it.rest, part);
+      const std::optional<walking::Response> to = it.body->response(it.rest, part);
       if (!to) return it.number;
       it.to = *to;
     }

@@ -135,8 +135,8 @@ const char* to_string(EventKind kind) {
       return "narrowed";
     case EventKind::widened:
       return "widened";
-    case EventKind::carried:
-      return "carried";
+    case EventKind::bridged:
+      return "bridged";
   }
   return "unknown";
 }

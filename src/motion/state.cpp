@@ -80,7 +80,7 @@ void Walker::State::finish() {
   report_.height = at_.height;
   report_.radius = settings_.radius;
   report_.grounded = gait_.grounded();
-  report_.carried = gait_.footing == Footing::foot;
+  report_.bridging = gait_.footing == Footing::foot;
   report_.ground_velocity = gait_.ground_velocity;
   if (mode_ == Mode::ghost) {
     at_.known.forget_place();
@@ -92,14 +92,14 @@ void Walker::State::finish() {
     m.measure();
     at_ = m;
   }
-  report_.clearance = report_.least_clearance = at_.known.clearance;
+  report_.axis_clearance = report_.least_axis_clearance = at_.known.clearance;
   report_.least_gap = at_.known.clearance - settings_.radius;
   report_.met_unknown |= hold_ == walking::Hold::waits || gait_.unknown;
   if (report_.met_unknown) report_.events.push({EventKind::met_unknown, at_.place});
   for (const Segment& c : report_.segments) {
     if (c.teleport) continue;
-    report_.least_clearance = std::min(report_.least_clearance, c.clearance);
-    report_.least_gap = std::min(report_.least_gap, c.clearance - c.radius);
+    report_.least_axis_clearance = std::min(report_.least_axis_clearance, c.axis_clearance);
+    report_.least_gap = std::min(report_.least_gap, c.axis_clearance - c.radius);
   }
 }
 

@@ -11,7 +11,7 @@
 #include "motion/gait.h"
 #include "motion/known.h"
 #include "motion/move.h"
-#include "motion/shift.h"
+#include "motion/instance_motion.h"
 #include "motion/sizes.h"
 #include "motion/walking.h"
 #include "roam/walker.h"
@@ -48,11 +48,11 @@ class Walker::State {
   /// Begins a report of what moves the body from outside.
   void begin_shifts();
   /// Whether the body goes along with the instance or is in its way; false for a ghost and for a body that is held.
-  [[nodiscard]] bool is_concerned(const walking::Shift& shift) const;
+  [[nodiscard]] bool is_concerned(const walking::InstanceMotion& shift) const;
   /// Where the body goes while an instance is shifted; none: it has nowhere to go. `rest`: the space without that
   /// instance.
-  [[nodiscard]] std::optional<walking::Shifted> shifted(const Space& rest, const walking::Shift& shift);
-  void take(const walking::Shift& shift, const walking::Shifted& to);
+  [[nodiscard]] std::optional<walking::Response> response(const Space& rest, const walking::InstanceMotion& shift);
+  void take(const walking::InstanceMotion& shift, const walking::Response& to);
   /// `ground_velocity`: at its feet, for a body that stands.
   void end_shifts(const Vec3& ground_velocity, double dt);
 
@@ -70,7 +70,7 @@ class Walker::State {
   bool resize(double radius, double support_radius);
 
   /// Adds the way of a shift to the report.
-  void append(const walking::Shift& shift, const walking::Shifted& to);
+  void append(const walking::InstanceMotion& shift, const walking::Response& to);
   /// The way of the last call, metres.
   [[nodiscard]] Vec3 moved() const;
   /// Of the space; 0 where it has none.

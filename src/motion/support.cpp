@@ -78,7 +78,7 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
 
 /// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
-  if (gait.footing != Footing::foot) m.note(EventKind::carried);
+  if (gait.footing != Footing::foot) m.note(EventKind::bridged);
   stand_on(
       m, gait,
       {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown, gait.floor_object});

@@ -36,9 +36,9 @@ void Tally::add_step(const StepReport& report) {
 
 void Tally::add_placement(const StepReport& report) {
   // A body that does not fit where it is has no clearance, and makes no move.
-  if (!(report.least_clearance > 0.0)) return;
-  const bool first = !(least_clearance > 0.0);
-  least_clearance = first ? report.least_clearance : std::min(least_clearance, report.least_clearance);
+  if (!(report.least_axis_clearance > 0.0)) return;
+  const bool first = !(least_axis_clearance > 0.0);
+  least_axis_clearance = first ? report.least_axis_clearance : std::min(least_axis_clearance, report.least_axis_clearance);
   least_gap = first ? report.least_gap : std::min(least_gap, report.least_gap);
 }
 

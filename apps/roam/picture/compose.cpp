@@ -69,7 +69,7 @@ class Composer {
     std::string text = fmt::format("{}, radius {:g} m, height {:g} m  ·  way {} in {:.1f} s", mode, r.settings.radius,
                                    r.settings.height, length_text(r.result.length), r.result.simulated);
     if (knows_clearance(r)) {
-      text += fmt::format("  ·  its axis at least {:.3f} m from everything, certified", r.result.least_clearance);
+      text += fmt::format("  ·  its axis at least {:.3f} m from everything, certified", r.result.least_axis_clearance);
     }
     const auto falls = count_falls();
     if (falls > 1) text += fmt::format("  ·  fell {} times", falls);

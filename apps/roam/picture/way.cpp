@@ -94,12 +94,12 @@ void thin_touches(Record& record) {
 void append(Record& record, const StepReport& report, bool is_start) {
   auto& places = record.places;
   if (is_start) {
-    places.push_back({report.to, report.height, report.clearance, true});
+    places.push_back({report.to, report.height, report.axis_clearance, true});
   } else if (report.segments.empty()) {
-    if (!places.empty()) places.back().clearance = std::min(places.back().clearance, report.clearance);
+    if (!places.empty()) places.back().clearance = std::min(places.back().clearance, report.axis_clearance);
   } else {
     if (places.empty()) places.push_back({report.from, report.segments[0].height, 0.0, true});
-    for (const roam::Segment& c : report.segments) places.push_back({c.position, c.height, c.clearance, c.teleport});
+    for (const roam::Segment& c : report.segments) places.push_back({c.position, c.height, c.axis_clearance, c.teleport});
   }
   for (const Contact& c : report.contacts) {
     // A body that slides along a wall touches the same triangle in many steps.

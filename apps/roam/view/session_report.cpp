@@ -71,7 +71,7 @@ ViewReport Session::report() {
   report.simulated = tally.simulated;
   report.length = tally.length;
   report.throttled = tally.throttled;
-  if (tally.least_clearance > 0.0) report.least_clearance = tally.least_clearance;
+  if (tally.least_axis_clearance > 0.0) report.least_axis_clearance = tally.least_axis_clearance;
   report.frames = frames_;
   constexpr double ns_in_ms = 1e-6;
   report.frame_ms = times(stage_->frame_times(), ns_in_ms);

@@ -72,7 +72,7 @@ Json json_report(const ViewReport& report) {
   if (report.paging) json["paging"] = app::json_report(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);
   if (report.start) json["start"] = to_json(*report.start);
-  if (report.least_clearance) json["least_clearance_m"] = *report.least_clearance;
+  if (report.least_axis_clearance) json["least_clearance_m"] = *report.least_axis_clearance;
   if (report.result) {
     if (report.path_ended) json["outcome"] = to_string(report.result->outcome);
     json["waypoints_reached"] = report.result->waypoints;

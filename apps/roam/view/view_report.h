@@ -40,7 +40,7 @@ struct ViewReport {
   double simulated = 0.0;
   double length = 0.0;
   std::uint64_t throttled = 0;
-  std::optional<double> least_clearance;
+  std::optional<double> least_axis_clearance;
   std::uint64_t frames = 0;
   Times frame_ms;
   Times collision_ns;      ///< a frame, by the clock

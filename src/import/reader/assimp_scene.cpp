@@ -179,7 +179,8 @@ void compare_collada(const aiMatrix4x4& root, const std::string& file, MeshSink&
 void compare_fbx(const aiScene& scene, const std::string& file, MeshSink& sink) {
   std::optional<UpAxis> up;
   if (const auto axis = stated_number(scene, "UpAxis"); axis && *axis >= 0 && *axis <= 2) {
-    up = static_cast<UpAxis>(static_cast<int>(*axis));
+    const bool down = stated_number(scene, "UpAxisSign").value_or(1.0) < 0.0;
+    up = static_cast<UpAxis>(static_cast<int>(*axis) + (down ? 3 : 0));
   }
   std::optional<double> metres;
   if (const auto centimetres = stated_number(scene, "UnitScaleFactor")) metres = *centimetres / 100.0;

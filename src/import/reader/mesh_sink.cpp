@@ -82,12 +82,11 @@ void MeshSink::set_format_up(UpAxis up) { up_ = settings_.up.value_or(up); }
 
 void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<double> metres_per_unit,
                                    std::string_view file) {
-  constexpr std::string_view axes = "xyz";
   if (up && !settings_.up && *up != up_) {
-    const char axis = axes[static_cast<std::size_t>(*up)];
+    const char* axis = to_string(*up);
     report_note(
         fmt::format("{}: the file states that its {} axis is up; its coordinates are left as they are, z up. If "
-                    "the file is right, read it with up = {} (--up {}).",
+                    "the file is right, read it with up = {} (--up={}).",
                     file, axis, axis, axis));
   }
   const double read_as = settings_.metres_per_unit;
@@ -103,8 +102,20 @@ void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<doubl
 
 Vec3 MeshSink::turned(const Vec3& v) const {
   // 0 - x instead of -x: no negative zeros.
-  if (up_ == UpAxis::y) return {v.x, 0.0 - v.z, v.y};
-  if (up_ == UpAxis::x) return {0.0 - v.z, v.y, v.x};
+  switch (up_) {
+    case UpAxis::x:
+      return {0.0 - v.z, v.y, v.x};
+    case UpAxis::y:
+      return {v.x, 0.0 - v.z, v.y};
+    case UpAxis::z:
+      return v;
+    case UpAxis::minus_x:
+      return {v.z, v.y, 0.0 - v.x};
+    case UpAxis::minus_y:
+      return {v.x, v.z, 0.0 - v.y};
+    case UpAxis::minus_z:
+      return {v.x, 0.0 - v.y, 0.0 - v.z};
+  }
   return v;
 }
 

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -20,6 +19,7 @@
 #include "store/build/layout.h"
 #include "store/files.h"
 #include "store/json_reader.h"
+#include "store/sha256.h"
 
 namespace roam::store {
 namespace {
@@ -43,10 +43,9 @@ class FileHash {
   FileHash(const fs::path& file, const std::function<void()>& tick)
       : file_(file), tick_(tick), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (!descriptor_.is_open() || ::fstat(descriptor_.number(), &status_) != 0) fail();
-    XXH3_64bits_reset(state_.get());
   }
 
-  std::uint64_t digest() {
+  std::string digits() {
     off_t at = 0;
     // What comes after the size that it had is read, too: then the file is being changed.
     for (const off_t size = status_.st_size; at < size;) {
@@ -57,7 +56,7 @@ class FileHash {
       at = end;
     }
     add_data(at, std::numeric_limits<off_t>::max());
-    return XXH3_64bits_digest(state_.get());
+    return hash_.digits();
   }
 
  private:
@@ -86,7 +85,7 @@ class FileHash {
     std::fill_n(piece_.begin(), std::min<std::uint64_t>(piece_.size(), bytes), std::byte{0});
     for (std::uint64_t done = 0; done < bytes;) {
       const std::uint64_t some = std::min<std::uint64_t>(piece_.size(), bytes - done);
-      XXH3_64bits_update(state_.get(), piece_.data(), static_cast<std::size_t>(some));
+      hash_.add(std::span(piece_).first(static_cast<std::size_t>(some)));
       done += some;
       tick_();
     }
@@ -98,7 +97,7 @@ class FileHash {
       const ssize_t got = again([&] { return ::pread(descriptor_.number(), piece_.data(), most, from); });
       if (got < 0) fail();
       if (got == 0) return;
-      XXH3_64bits_update(state_.get(), piece_.data(), static_cast<std::size_t>(got));
+      hash_.add(std::span(piece_).first(static_cast<std::size_t>(got)));
       from += got;
       tick_();
     }
@@ -110,7 +109,7 @@ class FileHash {
   struct stat status_ {};
   std::uint64_t holes_ = 0;  ///< bytes
   std::vector<std::byte> piece_ = std::vector<std::byte>(1 << 20);
-  std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_{XXH3_createState(), XXH3_freeState};
+  Sha256 hash_;
 };
 
 /// The name of a file of a part, the same wherever the scene lies.
@@ -124,7 +123,7 @@ std::string name_in(const ScenePart& part, const fs::path& file) {
 
 std::string text_of(const ImportOptions& options) {
   Json json = {{"up", nullptr}, {"metres_per_unit", metres_per(options.unit)}, {"ignore", options.ignore}};
-  if (options.up) json["up"] = std::string(1, "xyz"[static_cast<int>(*options.up)]);
+  if (options.up) json["up"] = to_string(*options.up);
   if (!options.allow.empty()) {
     json["allow"] = Json::array();
     for (const fs::path& folder : options.allow)
@@ -139,8 +138,8 @@ void read_as(const std::string& text, ImportOptions& options) {
   try {
     const Json json = Json::parse(text);
     read.up.reset();
-    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
-      if (json.at("up") == std::string(1, "xyz"[static_cast<int>(up)])) read.up = up;
+    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
+      if (json.at("up") == to_string(up)) read.up = up;
     }
     for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
       if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
@@ -175,10 +174,10 @@ Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std:
   if (!json.is_object()) return;
   for (const auto& [name, item] : json.items()) {
     if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
-        !item[2].is_number_unsigned()) {
+        !item[2].is_string()) {
       continue;
     }
-    known_[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::uint64_t>(), true};
+    known_[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::string>(), true};
   }
 }
 
@@ -191,8 +190,9 @@ Sources::Seen Sources::status(const fs::path& file, Number* number) {
   std::timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
-  return {static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim), 0,
-          ns(now) - ns(status.st_mtim) > clock_steps};
+  // Not the time of modification: anybody may set that back.
+  return {
+      static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
 void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {
@@ -230,7 +230,7 @@ void Sources::look(const std::vector<ScenePart>& parts, const std::function<void
   }
   tbb::parallel_for(std::size_t{0}, unread.size(), [&](std::size_t k) {
     File& file = files[unread[k]];
-    file.seen.hash = FileHash(file.name, tick).digest();
+    file.seen.hash = FileHash(file.name, tick).digits();
   });
   for (File& file : files) {
     if (!file.hashed) file.seen.hash = files[first.at(file.number)].seen.hash;
@@ -239,14 +239,14 @@ void Sources::look(const std::vector<ScenePart>& parts, const std::function<void
 }
 
 std::string Sources::fingerprint(const ScenePart& part, const std::string& options) const {
-  std::string text = fmt::format("roam part 1\n{}\n{}\n{}\n", options, part.name, part.tile);
+  std::string text = fmt::format("roam part 2\n{}\n{}\n{}\n", options, part.name, part.tile);
   if (part.frame) {
     const Vec3& o = part.frame->origin;
     text += fmt::format("{} {} {} {}\n", part.frame->srs, o.x, o.y, o.z);
   }
   for (const fs::path& file : part.files) {
     const Seen& seen = seen_.at(fs::absolute(file).lexically_normal().string());
-    text += fmt::format("{:016x} {} {}\n", seen.hash, seen.size, name_in(part, file));
+    text += fmt::format("{} {} {}\n", seen.hash, seen.size, name_in(part, file));
   }
   return sha256(std::as_bytes(std::span(text)));
 }

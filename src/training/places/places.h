@@ -13,7 +13,7 @@
 
 namespace roam::training {
 
-/// What a component is taken for; docs/training.md has the rules.
+/// What a component is taken for; docs/training.md, "What is left out", has the rules.
 enum class Verdict : std::uint8_t {
   inside,          ///< a part of the scene that is meant to be walked in
   backs,           ///< looks at the backs of triangles: outside of what is walked in, or within rock
