@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// A space without some of its objects, as one body meets it: a door that stands open for it, a layer that it passes.
+/// A space without some of its objects, for one body: an open door, a layer that the body passes.
 ///
 ///     roam::Filtered open(world);
-///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that met it
+///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// All promises of space.h hold for what is left. What is unknown is never ignored, and the triangles of a Pager have
-/// no numbered objects: there nothing is.
+/// The promises of space.h hold for the remaining objects. Unknown space is never ignored, nor is anything in a Pager:
+/// its objects have no numbers.
 
 #include <cstdint>
 #include <span>
@@ -17,20 +17,19 @@
 
 namespace roam {
 
-/// Bodies that ignore different objects of one space have a Filtered each; it holds no triangles. Queries may run at
-/// the same time, but not during a change of what is ignored.
+/// Holds no triangles: use one for each body that ignores other objects. Queries may run at the same time, but not
+/// during update() or a change of the ignored objects.
 class Filtered final : public LiveSpace {
  public:
-  /// `space` must outlive it and stay where it is. Nothing is ignored yet.
+  /// Ignores nothing yet. `space` must outlive this and stay where it is. A Filtered made from a Filtered is a copy: it
+  /// has the same space and ignores the same objects.
   explicit Filtered(const Space& space);
-  /// The same, and update() updates it.
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;
-  // A copy is of the same space and ignores the same: so is a Filtered that is made of a Filtered.
 
-  /// From now on queries pass over this object, or meet it again. A walker follows with its next step; one that stands
-  /// inside a door that is met again is freed or held (Walker::place). no_object is never ignored. A Patchwork numbers
-  /// the objects of each patch: there the same number is passed over in every patch.
+  /// Ignores an object, or stops ignoring it; no_object is never ignored. Walkers follow at their next step: a body
+  /// inside an object that is back is freed or held, see Walker::place(). In a Patchwork a number means the object of
+  /// that number in every patch.
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
   /// Ignores these objects and no others.
@@ -38,7 +37,7 @@ class Filtered final : public LiveSpace {
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
 
-  /// That of the space which it was made of; false where that is no LiveSpace.
+  /// Updates the LiveSpace that this was made from as such; otherwise returns false.
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
 
   [[nodiscard]] SpaceFacts facts() const override;
