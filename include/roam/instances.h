@@ -9,7 +9,7 @@
 ///     roam::Walker* const walkers[] = {&walker};
 ///     scene.set_velocity(id, {.turning = 1.0});
 ///     for (;;) {
-///       roam::move_instances(scene, walkers, dt);  // opens the door and pushes bodies in its way, see move_instances.h
+///       roam::move_instances(scene, walkers, dt);  // turns the door, and pushes bodies in its way
 ///       walker.step(input, dt);
 ///     }
 ///

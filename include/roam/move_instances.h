@@ -19,8 +19,8 @@ struct Stopped {
 };
 
 /// Moves each instance by its velocity for `dt` seconds, in the order in which they were added, and returns those that
-/// had to stop. Call it before the walkers' steps of the same `dt`. To stop an instance at a position, give it a smaller
-/// velocity for the last call.
+/// had to stop. Call it before the walkers' steps of the same `dt`. To stop an instance at a position, give it a
+/// smaller velocity for the last call.
 ///
 /// | a body that | |
 /// |---|---|
