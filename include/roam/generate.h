@@ -6,14 +6,10 @@
 ///     roam::generate::write_scene(gallery, "gallery.ply");           // streamed: memory stays bounded
 ///     const auto meshes = roam::generate::collect(gallery);          // or all at once, for World::build()
 ///
-/// A scene knows its exact counts and its bounds before its first vertex is made. The same options give the same bits
-/// on every machine, compiler, run and thread: only + - * / and sqrt of doubles, and hashes of integers, are used.
-///
-/// Lengths are metres; +z is up. Triangles are counter-clockwise seen from the open air: inside a gallery, outside a
-/// building. Meshes that touch share border vertices bit by bit, so the surface has no cracks. docs/gallery.md lists
-/// what is closed, what is open, and what is from the paper.
-///
-/// All functions are thread-safe. Options out of range throw roam::Error.
+/// Counts and bounds of a scene are known before it is made. The same options give the same bits on every machine,
+/// compiler, run and thread. Lengths are metres. Triangles are counter-clockwise seen from the open air: inside a
+/// gallery, outside a building. Meshes that touch share border vertices bit by bit, so the surface has no cracks;
+/// docs/gallery.md lists openings. All functions are thread-safe. Options out of range throw roam::Error.
 
 #include <array>
 #include <cstdint>
@@ -35,8 +31,7 @@ inline constexpr std::uint64_t most_triangles = 1'000'000'000;
 inline constexpr std::uint64_t piece_triangles = 65'536;  ///< most triangles in one mesh of a scene
 inline constexpr double origin_limit = 1e7;               ///< largest absolute coordinate of an origin
 
-/// Receives the meshes of a scene, in an order that never changes. A mesh is only valid during the call. Exceptions
-/// pass through.
+/// Receives the meshes of a scene in a fixed order, each valid only during the call. Exceptions pass through.
 using Sink = std::function<void(const Mesh&)>;
 /// Called now and then with the number of triangles done. To cancel, return false: roam::Cancelled is thrown.
 using Progress = std::function<bool(std::uint64_t triangles)>;
@@ -66,15 +61,11 @@ class Scene {
 ///   .ply  binary little endian, double x y z, uint indices; loses only the names
 ///   .obj  each mesh a group `o NAME`; the fewest digits that read back as the same double
 ///   .stl  binary floats, without names; refused for bounds beyond 32,768 m, where floats are off by more than 1 mm
-/// The file is written under a temporary name and renamed when complete. On an error or a cancellation the temporary
-/// file is removed and `path` stays as it was. Throws roam::Error for another extension and if the file cannot be
-/// written.
+/// The file is whole or, after an error or a cancellation, as it was before: it is written under a temporary name and
+/// renamed. Throws roam::Error for another extension and if the file cannot be written.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
-// ------------------------------------------------------------------------------------------------ the dam gallery
-
-/// A straight path of a body's centre.
-struct Path {
+struct Path {  ///< straight, of a body's centre
   const char* name;
   Vec3 from, to;
 };
@@ -105,8 +96,6 @@ struct GalleryOptions {
 };
 [[nodiscard]] Scene gallery(const GalleryOptions& options);
 
-// ------------------------------------------------------------------------------------------------ terrain and city
-
 /// A square heightfield with ridges, valleys and steep scarps. Objects: `terrain/ROW_COLUMN`.
 struct TerrainOptions {
   std::uint64_t triangles = 1'000'000;
@@ -116,10 +105,10 @@ struct TerrainOptions {
 };
 [[nodiscard]] Scene terrain(const TerrainOptions& options);
 
-/// Blocks of buildings between streets with kerbs: doors into rooms, passages through buildings, window recesses,
-/// bays that overhang the street, bridges across it. Objects: `street/ROW_COLUMN`, `block_ROW_COLUMN/building_N`,
-/// `block_ROW_COLUMN/building_N/interior`, `bridge_ROW_COLUMN`. More triangles make more blocks, up to 1600, then finer
-/// ones; below some 100 k the buildings have no windows.
+/// Blocks of buildings between streets with kerbs: doors, rooms, passages through buildings, window recesses, bays that
+/// overhang the street, bridges. Objects: `street/ROW_COLUMN`, `bridge_ROW_COLUMN`, `block_ROW_COLUMN/building_N` and
+/// `block_ROW_COLUMN/building_N/interior`. More triangles make more blocks, up to 1600, then finer ones; below some
+/// 100 k the buildings have no windows.
 struct CityOptions {
   std::uint64_t triangles = 1'000'000;
   std::uint64_t seed = 1;

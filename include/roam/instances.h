@@ -13,10 +13,10 @@
 ///       walker.step(input, dt);
 ///     }
 ///
-/// Lengths are metres, angles radians, counterclockwise seen from above. An instance stays upright: it moves, and turns
-/// about +z. Each is one object, with the number that add() returned. Instances pass through each other and through the
-/// scene; only bodies stop them. The promises of space.h hold for the current poses, except that a hit of an instance
-/// is within 2.001 mm, not 2 mm, up to 1e8 m from the instance.
+/// Lengths are metres, angles radians, counterclockwise seen from above. An instance stays upright and turns about +z.
+/// Each is one object, with the number that add() returned. Instances pass through each other and through the scene;
+/// only bodies stop them. The promises of space.h hold for the current poses, except that a hit of an instance is
+/// within 2.001 mm instead of 2 mm, up to 1e8 m from it.
 
 #include <cstdint>
 #include <memory>
@@ -71,7 +71,7 @@ class Instances final : public LiveSpace {
   /// world. Throws roam::Error for a pose that is not finite or beyond coordinate_limit; for a world that is null,
   /// stored too coarsely (see usual_error) or larger than 4 billion triangles; and after 2^30 instances.
   ObjectId add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label = {});
-  // All functions below that take a number throw roam::Error for one of no instance, except has().
+  // Functions that take a number throw roam::Error if no instance has it, except has().
   void remove(ObjectId instance);
   /// Puts the instance there at once. A body that it then overlaps is freed or held by its next step, see
   /// Walker::place(). move_instances() moves bodies along instead. Throws roam::Error for a pose as add() does.

@@ -22,12 +22,10 @@ struct Box {
   [[nodiscard]] Vec3 size() const { return upper - lower; }
   [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
 
-  /// Whether `p` lies inside or on the border; false for NaN.
-  [[nodiscard]] bool holds(const Vec3& p) const {
+  [[nodiscard]] bool holds(const Vec3& p) const {  ///< inside or on the border; false for NaN
     return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z && p.z <= upper.z;
   }
-  /// The box with each side moved outwards by `by`, per axis.
-  [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }
+  [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }  ///< by so much on each side
   [[nodiscard]] Box grown(double by) const { return grown(Vec3(by)); }
 
   void include(const Vec3& p) {

@@ -9,10 +9,9 @@
 ///     space.deliver(tile, std::move(world_of_the_tile));             // from a loading thread
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
-/// Before the first update() all space is free. Expected and delivered patches take effect together at the next
-/// update(). Unknown boxes become known at once. Patches that refine another replace it together, once the body is free
-/// in them; until then the coarse patch stays and each update() tries again. A body that does not fit where it is (a
-/// ghost in a wall, a body in unknown space) delays nothing.
+/// Before the first update() all space is free. Expected and delivered patches take effect at the next update().
+/// Patches that refine another replace it together, once the body is free in them; until then the coarse patch stays. A
+/// body that does not fit where it is anyway (a ghost in a wall, a body in unknown space) delays nothing.
 ///
 /// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. All else belongs to the
 /// thread that moves the body; queries may run at the same time, but not during update(). Queries never lock. Results
@@ -52,13 +51,12 @@ class Patchwork final : public LiveSpace {
   Patchwork(const Patchwork&) = delete;
   Patchwork& operator=(const Patchwork&) = delete;
 
-  /// Announces a patch. From the next update() until its delivery the box `where` is unknown. `where` must contain all
-  /// triangles of the patch: those outside may overlap a body, which is then freed or held (see Walker::place()).
+  /// Announces a patch. From the next update() until its delivery the box `where` is unknown. Triangles of the patch
+  /// outside that box may overlap a body, which is then freed or held (see Walker::place()).
   ///
-  /// A patch that refines another leaves it in use for now. All patches that refine one replace it together, as soon as
-  /// each has come or is itself refined by patches that have; they must cover it together. If one fails, the coarse
-  /// patch stays. They may come before the coarse patch, and may be refined in turn. Expect all of them before the last
-  /// is delivered: once `refines` has been replaced, a new patch stands alone, its box unknown until it comes.
+  /// The patches that refine one must cover it together. They replace it together, when each has come or is itself
+  /// refined by patches that have; if one fails, the coarse patch stays. They may come before it. Expect all of them
+  /// before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at first.
   ///
   /// Throws roam::Error for a box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was
   /// never expected.
@@ -81,9 +79,8 @@ class Patchwork final : public LiveSpace {
   void forget(PatchId patch);
 
   /// Takes what was delivered into use; finer patches must leave `body` free at `place`. Returns whether a triangle or
-  /// an unknown box came or went. Costs next to nothing if nothing came and nothing waits, otherwise some microseconds;
-  /// up to 1 us for each patch in use if a quarter of them is new. Throws roam::Error, and takes nothing, for a body or
-  /// position that no query takes.
+  /// an unknown box came or went. Takes some microseconds; up to 1 us for each patch in use if a quarter of all is new.
+  /// Throws roam::Error, and takes nothing, for a body or position that no query takes.
   bool update(const Body& body, const Vec3& place);
   /// The same; the velocity is ignored.
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }

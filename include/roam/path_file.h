@@ -52,7 +52,7 @@ struct Waypoint {
 [[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
 
 /// Writes positions of the centre, after body_line() if `body` is given. load_path() reads them back to the last bit.
-/// Throws roam::Error for positions that load_path() would refuse, and if writing fails; then the file may be incomplete.
+/// Throws roam::Error for positions that load_path() would refuse, and if writing fails: the file is incomplete then.
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
                Mode mode = Mode::walk);
 

@@ -28,19 +28,16 @@ namespace roam {
 
 struct RouteOptions {
   double speed = 1.4;  ///< m/s, > 0
-  double dt =
-      1.0 / 60.0;  ///< of one step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier
-  /// m/s^2, > 0: see WalkerInput. If either is finite, the body comes to rest at the last waypoint and wherever the way
-  /// turns.
+  double dt = 1.0 / 60.0;  ///< of one step, >= Route::shortest_step; a step that comes to a waypoint ends there
+  /// m/s^2, > 0: see WalkerInput. If either is finite, the body comes to rest at the last waypoint and at each turn.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
-  /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by a
-  /// twentieth of free motion, nor slid so far aside and a little nearer. A wall met 3 degrees off head-on leads on.
+  /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
+  /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
   double patience = 1.0;
   /// >= 0, real time, for follow() with a LiveSpace: how long it waits for unknown space since the last change.
   double wait = 10.0;
-  /// The box of the scene for Outcome::left_scene; none: that of the space. Larger for routes beside or over the scene.
-  std::optional<Box> scene = {};
+  std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
 };
 
 /// Throws roam::Error as the constructor of Route does.
@@ -48,13 +45,11 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
 
 /// How a route ended.
 enum class Outcome : std::uint8_t {
-  reached,  ///< was at every waypoint in turn
-  blocked,  ///< no longer came nearer to a waypoint; see RouteOptions::patience
-  /// Fly mode: left the box of the scene by its own size; a route that starts outside may enter first. Walk mode: fell
-  /// over the side of that box.
-  left_scene,
-  fell,  ///< walk mode: dropped by more than Walker::fall_limit() below where it last stood
-  held,  ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
+  reached,     ///< was at every waypoint in turn
+  blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
+  left_scene,  ///< left the box of the scene: flying, by more than its own size; walking, fell over its side
+  fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
+  held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
 
 /// "reached", "blocked", "left_scene", "fell" or "held".
@@ -76,14 +71,13 @@ struct RouteResult : Tally {
   std::vector<RouteEvent> events;      ///< in order, as EventFilter picks them
 };
 
-/// A run along waypoints, step by step, so that the caller can watch, time or draw each.
+/// A run along waypoints, step by step.
 class Route {
  public:
   static constexpr double shortest_step = 1e-6;
 
   /// Places the walker at waypoints[0], as Walker::place(); in walk mode it first comes down to the ground there.
-  /// Waypoints are positions of the *centre*. Convert paths of the feet, as from train() and widest_way(), by
-  /// standing().
+  /// Waypoints are positions of the *centre*; standing() converts paths of the feet, as from train() or widest_way().
   ///
   /// In walk mode a waypoint counts as reached if the axis is within the radius of it, seen from above, and it is at
   /// most the step height above the body's top or below its lowest point; a body below 2 m also reaches one in sight up
@@ -96,8 +90,7 @@ class Route {
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 
   [[nodiscard]] bool done() const { return done_; }
-  /// Makes one step. Throws roam::Error when done().
-  const StepReport& advance();
+  const StepReport& advance();  ///< makes one step; throws roam::Error when done()
   [[nodiscard]] const RouteResult& result() const { return result_; }  ///< so far; complete when done()
   [[nodiscard]] const Walker& walker() const { return *walker_; }
 

@@ -10,11 +10,9 @@
 /// |---|---|
 /// | first impact of a motion: time, contact, triangle | sweep(), ray() |
 /// | the same with the contact on demand | first_impact(), completed() |
-/// | all triangles near a motion, nearest first | contacts() |
+/// | triangles near a motion, nearest first | contacts() |
 /// | least gap on a motion, and its triangle | clearance(), floor_clearance() |
-/// | lower bound of the least gap, at a fraction of the cost | gap() |
-/// | whether a body fits at a position | fits() |
-/// | object of a triangle | object() |
+/// | least gap alone, at a fraction of the cost | gap() |
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed
@@ -22,17 +20,14 @@
 ///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle. A body that starts
 ///     nearer gets a hit at time 0;
 ///   - at the `time` of a hit some triangle is within radius + 2 mm of the axis. A body that starts with a gap below
-///     2 mm may get a hit at time 0, even if it moves away. A body that is to move on should keep a gap of
-///     2 * largest_error(), as Walker does;
+///     2 mm may get a hit at time 0, even if it moves away: keep 2 * largest_error() from contacts, as Walker does;
 ///   - a gap() above 0 certifies the first of these for the whole motion.
 ///
 /// Queries are const, never wait and may run at the same time, unless an implementation's header says otherwise. Only
 /// batches allocate. Each query throws roam::Error, before it writes a result, for a position or motion that is not
-/// finite, a motion beyond Space::motion_limit, and a size or reach that is negative or beyond Space::reach_limit.
-///
-/// The host's floating-point environment (rounding, subnormal numbers, traps) changes no result. Functions that are not
-/// inline compute in the default environment and then restore the host's. Callbacks, and spaces of the host's own, run
-/// in the default one too.
+/// finite, a motion beyond Space::motion_limit, and a size or reach that is negative or beyond Space::reach_limit. The
+/// host's floating-point environment changes no result and raises no signal: functions that are not inline, with the
+/// callbacks and host's spaces that they call, run in the default one and then restore the host's.
 
 #include <algorithm>
 #include <array>
@@ -52,13 +47,10 @@ namespace roam {
 class Collector;
 class Vicinity;
 
-/// The number of a triangle in a space. A World numbers the triangles of all meshes in the order passed; the headers of
-/// other spaces describe theirs.
+/// Numbers of triangles and objects. A World numbers its meshes, and the triangles of all meshes, in the order passed;
+/// the headers of other spaces describe theirs.
 using TriangleId = std::uint64_t;
 inline constexpr TriangleId no_triangle = ~TriangleId{0};  ///< in a miss, or where nothing was found
-
-/// The number of an object in a space. A World numbers its meshes in the order passed; the headers of other spaces
-/// describe theirs.
 using ObjectId = std::uint32_t;
 inline constexpr ObjectId no_object = ~ObjectId{0};  ///< in a miss, for unknown space, and for all of a Pager
 
@@ -132,10 +124,8 @@ struct FirstImpact {
 
 /// Which triangles count as floor.
 struct Floor {
-  /// Degrees, in [0, 89]: steepest floor, either side up, by the plane as stored. A triangle without area is no floor.
-  double slope_degrees = 45.0;
-  /// >= 0: only floor at most this much above or below the plane through `point` counts; infinite: all of it.
-  double band = std::numeric_limits<double>::infinity();
+  double slope_degrees = 45.0;  ///< [0, 89]: steepest floor, either side up, as stored; never one without area
+  double band = std::numeric_limits<double>::infinity();  ///< >= 0: most above or below the plane through `point`
   Vec3 point{0.0};
   Vec3 normal{0.0, 0.0, 1.0};  ///< of the plane, of any length; z > 0
 };
@@ -156,15 +146,14 @@ class Space {
  public:
   static constexpr double reach_limit = 1000.0;  ///< largest radius, half height and reach of a query
   static constexpr double motion_limit = 1e6;    ///< largest component of a motion
-
   virtual ~Space() = default;
 
   /// First impact of the body on its motion.
   [[nodiscard]] Impact sweep(const Query& query) const { return swept(query, nullptr); }
-  /// The same without point, normal, feature and distance, which take a sixth of the time of a hit.
+  /// The same without the contact, which takes a sixth of the time of a hit.
   [[nodiscard]] FirstImpact first_impact(const Query& query) const;
-  /// The result of sweep(), to the bit, from that of first_impact() for the same query. Throws roam::Error if `first`
-  /// is a hit and the space's revision has changed since; a space without revision must not have changed.
+  /// The result of sweep(), to the bit, from `first`, that of first_impact() for the same query. Throws roam::Error if
+  /// it is a hit and the space's revision has changed since; a space without revision must not have changed.
   [[nodiscard]] Impact completed(const Query& query, const FirstImpact& first) const;
 
   /// The triangles that come within `reach` of the body's surface, each measured where the motion brings the body
@@ -235,14 +224,12 @@ class Space {
   // this file. Queries have been checked and may come from several threads at once. `vicinity` is a cache of this
   // library's own spaces, or null: other spaces ignore it.
 
-  /// The earliest impact. At time 0 it names the triangle with the most negative distance. Objects in `query.ignored`
-  /// are left out.
+  /// The earliest impact, without ignored objects. At time 0 it names the triangle with the most negative distance.
   [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
   /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
-  // For a space made of other spaces. Pass the vicinity to at most one, for the same body and motion; pass null to the
-  // rest.
+  // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);
   }
@@ -257,8 +244,7 @@ class Space {
   Space& operator=(Space&&) noexcept = default;
 
  private:
-  friend struct Nearby;  // how a Walker asks
-
+  friend struct Nearby;  // how a Walker queries
   [[nodiscard]] Impact swept(const Query& query, Vicinity* vicinity) const;
   [[nodiscard]] Impact touched(const Query& query, const FirstImpact& first) const;
   [[nodiscard]] double gap_over(const Query& query, double reach, Vicinity* vicinity) const;

@@ -20,16 +20,14 @@ inline constexpr double rim_cosine = 0.34202014332566873;
 inline constexpr double rim_sine = 0.93969262078590838;
 inline constexpr double rim_tangent = rim_sine / rim_cosine;
 
-/// Floor at most this much above or below the plane carries a support disc.
-inline constexpr double carrying_band = 0.25;
+inline constexpr double carrying_band = 0.25;  ///< floor at most so far above or below the plane carries the disc
 
 /// The plane of the floor around a body.
 struct FloorPlane {
   Vec3 point{0.0};
   Vec3 normal{0.0, 0.0, 1.0};  ///< z > 0
 
-  /// z of the plane above or below `place`.
-  [[nodiscard]] double level(const Vec3& place) const {
+  [[nodiscard]] double level(const Vec3& place) const {  ///< z of the plane above or below `place`
     return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
   }
 

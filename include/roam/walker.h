@@ -7,17 +7,15 @@
 ///     std::cout << walker.position().x << " is at least " << step.axis_clearance << " m from every wall\n";
 ///
 /// Lengths are metres, times seconds, speeds m/s. Positions are those of the body's centre. In fly and walk mode, for
-/// any speed and time step:
-///   - the body moves only along segments that the space has certified free, in this step or, if the space has a
-///     revision, in an earlier one. Its axis is always at least radius - 1e-6 m from every triangle. The report lists
-///     the segments, each with a certified axis clearance;
-///   - the exception is a body that is *put* where it does not fit. It is freed or held (see place()), and the report
-///     says which. Its segments are marked as teleports;
-///   - the same space, settings and calls give the same bits on every run.
+/// any speed and time step, the body moves only along segments that the space has certified free, in this step or, if
+/// the space has a revision, in an earlier one. Its axis is always at least radius - 1e-6 m from every triangle. The
+/// report lists the segments, each with a certified axis clearance. The exception is a body that is *put* where it does
+/// not fit: it is freed or held (see place()), and the report says which.
 ///
-/// Use a Walker from one thread at a time. A copy is a second body in the same space and the same state, for example a
-/// snapshot to return to. Walkers may share a space, and do not meet each other. A step allocates nothing. A moved-from
-/// Walker may only be assigned to or destroyed. docs/walking.md explains the rules of motion and their limits.
+/// The same space, settings and calls give the same bits. A step allocates nothing. Use a Walker from one thread at a
+/// time; several may share a space, and do not meet each other. A copy is a second body in the same state, such as a
+/// snapshot to return to. A moved-from Walker may only be assigned to or destroyed. docs/walking.md has the rules of
+/// motion and their limits.
 
 #include <memory>
 #include <span>
@@ -44,21 +42,19 @@ class Walker {
   Walker& operator=(Walker&& other) noexcept;
 
   /// Moves the body for `dt` seconds. Returns report(), which the next call of any kind overwrites. Throws roam::Error
-  /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration that are not
-  /// above 0. On free flat ground a step costs one gap query and one sweep; in free flight one gap query or none.
+  /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration <= 0.
   const StepReport& step(const WalkerInput& input, double dt);
 
-  /// Puts the standing body's centre at `centre`, at rest. If it does not fit there, the first of these that works:
+  /// Puts the standing body at rest with its centre, half the height above its lowest point, at `centre`. If it does
+  /// not fit there, the first of these that works:
   ///   - in walk mode, the crouched body with the same lowest point;
-  ///   - the nearest free position found, at most the body's height away, by a straight way on which a sphere about the
-  ///     centre, as large as the start allows, meets nothing: the centre stays on its side of every wall;
+  ///   - the nearest free position found, at most the body's height away, on the same side of every wall: a sphere
+  ///     about the centre, as large as the start allows, gets there straight;
   ///   - in walk mode, the crouched body with its centre there;
-  ///   - the body is held: it stays, and each step reports `held`, until place() or ghost mode. After another size or
-  ///     another revision of the space, the next step puts it again where it is. A body held in unknown space also
-  ///     reports `met_unknown`, and is put again as soon as that is known, even in a space without revision.
-  ///
-  /// The centre is half the height above the lowest point: a body with its centre on the floor stands in it to the
-  /// waist, and is held or freed sideways. Throws roam::Error for a position that is not finite.
+  ///   - the body is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of the
+  ///     space's revision or of the size, the next step puts it again where it is. In unknown space it also reports
+  ///     `met_unknown`, and is put again once that is known, even without a revision.
+  /// Throws roam::Error for a position that is not finite.
   const StepReport& place(const Vec3& centre);
   /// The same for the lowest point of the standing body, which may lie on the floor.
   const StepReport& place_feet(const Vec3& feet);
@@ -68,21 +64,19 @@ class Walker {
   /// with something below count, if there is one.
   const StepReport& set_mode(Mode mode);
 
-  /// Sets the regions in which the body has another size; outside it has that of its settings. Where regions overlap,
-  /// the smallest body and the largest support disc apply. They are copied and apply from the next call. Throws
-  /// roam::Error as check() does; then nothing changes.
+  /// Sets the regions in which the body has another size, from the next call on. They are copied. Throws roam::Error as
+  /// check() does.
   ///
-  /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside;
-  /// this is checked every half radius of its way. It shrinks at once, keeping its lowest point and, unless a
-  /// sphere, its height. It grows when the larger body is certified free with the same lowest point, or on a slope as
-  /// much higher as it must be; until then it goes on as it is. A sphere stays a sphere. The eye keeps its height above
-  /// the lowest point, or is at the top of a lower body. A support disc does not shrink while it carries the body.
+  /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside,
+  /// to within half a radius of its way. It shrinks at once, keeping its lowest point and, unless a sphere, its height.
+  /// It grows as soon as the larger body is certified free with the same lowest point, or on a slope a little higher. A
+  /// sphere stays a sphere. The eye keeps its height above the lowest point, or is at the top of a lower body. A
+  /// support disc does not shrink while it carries the body.
   void set_regions(std::span<const SizeRegion> regions);
   [[nodiscard]] std::span<const SizeRegion> regions() const;
 
-  /// Sets the size outside all regions. The body shrinks at once, or grows as soon as it fits, in this call or later,
-  /// as in regions; report() says what happened. Returns whether the body has the size wanted at its position. Throws
-  /// roam::Error for a size that settings may not have; then nothing changes.
+  /// Sets the size outside all regions. The body shrinks or grows as in regions, in this call or later; see report().
+  /// Returns whether it has the size wanted at its position. Throws roam::Error for a size that settings may not have.
   bool resize(double radius, double support_radius);
 
   [[nodiscard]] const Space& space() const;
@@ -94,7 +88,7 @@ class Walker {
   [[nodiscard]] Vec3 eye() const;              ///< the camera
   [[nodiscard]] Body body() const;             ///< in its present size, standing or crouched
   [[nodiscard]] bool crouched() const;
-  [[nodiscard]] bool grounded() const;  ///< as stance().grounded()
+  [[nodiscard]] bool grounded() const;         ///< stance().grounded()
   [[nodiscard]] const Stance& stance() const;
   /// Whether the body cannot move: it does not fit and cannot be freed (see place()), or in walk mode it would fall out
   /// of the scene again (see EventKind::put_back), until there is something below it or the mode changes.
@@ -108,10 +102,8 @@ class Walker {
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
 
-  /// The gap that the body keeps from what it slides along: 2 * largest_error() + 0.1 mm. It still passes openings that
-  /// leave less.
+  /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. It passes openings that leave less.
   [[nodiscard]] double skin() const;
-
   /// radius + step: a drop of the lowest point by more than this below the ground last stood on is a fall.
   [[nodiscard]] double fall_limit() const;
 
