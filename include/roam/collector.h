@@ -36,36 +36,31 @@ class Collector {
   enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };
 
   [[nodiscard]] Kind kind() const { return kind_; }
-  /// Distance from the body's surface beyond which nothing changes the result.
-  [[nodiscard]] double reach() const { return reach_; }
-  /// Distance beyond which anything may be left out, if left_out() gets a bound.
-  [[nodiscard]] double enough() const { return enough_; }
-  /// For Kind::one_contact: the first impact whose triangle, and no other, is wanted at the query's position; otherwise
-  /// null. FirstImpact::place saves the search.
+  [[nodiscard]] double reach() const { return reach_; }    ///< from the body; nothing beyond it changes the result
+  [[nodiscard]] double enough() const { return enough_; }  ///< leave out what is beyond it if left_out() gets a bound
+  /// For Kind::one_contact: the first impact whose triangle alone is wanted, at the query's position. Else null.
   [[nodiscard]] const FirstImpact* only() const { return only_; }
 
-  /// Offers a triangle, which is measured here. One of an ignored object is passed over.
+  /// Offers a triangle, to be measured here unless its object is ignored.
   void offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object = no_object);
-  /// Offers a contact that the space has measured. Its distance is certified, at most `doubt` below the true one. For
-  /// Kind::floor_clearance it must be floor.
+  /// Offers a measured contact: its distance is certified, at most `doubt` too low. Kind::floor_clearance takes floor.
   void offer(const Contact& contact, double doubt = 0.0) {
     frame_ == nullptr ? keep(contact, doubt) : keep_seen(contact, doubt);
   }
-  /// Reports a certified bound, beyond enough(), of everything that was not offered.
+  /// Reports that something was left out. `gap` is a certified lower bound of its distance, beyond enough().
   void left_out(double gap) { left_out_ = gap < left_out_ ? gap : left_out_; }
-  /// Call before the first offer(). Limits how far a clearance may be below the true one; 1.99 mm without this call. 0
-  /// makes clearances and gaps as exact as possible.
+  /// Limits, before the first offer(), how much too low a clearance may be; 1.99 mm otherwise. 0: clearances and gaps
+  /// are as exact as possible.
   void demand(double tolerance);
 
   // The rest is for this library's own spaces and for Space.
 
   Collector(Kind kind, double reach, std::span<Contact> out);
-  /// For the contact of a first impact alone.
   Collector(const FirstImpact& first, Contact& out)
       : out_(&out, 1), only_(&first), asked_(4e-3), reach_(asked_), enough_(asked_), kind_(Kind::one_contact) {}
   void expect_repeats() { repeats_ = true; }  ///< one triangle may be offered twice; costs a scan an offer
   void take_floor_only(const query::FloorOnly& floor) { floor_ = &floor; }
-  /// The contact that Kind::one_contact wants.
+  /// For Kind::one_contact.
   void take_only(const Contact& contact) {
     if (frame_ != nullptr) return keep_seen(contact, 0.0);
     out_[0] = contact;
@@ -74,7 +69,7 @@ class Collector {
   void enter(const query::Frame* frame) { frame_ = frame; }  ///< the frame of offers from now on; null: the scene's
   void sort();                                               ///< nearest first
   [[nodiscard]] double asked() const { return asked_; }      ///< the reach that it was made with
-  /// The least gap to anything, for a clearance that found something.
+  /// The least gap, of a clearance that found something.
   [[nodiscard]] double certified() const { return out_[0].distance < left_out_ ? out_[0].distance : left_out_; }
   [[nodiscard]] std::span<Contact> kept() const { return out_.first(count_); }
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -87,8 +82,7 @@ class Collector {
   void keep(const Contact& contact, double doubt);
   void keep_seen(const Contact& contact, double doubt);  ///< the same of a contact in the frame
   [[nodiscard]] std::span<Contact>::iterator end() const { return out_.begin() + static_cast<std::ptrdiff_t>(count_); }
-  /// Whether the triangle is in the list. A nearer contact replaces it.
-  [[nodiscard]] bool known(const Contact& contact);
+  [[nodiscard]] bool known(const Contact& contact);  ///< whether it is in the list; a nearer one replaces it
 
   std::span<Contact> out_;
   const query::FloorOnly* floor_ = nullptr;

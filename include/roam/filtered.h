@@ -26,20 +26,16 @@ class Filtered final : public LiveSpace {
   explicit Filtered(const Space& space);
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;
-
-  /// Ignores an object, or stops ignoring it; no_object is never ignored. Walkers follow at their next step: a body
-  /// inside an object that is back is freed or held, see Walker::place(). In a Patchwork a number means the object of
-  /// that number in every patch.
+  /// Ignores an object, or no longer. no_object is never ignored; a number of a Patchwork means that object in every
+  /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
   /// Ignores these objects and no others.
   void ignore_only(std::span<const ObjectId> objects);
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
-
-  /// Updates the LiveSpace that this was made from as such; otherwise returns false.
+  /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
-
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override { return space_->object(triangle); }
 

@@ -43,7 +43,6 @@ class Scene {
   [[nodiscard]] std::uint64_t vertices() const;
   [[nodiscard]] std::uint64_t objects() const;  ///< number of meshes, each with a name of its own
   [[nodiscard]] const Box& bounds() const;      ///< contains every vertex; may be larger than necessary
-
   /// Makes the scene mesh by mesh, in a few MB of memory. Every vertex of a mesh is used by one of its triangles.
   void stream(const Sink& sink, const Progress& progress = {}) const;
 
@@ -65,7 +64,8 @@ class Scene {
 /// renamed. Throws roam::Error for another extension and if the file cannot be written.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
-struct Path {  ///< straight, of a body's centre
+/// A straight path of a body's centre.
+struct Path {
   const char* name;
   Vec3 from, to;
 };

@@ -41,11 +41,10 @@ struct Velocity {
   Vec3 linear{0.0};      ///< of the instance's origin, m/s
   double turning = 0.0;  ///< rad/s
 
-  /// The velocity, m/s, of a point of the instance at that pose; all in the scene's frame.
-  [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;
+  [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;  ///< m/s, of a point; all in the scene's frame
 };
 
-/// Name and user data of an instance, as object() returns them.
+/// What object() returns of an instance.
 struct InstanceLabel {
   std::string name = {};
   std::uint64_t user_data = 0;
@@ -54,8 +53,8 @@ struct InstanceLabel {
 /// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate.
 class Instances final : public LiveSpace {
  public:
-  /// add() refuses a world whose largest_error() exceeds both this and that of the space. The largest_error() of the
-  /// whole is the larger of the two. Small worlds are within it; build large ones with BuildOptions::lossless.
+  /// The largest_error() of the whole is this or, if larger, that of the space. A world with more is refused: build
+  /// large ones with BuildOptions::lossless.
   static constexpr double usual_error = 1e-4;
 
   /// `space` is what does not move: a World, a Pager, a Patchwork. It must outlive this and stay where it is. Its
@@ -68,8 +67,8 @@ class Instances final : public LiveSpace {
   Instances& operator=(const Instances&) = delete;
 
   /// Adds an instance of `world` at rest and returns its number, at least 2^31 and never reused. Instances may share a
-  /// world. Throws roam::Error for a pose that is not finite or beyond coordinate_limit; for a world that is null,
-  /// stored too coarsely (see usual_error) or larger than 4 billion triangles; and after 2^30 instances.
+  /// world. Throws roam::Error for a pose that is not finite or beyond coordinate_limit, a world that is null, too
+  /// coarse (see usual_error) or larger than 4 billion triangles, and more than 2^30 instances.
   ObjectId add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label = {});
   // Functions that take a number throw roam::Error if no instance has it, except has().
   void remove(ObjectId instance);
@@ -83,12 +82,9 @@ class Instances final : public LiveSpace {
   [[nodiscard]] const World& world(ObjectId instance) const;
   [[nodiscard]] std::vector<ObjectId> instances() const;  ///< in the order added
   [[nodiscard]] bool has(ObjectId instance) const;
-
-  /// Updates the LiveSpace that this was made from as such; otherwise returns false.
+  /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
-
   [[nodiscard]] SpaceFacts facts() const override;
-  /// For a triangle of an instance: the instance's number, name and user data.
   [[nodiscard]] Object object(TriangleId triangle) const override;
   /// The number of a triangle in its own world, or in the space that does not move.
   [[nodiscard]] static TriangleId source_triangle(TriangleId triangle);

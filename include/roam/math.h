@@ -22,7 +22,8 @@ struct Box {
   [[nodiscard]] Vec3 size() const { return upper - lower; }
   [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
 
-  [[nodiscard]] bool holds(const Vec3& p) const {  ///< inside or on the border; false for NaN
+  /// Whether `p` lies inside or on the border; false for NaN.
+  [[nodiscard]] bool holds(const Vec3& p) const {
     return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z && p.z <= upper.z;
   }
   [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }  ///< by so much on each side

@@ -29,7 +29,6 @@ struct Opening {
   double width = 0.0;   ///< from one side to the other; in a way, twice the largest radius that passes
   Vec3 direction{0.0};  ///< unit vector from one side to the other
 };
-
 /// "door", "lintel" or "gap".
 [[nodiscard]] const char* to_string(Opening::Kind kind);
 

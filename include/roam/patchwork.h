@@ -52,26 +52,21 @@ class Patchwork final : public LiveSpace {
   Patchwork& operator=(const Patchwork&) = delete;
 
   /// Announces a patch. From the next update() until its delivery the box `where` is unknown. Triangles of the patch
-  /// outside that box may overlap a body, which is then freed or held (see Walker::place()).
+  /// outside that box may overlap a body, which is then freed or held (see Walker::place()). Throws roam::Error for a
+  /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
   /// The patches that refine one must cover it together. They replace it together, when each has come or is itself
   /// refined by patches that have; if one fails, the coarse patch stays. They may come before it. Expect all of them
   /// before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at first.
-  ///
-  /// Throws roam::Error for a box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was
-  /// never expected.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
-
   /// Delivers an expected patch. An empty world means that nothing is there. A patch that has been replaced is dropped.
   /// Throws roam::Error for a patch that was not expected or is delivered already, and for a world that is stored less
   /// exactly than error_limit or has more than 4 billion triangles. Like expect(), fail() and forget(), it also frees
   /// worlds that updates replaced, so that the thread of the body need not.
   void deliver(PatchId patch, World world);
-
   /// Marks a patch as failed, with a reason for display. Its box stays solid; if it refines another, that one stays. It
   /// may still be delivered. Throws roam::Error for a patch that was not expected or is delivered.
   void fail(PatchId patch, const std::string& reason);
-
   /// Makes a delivered patch unknown again and frees its world; the patch may be delivered again. Waits while the body
   /// is in the box or within 2 * margin of it, but not in an update() without a body. If the patch comes back during
   /// that wait it takes its place at once, and may overlap the body. Does nothing if finer patches replaced it. Throws
@@ -82,10 +77,8 @@ class Patchwork final : public LiveSpace {
   /// an unknown box came or went. Takes some microseconds; up to 1 us for each patch in use if a quarter of all is new.
   /// Throws roam::Error, and takes nothing, for a body or position that no query takes.
   bool update(const Body& body, const Vec3& place);
-  /// The same; the velocity is ignored.
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
-  /// The same without a body.
-  bool update();
+  bool update();  ///< the same without a body
 
   /// The largest error is error_limit.
   [[nodiscard]] SpaceFacts facts() const override;
@@ -94,11 +87,9 @@ class Patchwork final : public LiveSpace {
   /// reason: that of fail(), else "not loaded yet". Space::contacts() lists such a box once, where it is nearest.
   /// Objects are numbered within each patch. A triangle of a patch that is gone has no object.
   [[nodiscard]] Object object(TriangleId triangle) const override;
-
   /// The patch of a triangle or of the side of an unknown box, and its number in the patch's world.
   [[nodiscard]] static PatchId patch(TriangleId triangle) { return PatchId{triangle >> 32}; }
   [[nodiscard]] static TriangleId triangle_in_patch(TriangleId triangle) { return triangle & 0xFFFFFFFF; }
-
   [[nodiscard]] PatchworkStats stats() const;
 
  protected:

@@ -27,7 +27,7 @@
 namespace roam {
 
 struct RouteOptions {
-  double speed = 1.4;  ///< m/s, > 0
+  double speed = 1.4;      ///< m/s, > 0
   double dt = 1.0 / 60.0;  ///< of one step, >= Route::shortest_step; a step that comes to a waypoint ends there
   /// m/s^2, > 0: see WalkerInput. If either is finite, the body comes to rest at the last waypoint and at each turn.
   double acceleration = std::numeric_limits<double>::infinity();
@@ -51,11 +51,9 @@ enum class Outcome : std::uint8_t {
   fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
   held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
-
 /// "reached", "blocked", "left_scene", "fell" or "held".
 [[nodiscard]] const char* to_string(Outcome outcome);
 
-/// What blocked a body.
 struct Blockage {
   Vec3 point{0.0};   ///< on the triangle
   Vec3 normal{0.0};  ///< from the point towards the body
@@ -71,7 +69,6 @@ struct RouteResult : Tally {
   std::vector<RouteEvent> events;      ///< in order, as EventFilter picks them
 };
 
-/// A run along waypoints, step by step.
 class Route {
  public:
   static constexpr double shortest_step = 1e-6;
@@ -88,7 +85,6 @@ class Route {
   /// do so between steps. Throws roam::Error for no waypoint, a waypoint that is not finite or beyond coordinate_limit,
   /// options out of range, and a walker in ghost mode.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
-
   [[nodiscard]] bool done() const { return done_; }
   const StepReport& advance();  ///< makes one step; throws roam::Error when done()
   [[nodiscard]] const RouteResult& result() const { return result_; }  ///< so far; complete when done()
@@ -124,8 +120,7 @@ class Route {
   bool done_ = false;
 };
 
-/// Follows the whole route in a space that does not change. In a LiveSpace pass the space too, or the body is held
-/// where unknown space begins.
+/// Follows the whole route in a space that does not change. For a LiveSpace use the function below.
 [[nodiscard]] RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
 /// Follows the whole route in `space`, the walker's, which it updates between steps. Waits for unknown space, see
 /// RouteOptions::wait, and steps no faster than real time while the space limits the speed. The result depends on when

@@ -25,8 +25,7 @@ struct Stance {
   Vec3 ground{0.0, 0.0, 1.0};   ///< unit normal of the ground stood on now or last
   std::optional<double> level;  ///< z, in metres, of the point stood on now or last; none: not stood since it was put
   ObjectId object = no_object;  ///< that carries the body now or last; it may be gone (see Instances::has())
-  /// m/s: of the ground at the lowest point, from the last move_instances(). In the air: of the ground that the body
-  /// left, until it lands.
+  /// m/s: of the ground at the lowest point, as move_instances() moved it last; in the air, of the ground left last.
   Vec3 ground_velocity{0.0};
 
   /// Whether anything carries the body.

@@ -27,8 +27,7 @@ enum class EventKind : std::uint8_t {
   placed,        ///< put at a position by the caller
   freed,         ///< put where it did not fit and moved to where it does; not for corrections of a few millimetres
   held,          ///< cannot move: does not fit and cannot be freed, or has nothing below it (see put_back)
-  put_back,      ///< fell below everything and was put back to where it last had ground below; `held` follows if there
-                 ///< is no ground there either, or if it falls from there again
+  put_back,      ///< fell below everything and was put back over its last ground; `held` follows if that fails
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe position
   throttled,     ///< the step needed too many segments and ended early; see StepReport::elapsed
   met_unknown,   ///< touches, stands on (with its support disc too) or is in unknown space
@@ -37,7 +36,6 @@ enum class EventKind : std::uint8_t {
   widened,       ///< became larger again
   bridged,       ///< stepped over a crack that its support disc spans: see WalkerSettings::support_radius
 };
-
 /// The name as above: "slid", "stepped_up", ...
 [[nodiscard]] const char* to_string(EventKind kind);
 
@@ -73,9 +71,9 @@ class InlineList {
   std::size_t total_ = 0;
 };
 
-/// One straight piece of a move, from the end of the piece before it. The body has one size all along it. A change of
-/// size has segments of its own: a smaller body goes from the old centre to its own, inside the old body; the old body
-/// goes to a larger one's centre, and a segment of length 0 with the new size follows.
+/// One straight piece of a move, from the end of the one before, with one size of the body. A change of size has its
+/// own segments: a smaller body goes from the old centre to its own, inside the old body; to grow, the old body goes to
+/// the larger one's centre, and a segment of length 0 with the new size follows.
 struct Segment {
   Vec3 position{0.0};   ///< of the centre at its end
   double height = 0.0;  ///< of the body
@@ -98,8 +96,7 @@ struct StepReport {
   Vec3 to{0.0};                  ///< the centre now
   double height = 0.0;           ///< of the body now
   double radius = 0.0;           ///< of the body now
-  /// At `to`: that of the last segment or, if the body did not move, of the position. 0: none (ghost, held while
-  /// overlapping, or overlapped by something that moved until the next step frees the body).
+  /// At `to`: of the last segment, or of the position if the body did not move. 0: none (ghost, or overlapping).
   double axis_clearance = 0.0;
   double least_axis_clearance = 0.0;  ///< the least of all segments and `to`
   double least_gap = 0.0;             ///< the least axis clearance - radius of the same, each with its own radius

@@ -26,8 +26,8 @@ inline constexpr double carrying_band = 0.25;  ///< floor at most so far above o
 struct FloorPlane {
   Vec3 point{0.0};
   Vec3 normal{0.0, 0.0, 1.0};  ///< z > 0
-
-  [[nodiscard]] double level(const Vec3& place) const {  ///< z of the plane above or below `place`
+  /// z of the plane above or below `place`.
+  [[nodiscard]] double level(const Vec3& place) const {
     return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
   }
 

@@ -2,9 +2,6 @@
 /// \file
 /// Certified time of impact of a moving sphere or upright capsule with one triangle.
 ///
-///     const roam::SweepResult s = roam::sweep({.radius = 0.3}, from, motion, triangle);
-///     if (s.hit) std::cout << "free until " << s.time << "\n";
-///
 /// The body's centre is at from + t * motion, t in [0, 1]. Triangles are two-sided and may be degenerate. Lengths are
 /// metres. What is reported free is free in exact arithmetic on the same input: for any unit vector n and corners v_i
 ///
@@ -39,7 +36,6 @@ struct Body {
 
 /// The part of a triangle that is touched.
 enum class Feature : std::uint8_t { face, edge, vertex };
-
 /// "face", "edge" or "vertex".
 [[nodiscard]] const char* to_string(Feature feature);
 

@@ -15,7 +15,7 @@ struct RouteEvent {
   Event event;
 };
 
-/// Sums over the steps of a run, of constant size.
+/// Sums over the steps of a run.
 struct Tally {
   std::uint64_t steps = 0;
   double length = 0.0;                ///< of the way that the centre moved, without teleports

@@ -10,12 +10,11 @@
 /// any speed and time step, the body moves only along segments that the space has certified free, in this step or, if
 /// the space has a revision, in an earlier one. Its axis is always at least radius - 1e-6 m from every triangle. The
 /// report lists the segments, each with a certified axis clearance. The exception is a body that is *put* where it does
-/// not fit: it is freed or held (see place()), and the report says which.
+/// not fit: it is freed or held (see place()), and the report says which. docs/walking.md has the rules of motion.
 ///
 /// The same space, settings and calls give the same bits. A step allocates nothing. Use a Walker from one thread at a
 /// time; several may share a space, and do not meet each other. A copy is a second body in the same state, such as a
-/// snapshot to return to. A moved-from Walker may only be assigned to or destroyed. docs/walking.md has the rules of
-/// motion and their limits.
+/// snapshot to return to. A moved-from Walker may only be assigned to or destroyed.
 
 #include <memory>
 #include <span>
@@ -44,7 +43,6 @@ class Walker {
   /// Moves the body for `dt` seconds. Returns report(), which the next call of any kind overwrites. Throws roam::Error
   /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration <= 0.
   const StepReport& step(const WalkerInput& input, double dt);
-
   /// Puts the standing body at rest with its centre, half the height above its lowest point, at `centre`. If it does
   /// not fit there, the first of these that works:
   ///   - in walk mode, the crouched body with the same lowest point;
@@ -58,14 +56,11 @@ class Walker {
   const StepReport& place(const Vec3& centre);
   /// The same for the lowest point of the standing body, which may lie on the floor.
   const StepReport& place_feet(const Vec3& feet);
-
   /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found, or the
   /// last one of its way as a ghost, whichever is nearer; if there is none, it is held. Into walk mode only positions
   /// with something below count, if there is one.
   const StepReport& set_mode(Mode mode);
-
-  /// Sets the regions in which the body has another size, from the next call on. They are copied. Throws roam::Error as
-  /// check() does.
+  /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
   ///
   /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside,
   /// to within half a radius of its way. It shrinks at once, keeping its lowest point and, unless a sphere, its height.
@@ -74,7 +69,6 @@ class Walker {
   /// support disc does not shrink while it carries the body.
   void set_regions(std::span<const SizeRegion> regions);
   [[nodiscard]] std::span<const SizeRegion> regions() const;
-
   /// Sets the size outside all regions. The body shrinks or grows as in regions, in this call or later; see report().
   /// Returns whether it has the size wanted at its position. Throws roam::Error for a size that settings may not have.
   bool resize(double radius, double support_radius);
@@ -101,7 +95,6 @@ class Walker {
   /// relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
-
   /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. It passes openings that leave less.
   [[nodiscard]] double skin() const;
   /// radius + step: a drop of the lowest point by more than this below the ground last stood on is a fall.

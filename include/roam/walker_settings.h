@@ -16,40 +16,34 @@ namespace roam {
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision.
 enum class Mode : std::uint8_t { fly, walk, ghost };
-
 /// "fly", "walk" or "ghost".
 [[nodiscard]] const char* to_string(Mode mode);
 
 /// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. No radius or
 /// height exceeds Space::reach_limit / 4.
 struct WalkerSettings {
-  /// > 0: half the least width that the body needs. Too large, and it is kept out of rooms that a person enters; too
-  /// small, and it falls into cracks that a person steps over.
-  double radius = 0.3;
-  /// >= 0: radius of the support disc in walk mode; 0: no disc, the body stands on its round end. The disc carries the
-  /// body, at the height of the floor, over each crack that has no room for it: half the width of the widest crack and
-  /// 2 mm more will do. It touches nothing and stops the body nowhere. Less than `radius` counts as `radius`. Unknown
-  /// space carries it as floor does; the report says `met_unknown`. docs/walking.md tells cracks from pits.
+  double radius = 0.3;  ///< > 0: half the width that the body needs; too small a body falls into cracks
+  /// >= 0: radius of the support disc, in walk mode; 0: none, the body stands on its round end. The disc carries the
+  /// body, at the height of the floor, over each crack with no room for the disc: half the width of the widest crack and
+  /// 2 mm more will do. It touches nothing. Less than `radius` counts as `radius`. Unknown space carries it as floor
+  /// does; the report says `met_unknown`. docs/walking.md tells cracks from pits.
   double support_radius = 0.0;
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().
   double height = 1.8;
   double eye = 1.6;  ///< [0, height]: camera above the lowest point when standing; in proportion when crouched
-  /// [0, height / 2]: the body walks onto ground that is at most this much above or below the ground last stood on. 0:
-  /// every kerb stops it.
-  double step = 0.3;
+  double step = 0.3;  ///< [0, height / 2]: largest difference of ground that the body walks over; 0: kerbs stop it
   double slope_degrees = 45.0;  ///< [0, 89]: steeper ground is a wall to go up and a slide to go down
   double speed = 1.4;           ///< m/s, (0, 1e4], for wish_velocity() alone: Walker::step() takes any velocity
   double fast_factor = 5.0;     ///< [1, 1e3]: factor on speed when hurrying
   double gravity = 9.81;        ///< m/s^2, [0, 1e3], in walk mode. 0: a body that leaves the ground floats on
   double jump_height = 0.5;     ///< [0, 100]. 0: the body does not jump
   double crouch_height = 1.1;   ///< > 0; 2 * radius if that is more. A body that is no taller does not crouch
-  /// [0, Space::reach_limit]: how far around the body the gap is measured after each step. Reported axis clearances are
-  /// at most radius + clearance_reach. A larger value is slower in wide open scenes.
+  /// [0, Space::reach_limit]: how far around the body a step measures the gap. Reported axis clearances are at most
+  /// radius + clearance_reach. Larger values are slower in the open.
   double clearance_reach = 1.0;
 
-  /// The standing body, for queries without a Walker, as by Pager::wait().
-  [[nodiscard]] Body body() const { return Body::capsule(radius, height); }
+  [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
 
   /// A person of another size: eye and crouch height in proportion, a step of 0.3 m or half the height if that is less;
   /// sphere() if height is 2 * radius. check() tests the range.
@@ -78,7 +72,6 @@ struct WalkerSettings {
 
 /// Throws roam::Error, naming the setting, its value and its range, if a setting is out of range or NaN.
 void check(const WalkerSettings& settings);
-
 /// Throws roam::Error, naming the region by its number from 1 and its `why`, for bounds that are empty or not finite,
 /// and for a size that these settings may not have.
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);

@@ -6,10 +6,9 @@
 ///     const roam::Impact s = world.sweep({.radius = 0.3}, from, motion);
 ///     if (s.hit) std::cout << world.object_name(s.triangle) << " at " << s.time << "\n";
 ///
-/// The promises of space.h hold up to 6.4e6 m from the origin and for triangles from 0.1 mm to 10 km in one world. In a
-/// lossless world, read 1e-5 m where space.h says 2 mm. Nothing is unknown. The same input gives the same bits on every
-/// machine, instruction set, thread count and run. Queries never lock. Walkers keep the address of a World: do not move
-/// it meanwhile.
+/// The promises of space.h hold up to 6.4e6 m from the origin and for triangles from 0.1 mm to 10 km in one world; in a
+/// lossless world, with 1e-5 m instead of 2 mm. The same input gives the same bits on every machine, instruction set,
+/// thread count and run. Queries never lock. Do not move a World that a Walker uses.
 
 #include <cstdint>
 #include <functional>
@@ -26,7 +25,7 @@
 namespace roam {
 
 struct BuildOptions {
-  int threads = 0;  ///< worker threads, at most one per core; 0: one per core. The result is the same bits
+  int threads = 0;  ///< at most one per core; 0: one per core
   /// Hits are exact to 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle. Triangles wider than 16 km are less
   /// exact: see WorldStats::largest_error_m.
   bool lossless = false;
@@ -43,8 +42,7 @@ struct WorldStats {
   double largest_error_m = 0.0;  ///< farthest that a stored vertex lies from where the caller put it
 };
 
-/// The tiles and the tree over them.
-struct WorldData;
+struct WorldData;  ///< the tiles and the tree over them
 
 class World final : public Space {
  public:
@@ -54,15 +52,13 @@ class World final : public Space {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for a triangle with an index out of
-  /// range or a vertex that is not finite or beyond coordinate_limit, naming mesh and triangle, and for more than
-  /// 4,294,967,295 triangles.
+  /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for an index out of range or a used
+  /// vertex that is not finite or beyond coordinate_limit, naming mesh and triangle, and for 2^32 triangles or more.
   [[nodiscard]] static World build(std::span<const Mesh> meshes, const BuildOptions& options = {});
 
   /// Each world of a process has a revision of its own, so assigning another world changes the revision.
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override;
-
   [[nodiscard]] const WorldStats& stats() const;
 
  protected:
