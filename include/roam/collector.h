@@ -6,8 +6,7 @@
 ///       for (std::size_t i = 0; i < triangles.size(); ++i) collector.offer(query, triangles[i], i);
 ///     }
 ///
-/// A space with an index may leave out what lies farther than reach() or enough(). Both shrink as it offers. Lengths
-/// are metres. Nothing here allocates.
+/// A space with an index may leave out what lies beyond reach() or enough(), which shrink. Nothing here allocates.
 
 #include <cstddef>
 #include <limits>
@@ -23,7 +22,7 @@ class FloorOnly;
 struct Frame;
 }  // namespace query
 
-/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top.
+/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top. Lengths are metres.
 ///
 /// For a clearance it keeps one. Let G be the true gap and d a certified distance that was offered, at most `doubt` too
 /// low, so that G <= d + doubt. Leaving out what is no nearer than E = d + doubt - tolerance costs at most the
@@ -32,8 +31,7 @@ struct Frame;
 /// right. For a gap, E is 7/8 (d + doubt): a bound d that is no less than E serves as well as an exact distance.
 class Collector {
  public:
-  /// The query of the space's caller.
-  enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };
+  enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };  ///< the caller's query
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] double reach() const { return reach_; }    ///< from the body; nothing beyond it changes the result

@@ -6,8 +6,8 @@
 ///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// The promises of space.h hold for the remaining objects. Unknown space is never ignored, nor is anything in a Pager:
-/// its objects have no numbers.
+/// The promises of space.h hold for the rest. Unknown space is never ignored, nor anything in a Pager, which numbers no
+/// objects.
 
 #include <cstdint>
 #include <span>
@@ -30,8 +30,7 @@ class Filtered final : public LiveSpace {
   /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
-  /// Ignores these objects and no others.
-  void ignore_only(std::span<const ObjectId> objects);
+  void ignore_only(std::span<const ObjectId> objects);  ///< these and no others
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
   /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.

@@ -25,8 +25,7 @@
 
 namespace roam::generate {
 
-/// Fewest and most triangles of a request. A scene has within 3 % of the number requested.
-inline constexpr std::uint64_t least_triangles = 10'000;
+inline constexpr std::uint64_t least_triangles = 10'000;  ///< of a request, which a scene meets within 3 %
 inline constexpr std::uint64_t most_triangles = 1'000'000'000;
 inline constexpr std::uint64_t piece_triangles = 65'536;  ///< most triangles in one mesh of a scene
 inline constexpr double origin_limit = 1e7;               ///< largest absolute coordinate of an origin
@@ -45,7 +44,6 @@ class Scene {
   [[nodiscard]] const Box& bounds() const;      ///< contains every vertex; may be larger than necessary
   /// Makes the scene mesh by mesh, in a few MB of memory. Every vertex of a mesh is used by one of its triangles.
   void stream(const Sink& sink, const Progress& progress = {}) const;
-
   struct Plan;  ///< how it is made
   explicit Scene(std::shared_ptr<const Plan> plan);
 
@@ -60,8 +58,8 @@ class Scene {
 ///   .ply  binary little endian, double x y z, uint indices; loses only the names
 ///   .obj  each mesh a group `o NAME`; the fewest digits that read back as the same double
 ///   .stl  binary floats, without names; refused for bounds beyond 32,768 m, where floats are off by more than 1 mm
-/// The file is whole or, after an error or a cancellation, as it was before: it is written under a temporary name and
-/// renamed. Throws roam::Error for another extension and if the file cannot be written.
+/// After an error or a cancellation the file is as it was before. Throws roam::Error for another extension and if the
+/// file cannot be written.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// A straight path of a body's centre.
@@ -77,18 +75,15 @@ inline const std::array<Path, 3> gallery_paths{{
     {"corner", {-12504.0, 1566.0, 182.0}, {-12228.0, 1927.0, 182.0}},
     {"split", {-12528.0, 1549.0, 97.0}, {-12521.0, 1544.0, 96.0}},
 }};
-
 inline constexpr double gallery_floor_below_path = 0.95;  ///< from all three paths down to the floor
 inline constexpr double gallery_split_width = 1.25;       ///< between the walls of the split, along path 3, level
 inline constexpr double gallery_split_depth = 14.0;
 inline constexpr double gallery_door_width = 0.75;  ///< of the grottos
 inline constexpr double gallery_door_height = 1.8;
 
-/// The dam gallery of Table 1. Objects: `upper_gallery/start`, `upper_gallery/end`, `upper_gallery/segment_012`,
-/// `upper_gallery/corner_arm`, `upper_gallery/corner_gate_left` and `_right`, `drain_17`, `grotto_03/door`,
-/// `grotto_03/room`, `grotto_03/instrument`, `lower_gallery/start`, `lower_gallery/end`, `lower_gallery/tube`,
-/// `lower_gallery/split`, `lower_gallery/drainage_grotto_0/door` and `/room`, `dam`, `terrain`. Further meshes of an
-/// object are called `NAME/2`, and so on.
+/// The dam gallery of Table 1. Objects: `dam`, `terrain`, `drain_17`, `grotto_03/{door,room,instrument}`,
+/// `upper_gallery/{start,end,segment_012,corner_arm,corner_gate_left,corner_gate_right}` and
+/// `lower_gallery/{start,end,tube,split,drainage_grotto_0/{door,room}}`. Further meshes of one are called `NAME/2` etc.
 struct GalleryOptions {
   std::uint64_t triangles = 500'000;  ///< 500 k gives cells of 0.35 m, 5 M of 0.11 m
   std::uint64_t seed = 1;             ///< of the roughness and of what stands in the grottos
@@ -105,10 +100,9 @@ struct TerrainOptions {
 };
 [[nodiscard]] Scene terrain(const TerrainOptions& options);
 
-/// Blocks of buildings between streets with kerbs: doors, rooms, passages through buildings, window recesses, bays that
-/// overhang the street, bridges. Objects: `street/ROW_COLUMN`, `bridge_ROW_COLUMN`, `block_ROW_COLUMN/building_N` and
-/// `block_ROW_COLUMN/building_N/interior`. More triangles make more blocks, up to 1600, then finer ones; below some
-/// 100 k the buildings have no windows.
+/// Blocks of buildings with doors, rooms, passages, windows and bays, between streets with kerbs and bridges. Objects:
+/// `street/ROW_COLUMN`, `bridge_ROW_COLUMN`, `block_ROW_COLUMN/building_N` and `block_ROW_COLUMN/building_N/interior`.
+/// More triangles make more blocks, up to 1600, then finer ones. Below some 100 k there are no windows.
 struct CityOptions {
   std::uint64_t triangles = 1'000'000;
   std::uint64_t seed = 1;

@@ -32,7 +32,6 @@ namespace roam {
 struct Pose {
   Vec3 position{0.0};    ///< each component at most coordinate_limit
   double heading = 0.0;  ///< finite
-
   [[nodiscard]] Vec3 to_scene(const Vec3& p) const;
   [[nodiscard]] Vec3 to_instance(const Vec3& p) const;
 };
@@ -40,7 +39,6 @@ struct Pose {
 struct Velocity {
   Vec3 linear{0.0};      ///< of the instance's origin, m/s
   double turning = 0.0;  ///< rad/s
-
   [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;  ///< m/s, of a point; all in the scene's frame
 };
 
@@ -57,8 +55,8 @@ class Instances final : public LiveSpace {
   /// large ones with BuildOptions::lossless.
   static constexpr double usual_error = 1e-4;
 
-  /// `space` is what does not move: a World, a Pager, a Patchwork. It must outlive this and stay where it is. Its
-  /// objects and triangles keep their numbers. Throws roam::Error for a space of instances.
+  /// `space` is what does not move, as a World or a Pager. It must outlive this and stay where it is. Its objects and
+  /// triangles keep their numbers. Throws roam::Error for a space of instances.
   explicit Instances(const Space& space);
   explicit Instances(LiveSpace& space);
   explicit Instances(Space&& space) = delete;
@@ -86,8 +84,7 @@ class Instances final : public LiveSpace {
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override;
-  /// The number of a triangle in its own world, or in the space that does not move.
-  [[nodiscard]] static TriangleId source_triangle(TriangleId triangle);
+  [[nodiscard]] static TriangleId source_triangle(TriangleId triangle);  ///< its number in its own world or space
 
  protected:
   [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;

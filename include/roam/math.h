@@ -17,7 +17,6 @@ using Vec3 = glm::dvec3;  ///< a point or a displacement
 struct Box {
   Vec3 lower{std::numeric_limits<double>::infinity()};
   Vec3 upper{-std::numeric_limits<double>::infinity()};
-
   [[nodiscard]] bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
   [[nodiscard]] Vec3 size() const { return upper - lower; }
   [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
@@ -28,7 +27,6 @@ struct Box {
   }
   [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }  ///< by so much on each side
   [[nodiscard]] Box grown(double by) const { return grown(Vec3(by)); }
-
   void include(const Vec3& p) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = p[k] < lower[k] ? p[k] : lower[k];

@@ -30,12 +30,10 @@ struct Stopped {
 /// | has left it and is in the air | keeps the velocity of that ground until it lands |
 /// | is a ghost, or is held | is not moved, and stops nothing |
 ///
-/// A stopped instance keeps its velocity and tries again at the next call. Bodies do not meet each other. Pass all
-/// bodies: an instance runs over any that is left out. Make things that move together one instance, or add the front
-/// one first. Turns are made of small straight parts, mostly within 0.02 mm of the arc (docs/walking.md, "What moves").
-///
-/// The promises of walker.h hold meanwhile, for the triangles of the moving instance too. A walker that was moved has
-/// this movement as its report() until its next step(); any other keeps its old report.
+/// A stopped instance tries again at the next call. Pass all bodies: an instance runs over any that is left out. Make
+/// things that move together one instance, or add the front one first; see docs/walking.md, "What moves". The promises
+/// of walker.h hold meanwhile, for the triangles of the moving instance too. A walker that was moved has this movement
+/// as its report() until its next step(); any other keeps its old report.
 ///
 /// `walkers` must move in `instances` or in a Filtered of them; null is skipped. Throws roam::Error, and moves nothing,
 /// for any other walker, a walker that is listed twice, a `dt` that is negative or not finite, and an instance that

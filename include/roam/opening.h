@@ -29,17 +29,15 @@ struct Opening {
   double width = 0.0;   ///< from one side to the other; in a way, twice the largest radius that passes
   Vec3 direction{0.0};  ///< unit vector from one side to the other
 };
-/// "door", "lintel" or "gap".
-[[nodiscard]] const char* to_string(Opening::Kind kind);
+[[nodiscard]] const char* to_string(Opening::Kind kind);  ///< "door", "lintel" or "gap"
 
 /// The contact of a step whose normal leans most against `way`, the ground included; null if there is no contact.
 [[nodiscard]] const Contact* most_against(const StepReport& report, const Vec3& way);
 
 /// The opening in front of a blocked body: the nearest pair of contacts on either side of its way (door) or above and
 /// below it (lintel) between which a ray passes. Measured at the height of the contacts, to a few millimetres, among
-/// the nearest 48 triangles within four skins of the body. None for a closed wall and for a vertical way.
-///
-/// `ahead` is the unit vector of the blocked way. Const, allocates nothing; thread-safe while nothing moves the walker.
+/// the nearest 48 triangles within four skins of the body. None for a closed wall and for a vertical way. `ahead` is
+/// the unit vector of the blocked way. Allocates nothing; thread-safe while nothing moves the walker.
 [[nodiscard]] std::optional<Opening> measure_opening(const Walker& walker, const Vec3& ahead);
 
 }  // namespace roam

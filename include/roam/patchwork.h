@@ -14,8 +14,8 @@
 /// body that does not fit where it is anyway (a ghost in a wall, a body in unknown space) delays nothing.
 ///
 /// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. All else belongs to the
-/// thread that moves the body; queries may run at the same time, but not during update(). Queries never lock. Results
-/// depend, to the bit, only on the patches in use, not on their order or history. Lengths are metres.
+/// thread that moves the body; queries may run at the same time, but not during update(). Results depend, to the bit,
+/// only on the patches in use, not on their order or history. Lengths are metres.
 
 #include <cstdint>
 #include <memory>
@@ -26,8 +26,7 @@
 
 namespace roam {
 
-/// The number of a patch, counted from 1 in the order of expect(). Never reused by one Patchwork.
-enum class PatchId : std::uint64_t { none = 0 };
+enum class PatchId : std::uint64_t { none = 0 };  ///< counted from 1 in the order of expect(); never reused
 
 /// What a patchwork held after the last update(). Replaced patches are not counted.
 struct PatchworkStats {
@@ -79,9 +78,7 @@ class Patchwork final : public LiveSpace {
   bool update(const Body& body, const Vec3& place);
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   bool update();  ///< the same without a body
-
-  /// The largest error is error_limit.
-  [[nodiscard]] SpaceFacts facts() const override;
+  [[nodiscard]] SpaceFacts facts() const override;  ///< the largest error is error_limit
   /// A triangle's number is its patch times 2^32 plus its number in the patch's world. It is stable while the patch is
   /// in use, and never another patch's. The sides of an unknown box have numbers too; the name of their object is the
   /// reason: that of fail(), else "not loaded yet". Space::contacts() lists such a box once, where it is nearest.

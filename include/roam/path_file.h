@@ -39,24 +39,20 @@ struct Waypoint {
   int line = 0;                  ///< of the file, from 1, for messages
 };
 
-/// Reads a path; `name` stands for the file in messages. Throws roam::Error, naming the line, for anything but finite
-/// numbers, a wrong count of them, and a time that runs backwards; also for fewer than two waypoints and beyond the
-/// limits above.
+/// Reads a path; messages call it `name`. Throws roam::Error, naming the line, for anything but finite numbers, a wrong
+/// count of them, and a time that runs backwards; also for fewer than two waypoints, beyond the limits above, and if
+/// reading fails. load_path() does so from a file or a pipe.
 [[nodiscard]] std::vector<Waypoint> read_path(std::istream& in, const std::string& name);
-
-/// The same from a file or a pipe. Also throws roam::Error if it cannot be read.
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
 
 /// The comment that records the body in a path file, without an end of line; `roam walk --path` takes that body:
 /// "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45", and " support 0.7" if there is a support disc.
 [[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
-
 /// Writes positions of the centre, after body_line() if `body` is given. load_path() reads them back to the last bit.
 /// Throws roam::Error for positions that load_path() would refuse, and if writing fails: the file is incomplete then.
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
                Mode mode = Mode::walk);
 
-/// The positions alone, for Walker and Route.
-[[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);
+[[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);  ///< for Walker and Route
 
 }  // namespace roam

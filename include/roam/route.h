@@ -8,8 +8,8 @@
 ///     while (!route.done()) route.advance();
 ///     std::cout << roam::to_string(route.result().outcome) << "\n";
 ///
-/// The body heads straight for one waypoint after the other and slides along what it meets: no path is searched. The
-/// same input gives the same bits, as with Walker. Lengths are metres, times seconds.
+/// The body heads straight for each waypoint and slides along what it meets: no path is searched. Lengths are metres,
+/// times seconds.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,21 +29,19 @@ namespace roam {
 struct RouteOptions {
   double speed = 1.4;      ///< m/s, > 0
   double dt = 1.0 / 60.0;  ///< of one step, >= Route::shortest_step; a step that comes to a waypoint ends there
-  /// m/s^2, > 0: see WalkerInput. If either is finite, the body comes to rest at the last waypoint and at each turn.
+  /// m/s^2, > 0: see WalkerInput. With a limit the body comes to rest at each turn and at the end.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
   /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
   /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
   double patience = 1.0;
-  /// >= 0, real time, for follow() with a LiveSpace: how long it waits for unknown space since the last change.
-  double wait = 10.0;
+  double wait = 10.0;  ///< >= 0, real time: how long follow() with a LiveSpace waits for it since its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
 };
 
 /// Throws roam::Error as the constructor of Route does.
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker);
 
-/// How a route ended.
 enum class Outcome : std::uint8_t {
   reached,     ///< was at every waypoint in turn
   blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
@@ -51,8 +49,7 @@ enum class Outcome : std::uint8_t {
   fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
   held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
-/// "reached", "blocked", "left_scene", "fell" or "held".
-[[nodiscard]] const char* to_string(Outcome outcome);
+[[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"
 
 struct Blockage {
   Vec3 point{0.0};   ///< on the triangle
@@ -74,16 +71,15 @@ class Route {
   static constexpr double shortest_step = 1e-6;
 
   /// Places the walker at waypoints[0], as Walker::place(); in walk mode it first comes down to the ground there.
-  /// Waypoints are positions of the *centre*; standing() converts paths of the feet, as from train() or widest_way().
+  /// Waypoints are positions of the *centre*, copied; standing() converts paths of the feet, as from train() or
+  /// widest_way(). The walker must outlive the route; do not move it meanwhile. A LiveSpace is not updated: do so
+  /// between steps. Throws roam::Error for no waypoint, a waypoint that is not finite or beyond coordinate_limit,
+  /// options out of range, and a walker in ghost mode.
   ///
   /// In walk mode a waypoint counts as reached if the axis is within the radius of it, seen from above, and it is at
   /// most the step height above the body's top or below its lowest point; a body below 2 m also reaches one in sight up
   /// to 2 m above its lowest point. In fly mode it counts if the axis is within the radius of it. The body still heads
-  /// for the waypoint itself until it is there or something keeps it from coming nearer: corners are not cut.
-  ///
-  /// The waypoints are copied. The walker must outlive the route; do not move it meanwhile. A LiveSpace is not updated:
-  /// do so between steps. Throws roam::Error for no waypoint, a waypoint that is not finite or beyond coordinate_limit,
-  /// options out of range, and a walker in ghost mode.
+  /// for the waypoint itself until something keeps it from coming nearer: corners are not cut.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
   [[nodiscard]] bool done() const { return done_; }
   const StepReport& advance();  ///< makes one step; throws roam::Error when done()

@@ -6,13 +6,8 @@
 ///       return 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///     }
 ///
-/// | question | function |
-/// |---|---|
-/// | first impact of a motion: time, contact, triangle | sweep(), ray() |
-/// | the same with the contact on demand | first_impact(), completed() |
-/// | triangles near a motion, nearest first | contacts() |
-/// | least gap on a motion, and its triangle | clearance(), floor_clearance() |
-/// | least gap alone, at a fraction of the cost | gap() |
+/// sweep() finds the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
+/// nearest triangle. first_impact() and gap() return less, at a fraction of the cost.
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed
@@ -65,7 +60,6 @@ struct Object {
 struct ObjectFilter {
   std::span<const ObjectId> objects;   ///< ascending
   const ObjectFilter* also = nullptr;  ///< more of them
-
   [[nodiscard]] bool ignores(ObjectId object) const {
     for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
       if (std::binary_search(f->objects.begin(), f->objects.end(), object)) return true;
@@ -91,16 +85,16 @@ struct Impact : SweepResult {
   bool unknown = false;               ///< the hit is the border of unknown space, or the body starts inside it
 };
 
-/// A triangle near a body. See Proximity for the other members.
+/// A triangle near a body; see Proximity.
 struct Contact : Proximity {
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
   bool unknown = false;  ///< the contact is the border of unknown space, not a triangle
 };
 
-/// The gap between a body and everything. The members of Proximity and the numbers are set if `found`.
+/// The gap between a body and everything; see Proximity.
 struct Clearance : Proximity {
-  bool found = false;  ///< something lies within the reach; otherwise `distance` is the reach
+  bool found = false;  ///< something lies within the reach; otherwise `distance` is the reach, and the rest default
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
   bool unknown = false;  ///< the nearest is unknown space
@@ -109,13 +103,11 @@ struct Clearance : Proximity {
 /// The first impact of a sweep without its contact: the members that it shares with Impact have the same values.
 struct FirstImpact {
   FirstImpact() noexcept {}  // NOLINT: where this is defaulted, compilers clear all of it
-
   bool hit = false;
   bool unknown = false;
   double time = 1.0;
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
-
   // For authors of spaces: how Space::completed() finds the contact.
   std::array<std::uint32_t, 4> place{};  ///< whatever the space finds the triangle by
   std::optional<Contact> contact;        ///< at `time`, if the space has found it already
@@ -130,15 +122,13 @@ struct Floor {
   Vec3 normal{0.0, 0.0, 1.0};  ///< of the plane, of any length; z > 0
 };
 
-/// Facts about a whole space.
 struct SpaceFacts {
   Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
   double largest_error = 0.0;  ///< farthest that a stored vertex lies from where the caller put it; never grows
-  /// Changes whenever something came or went; a held body then tries again. While it stays, Walker reuses results of
+  /// Changes whenever something came or went: then a held body tries again, and until then Walker reuses results of
   /// gap(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
-  /// m/s: how fast a body may move for space ahead to be known in time. Walker slows down to it. A faster body is safe
-  /// too: it stops at unknown space.
+  /// m/s: the speed at which space ahead is known in time. Walker slows down to it; a faster body stops at the unknown.
   double speed_limit = std::numeric_limits<double>::infinity();
 };
 
@@ -155,24 +145,20 @@ class Space {
   /// The result of sweep(), to the bit, from `first`, that of first_impact() for the same query. Throws roam::Error if
   /// it is a hit and the space's revision has changed since; a space without revision must not have changed.
   [[nodiscard]] Impact completed(const Query& query, const FirstImpact& first) const;
-
-  /// The triangles that come within `reach` of the body's surface, each measured where the motion brings the body
-  /// closest. Writes at most contacts.size(), nearest first, ties by triangle, and returns how many: fewer than
-  /// contacts.size() means all. The cost for n contacts is n log n, or n^2 for motions over 64 m.
+  /// The triangles within `reach` of the body's surface, each measured where the motion brings the body closest. Writes
+  /// at most contacts.size(), nearest first, ties by triangle, and returns how many: fewer than contacts.size() means
+  /// all. The cost for n contacts is n log n, or n^2 for motions over 64 m.
   std::size_t contacts(const Query& query, double reach, std::span<Contact> contacts) const;
-
   /// The least gap on the motion, within `reach` of the body's surface. `distance` is a certified lower bound over the
   /// whole motion, at most 2 mm below the true gap, and positive if that is above 2 mm. Of triangles whose distances
   /// differ by less than 2 mm any may be named; contacts() names the nearest.
   [[nodiscard]] Clearance clearance(const Query& query, double reach) const;
-
   /// The clearance of a body at rest from floor alone. With a band, only the part of a triangle inside it is measured:
   /// a capsule as high as the band measures the horizontal distance. Unknown space counts as floor if it reaches into
   /// the band near the body. Also throws roam::Error for a `floor` out of range.
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const;
-
   /// A certified lower bound of the least gap on the motion, or `reach` if nothing is within it. A value above 0 means
-  /// that the whole motion is free. Below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
+  /// that the whole motion is free; if below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
   /// touching, overlapping or a gap below 2 mm; it is not a depth.
   [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
@@ -210,25 +196,20 @@ class Space {
     constexpr double least_gap = 1e-6;
     return clearance(body, place, least_gap).distance >= least_gap;
   }
-
-  /// Facts about the space as it is now.
-  [[nodiscard]] virtual SpaceFacts facts() const = 0;
+  [[nodiscard]] virtual SpaceFacts facts() const = 0;  ///< as of now
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }
-  /// The object of a triangle; Object{} for a number that no triangle has. Allocates.
-  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;
+  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;  ///< Object{} for no triangle; allocates
   [[nodiscard]] std::string object_name(TriangleId triangle) const { return object(triangle).name; }
 
  protected:
   // For authors of spaces: all queries come down to these two functions, which must keep the promises in the head of
   // this file. Queries have been checked and may come from several threads at once. `vicinity` is a cache of this
   // library's own spaces, or null: other spaces ignore it.
-
   /// The earliest impact, without ignored objects. At time 0 it names the triangle with the most negative distance.
   [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
   /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
-
   // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);

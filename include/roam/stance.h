@@ -27,10 +27,8 @@ struct Stance {
   ObjectId object = no_object;  ///< that carries the body now or last; it may be gone (see Instances::has())
   /// m/s: of the ground at the lowest point, as move_instances() moved it last; in the air, of the ground left last.
   Vec3 ground_velocity{0.0};
-
-  /// Whether anything carries the body.
   [[nodiscard]] bool grounded() const { return footing != Footing::air && footing != Footing::falling; }
-  /// Whether ground within the slope limit or the support disc does.
+  /// Whether ground within the slope limit, or the support disc, carries the body.
   [[nodiscard]] bool firm() const { return footing == Footing::ground || footing == Footing::foot; }
 };
 

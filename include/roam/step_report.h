@@ -36,8 +36,7 @@ enum class EventKind : std::uint8_t {
   widened,       ///< became larger again
   bridged,       ///< stepped over a crack that its support disc spans: see WalkerSettings::support_radius
 };
-/// The name as above: "slid", "stepped_up", ...
-[[nodiscard]] const char* to_string(EventKind kind);
+[[nodiscard]] const char* to_string(EventKind kind);  ///< "slid", "stepped_up", ...
 
 struct Event {
   EventKind kind = EventKind::slid;
@@ -79,8 +78,8 @@ struct Segment {
   double height = 0.0;  ///< of the body
   double radius = 0.0;  ///< of the body
   double time = 0.0;    ///< at its end, since the step began
-  /// Along all of it, at least radius - 1e-6; 0 if unknown (ghost, or a body that is being freed). On a free way it is
-  /// too low by at most a quarter of the gap, two skins and 2 mm; Space::clearance() measures more closely.
+  /// Along all of it, at least radius - 1e-6; 0 if unknown (ghost, or being freed). It is at most a quarter of
+  /// the gap, two skins and 2 mm too low; Space::clearance() measures more closely.
   double axis_clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is known of the way
 };
@@ -88,8 +87,8 @@ struct Segment {
 /// What one step did. Belongs to the Walker; valid until its next call.
 struct StepReport {
   InlineList<Segment, 64> segments;  ///< in order; empty if the body did not move. Pieces in one direction are merged
-  /// Contacts on the way, each feature of a triangle once, the last touched last. If more than 8: the first 7 and the
-  /// last. `distance` is the gap to the plane of the contact where the body stopped.
+  /// Each feature of a triangle once, the last touched last; of more than 8, the first 7 and the last. `distance` is
+  /// the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
   InlineList<Event, 24> events;  ///< in order. A very long step may leave out slides and steps, never what ends it
   Vec3 from{0.0};                ///< the centre before
@@ -109,7 +108,6 @@ struct StepReport {
   bool held = false;                  ///< see EventKind::held: the same as Walker::held()
   bool put_back = false;              ///< see EventKind::put_back
   bool met_unknown = false;           ///< see EventKind::met_unknown
-
   [[nodiscard]] double length() const;  ///< of the way that the centre moved, without teleports
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)

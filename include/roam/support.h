@@ -2,8 +2,8 @@
 /// \file
 /// What carries a body over cracks of the floor: their rims, and its support disc (WalkerSettings::support_radius).
 ///
-/// The identifiers call the disc a foot. Lengths are metres, angles degrees. All functions are thread-safe and allocate
-/// nothing. docs/walking.md, "The foot", gives the reasons.
+/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. See docs/walking.md, "The
+/// foot", as the disc is called there.
 
 #include <cstdint>
 
@@ -19,10 +19,8 @@ inline constexpr double rim_slope_degrees = 70.0;
 inline constexpr double rim_cosine = 0.34202014332566873;
 inline constexpr double rim_sine = 0.93969262078590838;
 inline constexpr double rim_tangent = rim_sine / rim_cosine;
-
 inline constexpr double carrying_band = 0.25;  ///< floor at most so far above or below the plane carries the disc
 
-/// The plane of the floor around a body.
 struct FloorPlane {
   Vec3 point{0.0};
   Vec3 normal{0.0, 0.0, 1.0};  ///< z > 0
@@ -30,7 +28,6 @@ struct FloorPlane {
   [[nodiscard]] double level(const Vec3& place) const {
     return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
   }
-
   friend bool operator==(const FloorPlane&, const FloorPlane&) = default;
 };
 

@@ -12,8 +12,7 @@
 /// the axis is within radius + 1.5e-14 * reach of the triangle. The reach is radius + half height + motion + offset of
 /// the farthest corner, the last two as |x| + |y| + |z|; the distance to the scene's origin does not matter.
 ///
-/// All functions are pure and thread-safe. They throw roam::Error for input that is not finite or beyond 1e12 m and for
-/// a negative radius or half height.
+/// All functions are pure, and throw roam::Error for input that is not finite, beyond 1e12 m, or of negative size.
 
 #include <cstdint>
 
@@ -28,7 +27,6 @@ namespace roam {
 struct Body {
   double radius = 0.3;       ///< >= 0
   double half_height = 0.0;  ///< >= 0: half the length of the axis, without the caps
-
   /// An upright capsule of the given height, caps included; height >= 2 * radius.
   static Body capsule(double radius, double height) { return {radius, 0.5 * height - radius}; }
   [[nodiscard]] double height() const { return 2.0 * (radius + half_height); }  ///< caps included
@@ -36,8 +34,7 @@ struct Body {
 
 /// The part of a triangle that is touched.
 enum class Feature : std::uint8_t { face, edge, vertex };
-/// "face", "edge" or "vertex".
-[[nodiscard]] const char* to_string(Feature feature);
+[[nodiscard]] const char* to_string(Feature feature);  ///< "face", "edge" or "vertex"
 
 /// The result of a sweep. A miss sets only `time` and `distance`.
 struct SweepResult {

@@ -9,13 +9,11 @@
 
 namespace roam {
 
-/// An event of a step of a run.
 struct RouteEvent {
   std::uint64_t step = 0;  ///< counted from 1; 0 is the start
   Event event;
 };
 
-/// Sums over the steps of a run.
 struct Tally {
   std::uint64_t steps = 0;
   double length = 0.0;                ///< of the way that the centre moved, without teleports
@@ -23,16 +21,14 @@ struct Tally {
   double least_axis_clearance = 0.0;  ///< the least StepReport::least_axis_clearance; 0: none was certified yet
   double least_gap = 0.0;             ///< the least StepReport::least_gap, with the radius that the body had there
   std::uint64_t throttled = 0;        ///< steps that ended early or were slowed, see EventKind
-
   void add_step(const StepReport& report);
   void add_placement(const StepReport& report);  ///< of place(), as at the start: only its clearance counts
 };
 
-/// A filter for the events of a run that are worth a line: the first of each kind in a step, unless the step before
-/// reports the kind too.
+/// A filter for the events of a run that are worth a line.
 class EventFilter {
  public:
-  /// Appends the events of the next step.
+  /// Appends the first event of each kind of the next step, unless the step before had that kind too.
   void append(std::vector<RouteEvent>& events, std::uint64_t step, const StepReport& report);
 
  private:

@@ -30,8 +30,7 @@ namespace roam {
 
 class Walker {
  public:
-  /// Puts a body into `space` at `start`, as place() does. `space` must outlive the walker and stay where it is. Throws
-  /// roam::Error as check(settings) and place() do.
+  /// Puts a body into `space`, which must outlive it and stay where it is. Throws roam::Error as check() and place().
   Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start);
   Walker(Space&& space, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
   ~Walker();
@@ -54,8 +53,7 @@ class Walker {
   ///     `met_unknown`, and is put again once that is known, even without a revision.
   /// Throws roam::Error for a position that is not finite.
   const StepReport& place(const Vec3& centre);
-  /// The same for the lowest point of the standing body, which may lie on the floor.
-  const StepReport& place_feet(const Vec3& feet);
+  const StepReport& place_feet(const Vec3& feet);  ///< the same for the lowest point, which may lie on the floor
   /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found, or the
   /// last one of its way as a ghost, whichever is nearer; if there is none, it is held. Into walk mode only positions
   /// with something below count, if there is one.
@@ -84,12 +82,11 @@ class Walker {
   [[nodiscard]] bool crouched() const;
   [[nodiscard]] bool grounded() const;         ///< stance().grounded()
   [[nodiscard]] const Stance& stance() const;
-  /// Whether the body cannot move: it does not fit and cannot be freed (see place()), or in walk mode it would fall out
-  /// of the scene again (see EventKind::put_back), until there is something below it or the mode changes.
+  /// Whether the body cannot move: it cannot be freed (see place()), or in walk mode it would fall out of the scene
+  /// again (see EventKind::put_back), until there is something below it or the mode changes.
   [[nodiscard]] bool held() const;
   [[nodiscard]] double rise_speed() const;  ///< in the air, positive upwards; 0 on the ground and outside walk mode
-  /// The average over the last call, for LiveSpace::update(). Includes what move_instances() moved the body before a
-  /// step; excludes teleports.
+  /// The average over the last call, without teleports, with what move_instances() moved the body before a step.
   [[nodiscard]] Vec3 velocity() const;
   /// The velocity from which limits of acceleration start: at the end of the last step, along what the body slid on,
   /// relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.
@@ -100,8 +97,7 @@ class Walker {
   /// radius + step: a drop of the lowest point by more than this below the ground last stood on is a fall.
   [[nodiscard]] double fall_limit() const;
 
-  class State;
-  // For the rooms of this library alone.
+  class State;  // for the rooms of this library alone
   [[nodiscard]] const State& state() const { return *state_; }
   [[nodiscard]] State& state() { return *state_; }
 

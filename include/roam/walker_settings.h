@@ -16,23 +16,22 @@ namespace roam {
 
 /// fly: no gravity, collide and slide. walk: gravity, ground, steps, slopes, crouching. ghost: no collision.
 enum class Mode : std::uint8_t { fly, walk, ghost };
-/// "fly", "walk" or "ghost".
-[[nodiscard]] const char* to_string(Mode mode);
+[[nodiscard]] const char* to_string(Mode mode);  ///< "fly", "walk" or "ghost"
 
 /// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. No radius or
 /// height exceeds Space::reach_limit / 4.
 struct WalkerSettings {
-  double radius = 0.3;  ///< > 0: half the width that the body needs; too small a body falls into cracks
-  /// >= 0: radius of the support disc, in walk mode; 0: none, the body stands on its round end. The disc carries the
-  /// body, at the height of the floor, over each crack with no room for the disc: half the width of the widest crack and
-  /// 2 mm more will do. It touches nothing. Less than `radius` counts as `radius`. Unknown space carries it as floor
-  /// does; the report says `met_unknown`. docs/walking.md tells cracks from pits.
+  double radius = 0.3;  ///< > 0. Too large a body is kept out of rooms; too small a body falls into cracks
+  /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
+  /// over each crack that has no room for the disc: half the width of the widest crack plus 2 mm will do. It touches
+  /// nothing. Less than `radius` counts as `radius`. Unknown space carries it as floor does; the report says
+  /// `met_unknown`. docs/walking.md tells cracks from pits.
   double support_radius = 0.0;
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().
   double height = 1.8;
-  double eye = 1.6;  ///< [0, height]: camera above the lowest point when standing; in proportion when crouched
-  double step = 0.3;  ///< [0, height / 2]: largest difference of ground that the body walks over; 0: kerbs stop it
+  double eye = 1.6;             ///< [0, height]: camera above the lowest point, lowered in proportion when crouched
+  double step = 0.3;            ///< [0, height / 2]: the body walks up and down steps so high; 0: kerbs stop it
   double slope_degrees = 45.0;  ///< [0, 89]: steeper ground is a wall to go up and a slide to go down
   double speed = 1.4;           ///< m/s, (0, 1e4], for wish_velocity() alone: Walker::step() takes any velocity
   double fast_factor = 5.0;     ///< [1, 1e3]: factor on speed when hurrying
@@ -42,11 +41,9 @@ struct WalkerSettings {
   /// [0, Space::reach_limit]: how far around the body a step measures the gap. Reported axis clearances are at most
   /// radius + clearance_reach. Larger values are slower in the open.
   double clearance_reach = 1.0;
-
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
-
-  /// A person of another size: eye and crouch height in proportion, a step of 0.3 m or half the height if that is less;
-  /// sphere() if height is 2 * radius. check() tests the range.
+  /// A person of another size: eye and crouch height in proportion, a step of at most half the height. A sphere() if
+  /// height is 2 * radius.
   static WalkerSettings person(double radius, double height) {
     if (height == 2.0 * radius) return sphere(radius);
     WalkerSettings s;
@@ -58,8 +55,7 @@ struct WalkerSettings {
     s.step = std::min(s.step, 0.5 * height);
     return s;
   }
-
-  /// A sphere, as in the paper: the eye at its centre, a step of 0.3 m or its radius if that is less.
+  /// A sphere, as in the paper: the eye at its centre, a step of at most its radius.
   static WalkerSettings sphere(double radius) {
     WalkerSettings s;
     s.radius = radius;
@@ -87,9 +83,9 @@ struct WalkerInput {
   Vec3 velocity{0.0};
   bool jump = false;    ///< walk mode: jump when on the ground; while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch and stay so; under low ceilings the body crouches by itself
-  /// m/s^2, > 0: how fast Walker::pace() may approach `velocity`, slower by `braking` and faster by `acceleration`;
-  /// infinite: at once. The distance does not depend on the time step: from v the body stops after v^2 / (2 braking)
-  /// metres. Contacts and a space that makes it wait still stop it at once.
+  /// m/s^2, > 0: how fast Walker::pace() may approach `velocity`, slower by `braking` and faster by `acceleration`.
+  /// Whatever the time step, the body stops from v after v^2 / (2 braking) metres. Contacts and a slow space still stop
+  /// it at once.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
 };

@@ -26,11 +26,10 @@ namespace roam {
 
 struct BuildOptions {
   int threads = 0;  ///< at most one per core; 0: one per core
-  /// Hits are exact to 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle. Triangles wider than 16 km are less
-  /// exact: see WorldStats::largest_error_m.
+  /// Exact to 1e-5 m instead of 2 mm, for 8 to 10 more bytes a triangle; less for triangles wider than 16 km, see
+  /// WorldStats::largest_error_m.
   bool lossless = false;
-  /// Called now and then with the fraction done, in [0, 1], by one thread at a time. To cancel, return false: build()
-  /// then throws roam::Cancelled.
+  /// Called with the fraction done, in [0, 1], by one thread at a time. Return false to make build() throw Cancelled.
   std::function<bool(double)> progress = {};
 };
 
@@ -42,7 +41,7 @@ struct WorldStats {
   double largest_error_m = 0.0;  ///< farthest that a stored vertex lies from where the caller put it
 };
 
-struct WorldData;  ///< the tiles and the tree over them
+struct WorldData;
 
 class World final : public Space {
  public:
@@ -55,7 +54,6 @@ class World final : public Space {
   /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for an index out of range or a used
   /// vertex that is not finite or beyond coordinate_limit, naming mesh and triangle, and for 2^32 triangles or more.
   [[nodiscard]] static World build(std::span<const Mesh> meshes, const BuildOptions& options = {});
-
   /// Each world of a process has a revision of its own, so assigning another world changes the revision.
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override;
