@@ -37,8 +37,8 @@ struct Pose {
 };
 
 struct Velocity {
-  Vec3 linear{0.0};      ///< of the instance's origin, m/s
-  double turning = 0.0;  ///< rad/s
+  Vec3 linear{0.0};                                                  ///< of the instance's origin, m/s
+  double turning = 0.0;                                              ///< rad/s
   [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;  ///< m/s, of a point; all in the scene's frame
 };
 

@@ -19,7 +19,7 @@ struct Mesh {
   std::string name = {};                                     ///< of the object, for display; may be empty
   std::vector<Vec3> vertices = {};                           ///< in the scene's frame
   std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< indices into vertices; either winding
-  std::uint64_t user_data = 0;  ///< the program's own; Space::object() returns it
+  std::uint64_t user_data = 0;                               ///< the program's own; Space::object() returns it
   [[nodiscard]] Triangle triangle(std::size_t i) const {
     const auto& t = triangles[i];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};

@@ -2,11 +2,7 @@
 /// \file
 /// An opening: the narrowest place of a way, or one that a body does not fit through. Lengths are metres.
 ///
-///     if (walker.report().blocked)
-///       if (const auto opening = roam::measure_opening(walker, ahead))
-///         std::cout << to_string(opening->kind) << " " << opening->width << " m\n";
-///
-/// passage.h finds the narrowest opening of the widest way between two positions.
+/// measure_opening() measures what stops a walker; passage.h finds the narrowest opening of the widest way.
 
 #include <cstdint>
 #include <optional>

@@ -54,18 +54,21 @@ class Patchwork final : public LiveSpace {
   /// outside that box may overlap a body, which is then freed or held (see Walker::place()). Throws roam::Error for a
   /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
-  /// The patches that refine one must cover it together. They replace it together, when each has come or is itself
+  /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
   /// refined by patches that have; if one fails, the coarse patch stays. They may come before it. Expect all of them
   /// before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
+
   /// Delivers an expected patch. An empty world means that nothing is there. A patch that has been replaced is dropped.
   /// Throws roam::Error for a patch that was not expected or is delivered already, and for a world that is stored less
-  /// exactly than error_limit or has more than 4 billion triangles. Like expect(), fail() and forget(), it also frees
-  /// worlds that updates replaced, so that the thread of the body need not.
+  /// exactly than error_limit or has more than 4 billion triangles. This call, expect(), fail() and forget() free
+  /// worlds that updates replaced; update() does not.
   void deliver(PatchId patch, World world);
+
   /// Marks a patch as failed, with a reason for display. Its box stays solid; if it refines another, that one stays. It
   /// may still be delivered. Throws roam::Error for a patch that was not expected or is delivered.
   void fail(PatchId patch, const std::string& reason);
+
   /// Makes a delivered patch unknown again and frees its world; the patch may be delivered again. Waits while the body
   /// is in the box or within 2 * margin of it, but not in an update() without a body. If the patch comes back during
   /// that wait it takes its place at once, and may overlap the body. Does nothing if finer patches replaced it. Throws
@@ -77,7 +80,7 @@ class Patchwork final : public LiveSpace {
   /// Throws roam::Error, and takes nothing, for a body or position that no query takes.
   bool update(const Body& body, const Vec3& place);
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
-  bool update();  ///< the same without a body
+  bool update();                                    ///< the same without a body
   [[nodiscard]] SpaceFacts facts() const override;  ///< the largest error is error_limit
   /// A triangle's number is its patch times 2^32 plus its number in the patch's world. It is stable while the patch is
   /// in use, and never another patch's. The sides of an unknown box have numbers too; the name of their object is the

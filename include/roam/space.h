@@ -149,14 +149,17 @@ class Space {
   /// at most contacts.size(), nearest first, ties by triangle, and returns how many: fewer than contacts.size() means
   /// all. The cost for n contacts is n log n, or n^2 for motions over 64 m.
   std::size_t contacts(const Query& query, double reach, std::span<Contact> contacts) const;
+
   /// The least gap on the motion, within `reach` of the body's surface. `distance` is a certified lower bound over the
   /// whole motion, at most 2 mm below the true gap, and positive if that is above 2 mm. Of triangles whose distances
   /// differ by less than 2 mm any may be named; contacts() names the nearest.
   [[nodiscard]] Clearance clearance(const Query& query, double reach) const;
+
   /// The clearance of a body at rest from floor alone. With a band, only the part of a triangle inside it is measured:
   /// a capsule as high as the band measures the horizontal distance. Unknown space counts as floor if it reaches into
   /// the band near the body. Also throws roam::Error for a `floor` out of range.
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const;
+
   /// A certified lower bound of the least gap on the motion, or `reach` if nothing is within it. A value above 0 means
   /// that the whole motion is free; if below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
   /// touching, overlapping or a gap below 2 mm; it is not a depth.

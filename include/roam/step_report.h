@@ -97,17 +97,17 @@ struct StepReport {
   double radius = 0.0;           ///< of the body now
   /// At `to`: of the last segment, or of the position if the body did not move. 0: none (ghost, or overlapping).
   double axis_clearance = 0.0;
-  double least_axis_clearance = 0.0;  ///< the least of all segments and `to`
-  double least_gap = 0.0;             ///< the least axis clearance - radius of the same, each with its own radius
-  double elapsed = 0.0;               ///< simulated time: dt, or less if throttled
-  double landing_speed = 0.0;         ///< m/s, downward: the fastest landing of this step; 0: none
-  Vec3 ground_velocity{0.0};          ///< m/s: see Stance::ground_velocity
-  bool grounded = false;              ///< stands on something (walk mode)
-  bool bridging = false;              ///< its support disc spans the crack below it
-  bool blocked = false;               ///< could not go on in the wished direction; contacts.back() is why
-  bool held = false;                  ///< see EventKind::held: the same as Walker::held()
-  bool put_back = false;              ///< see EventKind::put_back
-  bool met_unknown = false;           ///< see EventKind::met_unknown
+  double least_axis_clearance = 0.0;    ///< the least of all segments and `to`
+  double least_gap = 0.0;               ///< the least axis clearance - radius of the same, each with its own radius
+  double elapsed = 0.0;                 ///< simulated time: dt, or less if throttled
+  double landing_speed = 0.0;           ///< m/s, downward: the fastest landing of this step; 0: none
+  Vec3 ground_velocity{0.0};            ///< m/s: see Stance::ground_velocity
+  bool grounded = false;                ///< stands on something (walk mode)
+  bool bridging = false;                ///< its support disc spans the crack below it
+  bool blocked = false;                 ///< could not go on in the wished direction; contacts.back() is why
+  bool held = false;                    ///< see EventKind::held: the same as Walker::held()
+  bool put_back = false;                ///< see EventKind::put_back
+  bool met_unknown = false;             ///< see EventKind::met_unknown
   [[nodiscard]] double length() const;  ///< of the way that the centre moved, without teleports
   [[nodiscard]] bool has(EventKind kind) const {
     for (const Event& e : events)

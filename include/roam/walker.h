@@ -6,14 +6,13 @@
 ///     const roam::StepReport& step = walker.step({.velocity = {1.4, 0.0, 0.0}}, 1.0 / 60.0);
 ///     std::cout << walker.position().x << " is at least " << step.axis_clearance << " m from every wall\n";
 ///
-/// Lengths are metres, times seconds, speeds m/s. Positions are those of the body's centre. In fly and walk mode, for
+/// Lengths are metres, times seconds, speeds m/s. Positions are those of the body's centre. In fly and walk mode, at
 /// any speed and time step, the body moves only along segments that the space has certified free, in this step or, if
-/// the space has a revision, in an earlier one. Its axis is always at least radius - 1e-6 m from every triangle. The
-/// report lists the segments, each with a certified axis clearance. The exception is a body that is *put* where it does
-/// not fit: it is freed or held (see place()), and the report says which. docs/walking.md has the rules of motion.
+/// the space has a revision, in an earlier one. So its axis stays at least radius - 1e-6 m from every triangle. A body
+/// that is *put* where it does not fit is the exception: see place(). docs/walking.md has the rules of motion.
 ///
 /// The same space, settings and calls give the same bits. A step allocates nothing. Use a Walker from one thread at a
-/// time; several may share a space, and do not meet each other. A copy is a second body in the same state, such as a
+/// time. Several may share a space; they do not meet each other. A copy is a second body in the same state, such as a
 /// snapshot to return to. A moved-from Walker may only be assigned to or destroyed.
 
 #include <memory>
@@ -42,22 +41,25 @@ class Walker {
   /// Moves the body for `dt` seconds. Returns report(), which the next call of any kind overwrites. Throws roam::Error
   /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration <= 0.
   const StepReport& step(const WalkerInput& input, double dt);
-  /// Puts the standing body at rest with its centre, half the height above its lowest point, at `centre`. If it does
-  /// not fit there, the first of these that works:
-  ///   - in walk mode, the crouched body with the same lowest point;
-  ///   - the nearest free position found, at most the body's height away, on the same side of every wall: a sphere
-  ///     about the centre, as large as the start allows, gets there straight;
-  ///   - in walk mode, the crouched body with its centre there;
-  ///   - the body is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of the
-  ///     space's revision or of the size, the next step puts it again where it is. In unknown space it also reports
-  ///     `met_unknown`, and is put again once that is known, even without a revision.
+
+  /// Puts the standing body at rest with its centre at `centre`, half its height above its lowest point. If it does not
+  /// fit there, the first of these that works:
+  ///   - in walk mode, it crouches with the same lowest point;
+  ///   - it is freed: put to the nearest free position found, at most its height away. A sphere about its centre, as
+  ///     large as the start allows, meets nothing on the straight line there: the centre stays on its side of walls;
+  ///   - in walk mode, it crouches with the same centre;
+  ///   - it is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of its size or
+  ///     of the space's revision, the next step puts it there again. In unknown space it also reports `met_unknown`,
+  ///     and is put again once that is known, even without a revision.
   /// Throws roam::Error for a position that is not finite.
   const StepReport& place(const Vec3& centre);
   const StepReport& place_feet(const Vec3& feet);  ///< the same for the lowest point, which may lie on the floor
+
   /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found, or the
   /// last one of its way as a ghost, whichever is nearer; if there is none, it is held. Into walk mode only positions
   /// with something below count, if there is one.
   const StepReport& set_mode(Mode mode);
+
   /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
   ///
   /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside,
@@ -67,6 +69,7 @@ class Walker {
   /// support disc does not shrink while it carries the body.
   void set_regions(std::span<const SizeRegion> regions);
   [[nodiscard]] std::span<const SizeRegion> regions() const;
+
   /// Sets the size outside all regions. The body shrinks or grows as in regions, in this call or later; see report().
   /// Returns whether it has the size wanted at its position. Throws roam::Error for a size that settings may not have.
   bool resize(double radius, double support_radius);
@@ -80,7 +83,7 @@ class Walker {
   [[nodiscard]] Vec3 eye() const;              ///< the camera
   [[nodiscard]] Body body() const;             ///< in its present size, standing or crouched
   [[nodiscard]] bool crouched() const;
-  [[nodiscard]] bool grounded() const;         ///< stance().grounded()
+  [[nodiscard]] bool grounded() const;  ///< stance().grounded()
   [[nodiscard]] const Stance& stance() const;
   /// Whether the body cannot move: it cannot be freed (see place()), or in walk mode it would fall out of the scene
   /// again (see EventKind::put_back), until there is something below it or the mode changes.
