@@ -6,8 +6,7 @@
 ///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// The promises of space.h hold for the rest. Unknown space is never ignored, nor anything in a Pager, which numbers no
-/// objects.
+/// The promises of space.h hold for the rest. Unknown space is never ignored; a Pager has no numbers of objects.
 
 #include <cstdint>
 #include <span>

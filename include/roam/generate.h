@@ -58,8 +58,7 @@ class Scene {
 ///   .ply  binary little endian, double x y z, uint indices; loses only the names
 ///   .obj  each mesh a group `o NAME`; the fewest digits that read back as the same double
 ///   .stl  binary floats, without names; refused for bounds beyond 32,768 m, where floats are off by more than 1 mm
-/// After an error or a cancellation the file is as it was before. Throws roam::Error for another extension and if the
-/// file cannot be written.
+/// Throws roam::Error for another extension and if writing fails. Then, or if cancelled, `path` is as it was before.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
 /// A straight path of a body's centre.

@@ -10,8 +10,8 @@
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
 /// Before the first update() all space is free. Expected and delivered patches take effect at the next update().
-/// Patches that refine another replace it together, once the body is free in them; until then the coarse patch stays. A
-/// body that does not fit where it is anyway (a ghost in a wall, a body in unknown space) delays nothing.
+/// Patches that refine another replace it together, once the body is free in them. A body that does not fit where it is
+/// anyway (a ghost in a wall, a body in unknown space) delays nothing.
 ///
 /// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. All else belongs to the
 /// thread that moves the body; queries may run at the same time, but not during update(). Results depend, to the bit,
@@ -59,20 +59,19 @@ class Patchwork final : public LiveSpace {
   /// before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
-  /// Delivers an expected patch. An empty world means that nothing is there. A patch that has been replaced is dropped.
-  /// Throws roam::Error for a patch that was not expected or is delivered already, and for a world that is stored less
-  /// exactly than error_limit or has more than 4 billion triangles. This call, expect(), fail() and forget() free
-  /// worlds that updates replaced; update() does not.
+  /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds
+  /// that updates replaced are freed here, and in expect(), fail() and forget(). Throws roam::Error for a patch that is
+  /// not expected or delivered already, and for a world less exact than error_limit or of over 4 billion triangles.
   void deliver(PatchId patch, World world);
 
   /// Marks a patch as failed, with a reason for display. Its box stays solid; if it refines another, that one stays. It
   /// may still be delivered. Throws roam::Error for a patch that was not expected or is delivered.
   void fail(PatchId patch, const std::string& reason);
 
-  /// Makes a delivered patch unknown again and frees its world; the patch may be delivered again. Waits while the body
-  /// is in the box or within 2 * margin of it, but not in an update() without a body. If the patch comes back during
-  /// that wait it takes its place at once, and may overlap the body. Does nothing if finer patches replaced it. Throws
-  /// roam::Error for a patch that was not expected or is not delivered.
+  /// Makes a delivered patch unknown again, which frees its world; it may be delivered again. Waits while the body is
+  /// in the box or within 2 * margin of it, unless update() gets no body. A patch that comes back during the wait takes
+  /// its place at once, and may overlap the body. Does nothing if finer patches replaced it. Throws roam::Error for a
+  /// patch that was not expected or is not delivered.
   void forget(PatchId patch);
 
   /// Takes what was delivered into use; finer patches must leave `body` free at `place`. Returns whether a triangle or

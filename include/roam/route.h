@@ -8,8 +8,7 @@
 ///     while (!route.done()) route.advance();
 ///     std::cout << roam::to_string(route.result().outcome) << "\n";
 ///
-/// The body heads straight for each waypoint and slides along what it meets: no path is searched. Lengths are metres,
-/// times seconds.
+/// The body heads straight for each waypoint, sliding along obstacles: it searches no path. Lengths in m, times in s.
 
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +34,7 @@ struct RouteOptions {
   /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
   /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
   double patience = 1.0;
-  double wait = 10.0;  ///< >= 0, real time: how long follow() with a LiveSpace waits for it since its last change
+  double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
 };
 
@@ -76,10 +75,10 @@ class Route {
   /// between steps. Throws roam::Error for no waypoint, a waypoint that is not finite or beyond coordinate_limit,
   /// options out of range, and a walker in ghost mode.
   ///
-  /// In walk mode a waypoint counts as reached if the axis is within the radius of it, seen from above, and it is at
-  /// most the step height above the body's top or below its lowest point; a body below 2 m also reaches one in sight up
-  /// to 2 m above its lowest point. In fly mode it counts if the axis is within the radius of it. The body still heads
-  /// for the waypoint itself until something keeps it from coming nearer: corners are not cut.
+  /// A waypoint counts as reached at a distance of at most the radius from the body's axis. In walk mode that distance
+  /// is horizontal, and the waypoint at most the step height above the body's top or below its lowest point, or in
+  /// sight at most 2 m above its lowest point. The body still heads for the waypoint itself until something keeps it
+  /// from coming nearer: corners are not cut.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
   [[nodiscard]] bool done() const { return done_; }
   const StepReport& advance();  ///< makes one step; throws roam::Error when done()

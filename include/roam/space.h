@@ -150,9 +150,8 @@ class Space {
   /// all. The cost for n contacts is n log n, or n^2 for motions over 64 m.
   std::size_t contacts(const Query& query, double reach, std::span<Contact> contacts) const;
 
-  /// The least gap on the motion, within `reach` of the body's surface. `distance` is a certified lower bound over the
-  /// whole motion, at most 2 mm below the true gap, and positive if that is above 2 mm. Of triangles whose distances
-  /// differ by less than 2 mm any may be named; contacts() names the nearest.
+  /// The least gap on the motion, within `reach` of the body's surface. `distance` is a certified lower bound, at most
+  /// 2 mm too low. Any triangle within 2 mm of the nearest may be named; contacts() names the nearest.
   [[nodiscard]] Clearance clearance(const Query& query, double reach) const;
 
   /// The clearance of a body at rest from floor alone. With a band, only the part of a triangle inside it is measured:

@@ -70,9 +70,8 @@ class InlineList {
   std::size_t total_ = 0;
 };
 
-/// One straight piece of a move, from the end of the one before, with one size of the body. A change of size has its
-/// own segments: a smaller body goes from the old centre to its own, inside the old body; to grow, the old body goes to
-/// the larger one's centre, and a segment of length 0 with the new size follows.
+/// One straight piece of a move, from the end of the one before it, with one size of the body. A change of size has
+/// segments of its own, also of length 0.
 struct Segment {
   Vec3 position{0.0};   ///< of the centre at its end
   double height = 0.0;  ///< of the body

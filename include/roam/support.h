@@ -2,8 +2,7 @@
 /// \file
 /// What carries a body over cracks of the floor: their rims, and its support disc (WalkerSettings::support_radius).
 ///
-/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. See docs/walking.md, "The
-/// foot", as the disc is called there.
+/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. docs/walking.md: "The foot".
 
 #include <cstdint>
 

@@ -38,9 +38,10 @@ struct WalkerSettings {
   double gravity = 9.81;        ///< m/s^2, [0, 1e3], in walk mode. 0: a body that leaves the ground floats on
   double jump_height = 0.5;     ///< [0, 100]. 0: the body does not jump
   double crouch_height = 1.1;   ///< > 0; 2 * radius if that is more. A body that is no taller does not crouch
-  /// [0, Space::reach_limit]: how far around the body a step measures the gap. Reported axis clearances are at most
-  /// radius + clearance_reach. Larger values are slower in the open.
+  /// [0, Space::reach_limit]: how far from the body a step measures. Caps reported axis clearances at radius +
+  /// clearance_reach. Larger values are slower in the open.
   double clearance_reach = 1.0;
+
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
   /// A person of another size: eye and crouch height in proportion, a step of at most half the height. A sphere() if
   /// height is 2 * radius.
@@ -55,6 +56,7 @@ struct WalkerSettings {
     s.step = std::min(s.step, 0.5 * height);
     return s;
   }
+
   /// A sphere, as in the paper: the eye at its centre, a step of at most its radius.
   static WalkerSettings sphere(double radius) {
     WalkerSettings s;
@@ -83,9 +85,8 @@ struct WalkerInput {
   Vec3 velocity{0.0};
   bool jump = false;    ///< walk mode: jump when on the ground; while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch and stay so; under low ceilings the body crouches by itself
-  /// m/s^2, > 0: how fast Walker::pace() may approach `velocity`, slower by `braking` and faster by `acceleration`.
-  /// Whatever the time step, the body stops from v after v^2 / (2 braking) metres. Contacts and a slow space still stop
-  /// it at once.
+  /// m/s^2, > 0: how fast Walker::pace() approaches `velocity`. From v the body stops after v^2 / (2 braking) metres,
+  /// whatever the time step. Contacts and a slow space still stop it at once.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
 };
