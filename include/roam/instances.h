@@ -5,9 +5,9 @@
 ///     auto door = std::make_shared<roam::World>(roam::World::build(door_mesh));  // its hinge at the origin
 ///     roam::Instances scene(house);
 ///     const roam::ObjectId id = scene.add(door, {.position = hinge, .heading = 0.5 * pi}, {.name = "door"});
+///     scene.set_velocity(id, {.turning = 1.0});
 ///     roam::Walker walker(scene, settings, roam::Mode::walk, start);
 ///     roam::Walker* const walkers[] = {&walker};
-///     scene.set_velocity(id, {.turning = 1.0});
 ///     for (;;) {
 ///       roam::move_instances(scene, walkers, dt);  // turns the door, and pushes bodies in its way
 ///       walker.step(input, dt);
@@ -32,14 +32,17 @@ namespace roam {
 struct Pose {
   Vec3 position{0.0};    ///< each component at most coordinate_limit
   double heading = 0.0;  ///< finite
+
   [[nodiscard]] Vec3 to_scene(const Vec3& p) const;
   [[nodiscard]] Vec3 to_instance(const Vec3& p) const;
 };
 
 struct Velocity {
-  Vec3 linear{0.0};                                                  ///< of the instance's origin, m/s
-  double turning = 0.0;                                              ///< rad/s
-  [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;  ///< m/s, of a point; all in the scene's frame
+  Vec3 linear{0.0};      ///< of the instance's origin, m/s
+  double turning = 0.0;  ///< rad/s
+
+  /// The velocity, m/s, of a point at that pose, in the scene's frame.
+  [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;
 };
 
 /// What object() returns of an instance.

@@ -41,9 +41,8 @@ struct PatchworkStats {
 
 class Patchwork final : public LiveSpace {
  public:
-  static constexpr double error_limit = 1e-3;  ///< largest error of stored vertices that deliver() takes
-  /// Extra distance of a body from unknown boxes, so that it is free in a world stored to 0.99 mm that comes there.
-  static constexpr double margin = 1.99e-3;
+  static constexpr double error_limit = 1e-3;  ///< largest error of a world that deliver() takes
+  static constexpr double margin = 1.99e-3;    ///< extra distance from unknown boxes: room for a world that comes there
 
   Patchwork();
   ~Patchwork() override;

@@ -49,7 +49,6 @@ inline constexpr TriangleId no_triangle = ~TriangleId{0};  ///< in a miss, or wh
 using ObjectId = std::uint32_t;
 inline constexpr ObjectId no_object = ~ObjectId{0};  ///< in a miss, for unknown space, and for all of a Pager
 
-/// The object that a triangle belongs to.
 struct Object {
   ObjectId id = no_object;      ///< no_object: there is no such triangle, or its object has no number
   std::string name;             ///< for display; may be empty
@@ -116,10 +115,10 @@ struct FirstImpact {
 
 /// Which triangles count as floor.
 struct Floor {
-  double slope_degrees = 45.0;  ///< [0, 89]: steepest floor, either side up, as stored; never one without area
-  double band = std::numeric_limits<double>::infinity();  ///< >= 0: most above or below the plane through `point`
+  double slope_degrees = 45.0;  ///< [0, 89]: steepest floor (as stored), either side up; no triangle without area
+  double band = std::numeric_limits<double>::infinity();  ///< >= 0: how far above and below the plane floor counts
   Vec3 point{0.0};
-  Vec3 normal{0.0, 0.0, 1.0};  ///< of the plane, of any length; z > 0
+  Vec3 normal{0.0, 0.0, 1.0};  ///< of the plane through `point`; any length, z > 0
 };
 
 struct SpaceFacts {
@@ -142,8 +141,8 @@ class Space {
   [[nodiscard]] Impact sweep(const Query& query) const { return swept(query, nullptr); }
   /// The same without the contact, which takes a sixth of the time of a hit.
   [[nodiscard]] FirstImpact first_impact(const Query& query) const;
-  /// The result of sweep(), to the bit, from `first`, that of first_impact() for the same query. Throws roam::Error if
-  /// it is a hit and the space's revision has changed since; a space without revision must not have changed.
+  /// Completes `first`, from first_impact() for the same query, to the result of sweep(), to the bit. Throws
+  /// roam::Error for a hit if the space's revision has changed since; a space without revision must not have changed.
   [[nodiscard]] Impact completed(const Query& query, const FirstImpact& first) const;
   /// The triangles within `reach` of the body's surface, each measured where the motion brings the body closest. Writes
   /// at most contacts.size(), nearest first, ties by triangle, and returns how many: fewer than contacts.size() means
@@ -164,8 +163,8 @@ class Space {
   /// touching, overlapping or a gap below 2 mm; it is not a depth.
   [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
-  /// Batches, on all cores: answers[i] is, to the bit, what the function above returns for queries[i]. Both spans have
-  /// one size. Allocate. An error names the query by its index; then no answer is written.
+  /// Batches on all cores; they allocate. answers[i] is, to the bit, what the function above returns for queries[i];
+  /// both spans have one size. An error names the query by its index, and no answer is written.
   void sweep(std::span<const Query> queries, std::span<Impact> answers) const;
   void clearance(std::span<const Query> queries, double reach, std::span<Clearance> answers) const;
   void gap(std::span<const Query> queries, double reach, std::span<double> answers) const;
@@ -198,6 +197,7 @@ class Space {
     constexpr double least_gap = 1e-6;
     return clearance(body, place, least_gap).distance >= least_gap;
   }
+
   [[nodiscard]] virtual SpaceFacts facts() const = 0;  ///< as of now
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }
@@ -208,10 +208,12 @@ class Space {
   // For authors of spaces: all queries come down to these two functions, which must keep the promises in the head of
   // this file. Queries have been checked and may come from several threads at once. `vicinity` is a cache of this
   // library's own spaces, or null: other spaces ignore it.
+
   /// The earliest impact, without ignored objects. At time 0 it names the triangle with the most negative distance.
   [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
   /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
+
   // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);

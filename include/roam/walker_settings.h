@@ -30,19 +30,18 @@ struct WalkerSettings {
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().
   double height = 1.8;
-  double eye = 1.6;             ///< [0, height]: camera above the lowest point, lowered in proportion when crouched
-  double step = 0.3;            ///< [0, height / 2]: the body walks up and down steps so high; 0: kerbs stop it
-  double slope_degrees = 45.0;  ///< [0, 89]: steeper ground is a wall to go up and a slide to go down
-  double speed = 1.4;           ///< m/s, (0, 1e4], for wish_velocity() alone: Walker::step() takes any velocity
-  double fast_factor = 5.0;     ///< [1, 1e3]: factor on speed when hurrying
-  double gravity = 9.81;        ///< m/s^2, [0, 1e3], in walk mode. 0: a body that leaves the ground floats on
-  double jump_height = 0.5;     ///< [0, 100]. 0: the body does not jump
-  double crouch_height = 1.1;   ///< > 0; 2 * radius if that is more. A body that is no taller does not crouch
-  /// [0, Space::reach_limit]: how far from the body a step measures. Caps reported axis clearances at radius +
-  /// clearance_reach. Larger values are slower in the open.
-  double clearance_reach = 1.0;
+  double eye = 1.6;              ///< [0, height]: camera above the lowest point, lowered in proportion when crouched
+  double step = 0.3;             ///< [0, height / 2]: the body walks up and down steps so high; 0: kerbs stop it
+  double slope_degrees = 45.0;   ///< [0, 89]: steeper ground is a wall to go up and a slide to go down
+  double speed = 1.4;            ///< m/s, (0, 1e4], for wish_velocity() alone: Walker::step() takes any velocity
+  double fast_factor = 5.0;      ///< [1, 1e3]: factor on speed when hurrying
+  double gravity = 9.81;         ///< m/s^2, [0, 1e3], in walk mode. 0: a body that leaves the ground floats on
+  double jump_height = 0.5;      ///< [0, 100]. 0: the body does not jump
+  double crouch_height = 1.1;    ///< > 0; 2 * radius if that is more. A body that is no taller does not crouch
+  double clearance_reach = 1.0;  ///< [0, Space::reach_limit]: caps reported gaps; larger is slower in the open
 
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
+
   /// A person of another size: eye and crouch height in proportion, a step of at most half the height. A sphere() if
   /// height is 2 * radius.
   static WalkerSettings person(double radius, double height) {
