@@ -27,8 +27,8 @@ struct Frame;
 /// For a clearance it keeps one. Let G be the true gap and d a certified distance that was offered, at most `doubt` too
 /// low, so that G <= d + doubt. Leaving out what is no nearer than E = d + doubt - tolerance costs at most the
 /// tolerance. enough() is the least such E, or d if less; certified() is the least of d and of the bounds passed to
-/// left_out(). It never exceeds G and is at least the last enough(). For a small d, E is 15/16 d, so that the sign is
-/// right. For a gap, E is 7/8 (d + doubt): a bound d that is no less than E serves as well as an exact distance.
+/// left_out(). It never exceeds G and is at least the last enough(). E is at least 15/16 d, so that the sign is right.
+/// For a gap, E is 7/8 (d + doubt): a bound d that is no less than E serves as well as an exact distance.
 class Collector {
  public:
   enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };  ///< the caller's query

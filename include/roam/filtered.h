@@ -25,6 +25,7 @@ class Filtered final : public LiveSpace {
   explicit Filtered(const Space& space);
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;
+
   /// Ignores an object, or no longer. no_object is never ignored; a number of a Patchwork means that object in every
   /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);

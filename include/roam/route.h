@@ -8,7 +8,8 @@
 ///     while (!route.done()) route.advance();
 ///     std::cout << roam::to_string(route.result().outcome) << "\n";
 ///
-/// The body heads straight for each waypoint, sliding along obstacles: it searches no path. Lengths in m, times in s.
+/// The body heads straight for each waypoint and slides along obstacles; it searches no path. The same input gives the
+/// same bits, as with Walker. Lengths are metres, times seconds.
 
 #include <cstddef>
 #include <cstdint>

@@ -12,7 +12,8 @@
 /// the axis is within radius + 1.5e-14 * reach of the triangle. The reach is radius + half height + motion + offset of
 /// the farthest corner, the last two as |x| + |y| + |z|; the distance to the scene's origin does not matter.
 ///
-/// All functions are pure, and throw roam::Error for input that is not finite, beyond 1e12 m, or of negative size.
+/// All functions are pure and thread-safe. They throw roam::Error for input that is not finite or beyond 1e12 m, and for
+/// a negative radius or half height.
 
 #include <cstdint>
 
