@@ -22,7 +22,7 @@ class FloorOnly;
 struct Frame;
 }  // namespace query
 
-/// Keeps the nearest contacts in the caller's memory, as a heap with the farthest on top. Lengths are metres.
+/// Keeps the nearest contacts in the caller's memory. Lengths are metres.
 ///
 /// For a clearance it keeps one. Let G be the true gap and d a certified distance that was offered, at most `doubt` too
 /// low, so that G <= d + doubt. Leaving out what is no nearer than E = d + doubt - tolerance costs at most the

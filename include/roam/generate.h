@@ -32,7 +32,7 @@ inline constexpr double origin_limit = 1e7;               ///< largest absolute 
 
 /// Receives the meshes of a scene in a fixed order, each valid only during the call. Exceptions pass through.
 using Sink = std::function<void(const Mesh&)>;
-/// Called now and then with the number of triangles done. To cancel, return false: roam::Cancelled is thrown.
+/// Called with the number of triangles done. To cancel, return false: roam::Cancelled is thrown.
 using Progress = std::function<bool(std::uint64_t triangles)>;
 
 /// A description of a scene, from which it is made. Cheap to copy.

@@ -74,8 +74,7 @@ class Patchwork final : public LiveSpace {
   void forget(PatchId patch);
 
   /// Takes what was delivered into use; finer patches must leave `body` free at `place`. Returns whether a triangle or
-  /// an unknown box came or went. Takes some microseconds; up to 1 us for each patch in use if a quarter of all is new.
-  /// Throws roam::Error, and takes nothing, for a body or position that no query takes.
+  /// an unknown box came or went. Throws roam::Error, and takes nothing, for a body or position that no query takes.
   bool update(const Body& body, const Vec3& place);
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   bool update();                                    ///< the same without a body

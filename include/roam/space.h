@@ -2,12 +2,10 @@
 /// \file
 /// Collision queries: the interface of all that a body moves in (World, Patchwork, Instances, Filtered, Pager).
 ///
-///     double headroom(const roam::Space& space, const roam::Vec3& position) {
-///       return 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
-///     }
+///     const double headroom = 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///
-/// sweep() finds the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
-/// nearest triangle. first_impact() and gap() return less, at a fraction of the cost.
+/// sweep() returns the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
+/// nearest triangle. first_impact() and gap() return less, for less time.
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed

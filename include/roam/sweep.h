@@ -12,8 +12,8 @@
 /// the axis is within radius + 1.5e-14 * reach of the triangle. The reach is radius + half height + motion + offset of
 /// the farthest corner, the last two as |x| + |y| + |z|; the distance to the scene's origin does not matter.
 ///
-/// All functions are pure and thread-safe. They throw roam::Error for input that is not finite or beyond 1e12 m, and for
-/// a negative radius or half height.
+/// All functions are pure and thread-safe. They throw roam::Error for input that is not finite or beyond 1e12 m, and
+/// for a negative radius or half height.
 
 #include <cstdint>
 
@@ -33,9 +33,8 @@ struct Body {
   [[nodiscard]] double height() const { return 2.0 * (radius + half_height); }  ///< caps included
 };
 
-/// The part of a triangle that is touched.
-enum class Feature : std::uint8_t { face, edge, vertex };
-[[nodiscard]] const char* to_string(Feature feature);  ///< "face", "edge" or "vertex"
+enum class Feature : std::uint8_t { face, edge, vertex };  ///< the part of a triangle that is touched
+[[nodiscard]] const char* to_string(Feature feature);      ///< "face", "edge" or "vertex"
 
 /// The result of a sweep. A miss sets only `time` and `distance`.
 struct SweepResult {

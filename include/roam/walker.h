@@ -61,7 +61,6 @@ class Walker {
   const StepReport& set_mode(Mode mode);
 
   /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
-  ///
   /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside,
   /// to within half a radius of its way. It shrinks at once, keeping its lowest point and, unless a sphere, its height.
   /// It grows as soon as the larger body is certified free with the same lowest point, or on a slope a little higher. A
@@ -85,11 +84,10 @@ class Walker {
   [[nodiscard]] bool crouched() const;
   [[nodiscard]] bool grounded() const;  ///< stance().grounded()
   [[nodiscard]] const Stance& stance() const;
-  /// Whether the body cannot move: it cannot be freed (see place()), or in walk mode it would fall out of the scene
-  /// again (see EventKind::put_back), until there is something below it or the mode changes.
+  /// Cannot move: cannot be freed (see place()), or would fall out of the scene again, until the mode or space changes.
   [[nodiscard]] bool held() const;
   [[nodiscard]] double rise_speed() const;  ///< in the air, positive upwards; 0 on the ground and outside walk mode
-  /// The average over the last call, without teleports, with what move_instances() moved the body before a step.
+  /// For LiveSpace::update(): the average over the last call and the move_instances() before it, without teleports.
   [[nodiscard]] Vec3 velocity() const;
   /// The velocity from which limits of acceleration start: at the end of the last step, along what the body slid on,
   /// relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.

@@ -42,8 +42,8 @@ struct WalkerSettings {
 
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
 
-  /// A person of another size: eye and crouch height in proportion, a step of at most half the height. A sphere() if
-  /// height is 2 * radius.
+  /// A person of another size: eye and crouch height in proportion, step at most height / 2. sphere() if height is
+  /// 2 * radius.
   static WalkerSettings person(double radius, double height) {
     if (height == 2.0 * radius) return sphere(radius);
     WalkerSettings s;
@@ -73,8 +73,8 @@ void check(const WalkerSettings& settings);
 /// and for a size that these settings may not have.
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 
-/// The velocity, m/s, of a person who pushes in `direction`, which is shortened to length 1 if it is longer. Throws
-/// roam::Error for a direction that is not finite.
+/// The velocity, m/s, of a person who pushes in `direction`; its length counts up to 1. Throws roam::Error if it is not
+/// finite.
 [[nodiscard]] Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast);
 
 /// The wish for one step.
