@@ -47,8 +47,7 @@ class Collector {
   }
   /// Reports that something was left out. `gap` is a certified lower bound of its distance, beyond enough().
   void left_out(double gap) { left_out_ = gap < left_out_ ? gap : left_out_; }
-  /// Limits, before the first offer(), how much too low a clearance may be; 1.99 mm otherwise. 0: clearances and gaps
-  /// are as exact as possible.
+  /// Before any offer(): how much too low a clearance may be, 1.99 mm by default. 0: clearances and gaps are exact.
   void demand(double tolerance);
 
   // The rest is for this library's own spaces and for Space.
@@ -58,7 +57,6 @@ class Collector {
       : out_(&out, 1), only_(&first), asked_(4e-3), reach_(asked_), enough_(asked_), kind_(Kind::one_contact) {}
   void expect_repeats() { repeats_ = true; }  ///< one triangle may be offered twice; costs a scan an offer
   void take_floor_only(const query::FloorOnly& floor) { floor_ = &floor; }
-  /// For Kind::one_contact.
   void take_only(const Contact& contact) {
     if (frame_ != nullptr) return keep_seen(contact, 0.0);
     out_[0] = contact;

@@ -16,12 +16,10 @@
 
 namespace roam {
 
-/// Holds no triangles: use one for each body that ignores other objects. Queries may run at the same time, but not
-/// during update() or a change of the ignored objects.
+/// Use one for each body: it holds no triangles. Queries may run at the same time, but not during update() or a change.
 class Filtered final : public LiveSpace {
  public:
-  /// Ignores nothing yet. `space` must outlive this and stay where it is. A Filtered made from a Filtered is a copy: it
-  /// has the same space and ignores the same objects.
+  /// Ignores nothing yet. `space` must outlive this and stay where it is. A Filtered made from a Filtered is its copy.
   explicit Filtered(const Space& space);
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;

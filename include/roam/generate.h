@@ -32,8 +32,7 @@ inline constexpr double origin_limit = 1e7;               ///< largest absolute 
 
 /// Receives the meshes of a scene in a fixed order, each valid only during the call. Exceptions pass through.
 using Sink = std::function<void(const Mesh&)>;
-/// Called with the number of triangles done. To cancel, return false: roam::Cancelled is thrown.
-using Progress = std::function<bool(std::uint64_t triangles)>;
+using Progress = std::function<bool(std::uint64_t triangles)>;  ///< triangles done; on false, throws roam::Cancelled
 
 /// A description of a scene, from which it is made. Cheap to copy.
 class Scene {
@@ -51,8 +50,7 @@ class Scene {
   std::shared_ptr<const Plan> plan_;
 };
 
-/// Makes the whole scene at once, in about 30 bytes a triangle.
-[[nodiscard]] std::vector<Mesh> collect(const Scene& scene, const Progress& progress = {});
+[[nodiscard]] std::vector<Mesh> collect(const Scene& scene, const Progress& progress = {});  ///< ~30 bytes a triangle
 
 /// Writes the scene to `path`, in the format of its extension (either case):
 ///   .ply  binary little endian, double x y z, uint indices; loses only the names

@@ -45,17 +45,15 @@ struct Velocity {
   [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;
 };
 
-/// What object() returns of an instance.
 struct InstanceLabel {
-  std::string name = {};
+  std::string name = {};  ///< object() returns both
   std::uint64_t user_data = 0;
 };
 
 /// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate.
 class Instances final : public LiveSpace {
  public:
-  /// The largest_error() of the whole is this or, if larger, that of the space. A world with more is refused: build
-  /// large ones with BuildOptions::lossless.
+  /// largest_error() is this or, if larger, that of the space. Worlds with more are refused: build them lossless.
   static constexpr double usual_error = 1e-4;
 
   /// `space` is what does not move, as a World or a Pager. It must outlive this and stay where it is. Its objects and
@@ -73,8 +71,7 @@ class Instances final : public LiveSpace {
   ObjectId add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label = {});
   // Functions that take a number throw roam::Error if no instance has it, except has().
   void remove(ObjectId instance);
-  /// Puts the instance there at once. A body that it then overlaps is freed or held by its next step, see
-  /// Walker::place(). move_instances() moves bodies along instead. Throws roam::Error for a pose as add() does.
+  /// Puts it there at once; a body that it then overlaps is freed or held by its next step. Throws as add() for a pose.
   void set_pose(ObjectId instance, const Pose& pose);
   [[nodiscard]] const Pose& pose(ObjectId instance) const;
   /// The velocity for move_instances(). Throws roam::Error if it is not finite.

@@ -18,9 +18,8 @@ struct Stopped {
   double time = 0.0;       ///< seconds that the instance moved, < dt
 };
 
-/// Moves each instance by its velocity for `dt` seconds, in the order in which they were added, and returns those that
-/// had to stop. Call it before the walkers' steps of the same `dt`. To stop an instance at a position, give it a
-/// smaller velocity for the last call.
+/// Moves each instance by its velocity for `dt` seconds, in the order added, and returns those that had to stop. Call
+/// it before the walkers' steps of the same `dt`. To reach a position, set a smaller velocity for the last call.
 ///
 /// | a body that | |
 /// |---|---|

@@ -1,8 +1,6 @@
 #pragma once
 /// \file
-/// An opening: the narrowest place of a way, or one that a body does not fit through. Lengths are metres.
-///
-/// measure_opening() measures what stops a walker; passage.h finds the narrowest opening of the widest way.
+/// Openings: the narrowest place of a way (see passage.h), or what stops a walker (measure_opening()). In metres.
 
 #include <cstdint>
 #include <optional>

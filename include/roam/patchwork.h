@@ -79,10 +79,9 @@ class Patchwork final : public LiveSpace {
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   bool update();                                    ///< the same without a body
   [[nodiscard]] SpaceFacts facts() const override;  ///< the largest error is error_limit
-  /// A triangle's number is its patch times 2^32 plus its number in the patch's world. It is stable while the patch is
-  /// in use, and never another patch's. The sides of an unknown box have numbers too; the name of their object is the
-  /// reason: that of fail(), else "not loaded yet". Space::contacts() lists such a box once, where it is nearest.
-  /// Objects are numbered within each patch. A triangle of a patch that is gone has no object.
+  /// A triangle's number is its patch times 2^32 plus that in the patch's world: stable while the patch is in use, and
+  /// never another patch's. Objects are numbered within each patch. The sides of an unknown box have numbers too; the
+  /// name is the reason: that of fail(), else "not loaded yet". Space::contacts() lists such a box once.
   [[nodiscard]] Object object(TriangleId triangle) const override;
   /// The patch of a triangle or of the side of an unknown box, and its number in the patch's world.
   [[nodiscard]] static PatchId patch(TriangleId triangle) { return PatchId{triangle >> 32}; }

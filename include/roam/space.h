@@ -65,7 +65,6 @@ struct ObjectFilter {
   }
 };
 
-/// A body and its straight motion.
 struct Query {
   Body body;                              ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};                         ///< the centre at time 0
@@ -233,8 +232,7 @@ class Space {
   [[nodiscard]] double gap_over(const Query& query, double reach, Vicinity* vicinity) const;
 };
 
-/// A space that changes while a body moves in it, but only in update(). update() belongs to the thread that moves the
-/// body; no query may run during it.
+/// A space that changes, but only in update(). That belongs to the thread that moves the body; no query may run then.
 class LiveSpace : public Space {
  public:
   /// Takes changes into use, for `body` at `place` with `velocity` (m/s). Returns whether anything changed. Throws

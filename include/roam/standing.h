@@ -2,9 +2,8 @@
 /// \file
 /// Positions for a standing body: from those of its feet, or found in a space. Lengths are metres.
 ///
-///     const roam::WalkerSettings person;
-///     const std::optional<roam::Vec3> start = roam::place_to_stand(world, person, {2.0, 3.0, 0.0}, 5.0);
-///     if (start) roam::Walker walker(world, person, roam::Mode::walk, *start);
+///     const std::optional<roam::Vec3> start = roam::place_to_stand(world, settings, {2.0, 3.0, 0.0}, 5.0);
+///     if (start) roam::Walker walker(world, settings, roam::Mode::walk, *start);
 
 #include <optional>
 #include <span>

@@ -42,8 +42,8 @@ class Walker {
   /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration <= 0.
   const StepReport& step(const WalkerInput& input, double dt);
 
-  /// Puts the standing body at rest with its centre at `centre`, half its height above its lowest point. If it does not
-  /// fit there, the first of these that works:
+  /// Puts the standing body at rest with its centre, half its height above its lowest point, at `centre`. Throws
+  /// roam::Error if that is not finite. If the body does not fit there, the first of these that works:
   ///   - in walk mode, it crouches with the same lowest point;
   ///   - it is freed: put to the nearest free position found, at most its height away. A sphere about its centre, as
   ///     large as the start allows, meets nothing on the straight line there: the centre stays on its side of walls;
@@ -51,13 +51,12 @@ class Walker {
   ///   - it is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of its size or
   ///     of the space's revision, the next step puts it there again. In unknown space it also reports `met_unknown`,
   ///     and is put again once that is known, even without a revision.
-  /// Throws roam::Error for a position that is not finite.
   const StepReport& place(const Vec3& centre);
   const StepReport& place_feet(const Vec3& feet);  ///< the same for the lowest point, which may lie on the floor
 
-  /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found, or the
-  /// last one of its way as a ghost, whichever is nearer; if there is none, it is held. Into walk mode only positions
-  /// with something below count, if there is one.
+  /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found or the
+  /// last one of its way, the nearer of them, or held. Into walk mode only positions with something below count, if
+  /// any.
   const StepReport& set_mode(Mode mode);
 
   /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
@@ -74,8 +73,7 @@ class Walker {
   bool resize(double radius, double support_radius);
 
   [[nodiscard]] const Space& space() const;
-  /// The settings with the present size: radius, support_radius and, of a sphere, height, eye and step.
-  [[nodiscard]] const WalkerSettings& settings() const;
+  [[nodiscard]] const WalkerSettings& settings() const;  ///< with the present size, see set_regions() and resize()
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] const Vec3& position() const;  ///< of the centre
   [[nodiscard]] Vec3 feet() const;             ///< the lowest point
@@ -95,8 +93,7 @@ class Walker {
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
   /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. It passes openings that leave less.
   [[nodiscard]] double skin() const;
-  /// radius + step: a drop of the lowest point by more than this below the ground last stood on is a fall.
-  [[nodiscard]] double fall_limit() const;
+  [[nodiscard]] double fall_limit() const;  ///< radius + step: a larger drop below the ground last stood on is a fall
 
   class State;  // for the rooms of this library alone
   [[nodiscard]] const State& state() const { return *state_; }

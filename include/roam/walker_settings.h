@@ -42,8 +42,7 @@ struct WalkerSettings {
 
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
 
-  /// A person of another size: eye and crouch height in proportion, step at most height / 2. sphere() if height is
-  /// 2 * radius.
+  /// Another size: eye and crouch height in proportion, step at most height / 2. sphere() if height is 2 * radius.
   static WalkerSettings person(double radius, double height) {
     if (height == 2.0 * radius) return sphere(radius);
     WalkerSettings s;
@@ -73,8 +72,7 @@ void check(const WalkerSettings& settings);
 /// and for a size that these settings may not have.
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 
-/// The velocity, m/s, of a person who pushes in `direction`; its length counts up to 1. Throws roam::Error if it is not
-/// finite.
+/// The velocity, m/s, of a push in `direction`, whose length counts up to 1. Throws roam::Error if it is not finite.
 [[nodiscard]] Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast);
 
 /// The wish for one step.

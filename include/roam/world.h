@@ -52,8 +52,7 @@ class World final : public Space {
   /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for an index out of range or a used
   /// vertex that is not finite or beyond coordinate_limit, naming mesh and triangle, and for 2^32 triangles or more.
   [[nodiscard]] static World build(std::span<const Mesh> meshes, const BuildOptions& options = {});
-  /// Each world of a process has a revision of its own, so assigning another world changes the revision.
-  [[nodiscard]] SpaceFacts facts() const override;
+  [[nodiscard]] SpaceFacts facts() const override;  ///< no two worlds of a process have the same revision
   [[nodiscard]] Object object(TriangleId triangle) const override;
   [[nodiscard]] const WorldStats& stats() const;
 
