@@ -65,6 +65,7 @@ struct ObjectFilter {
   }
 };
 
+/// A body and its straight motion.
 struct Query {
   Body body;                              ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};                         ///< the centre at time 0

@@ -54,9 +54,8 @@ class Walker {
   const StepReport& place(const Vec3& centre);
   const StepReport& place_feet(const Vec3& feet);  ///< the same for the lowest point, which may lie on the floor
 
-  /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found or the
-  /// last one of its way, the nearer of them, or held. Into walk mode only positions with something below count, if
-  /// any.
+  /// Changes the mode. A body that leaves ghost mode inside a wall is put to the nearest free position found, or the
+  /// last one of its way if that is nearer, or held. Into walk mode, positions with something below come first.
   const StepReport& set_mode(Mode mode);
 
   /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
