@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// A space without some of its objects, as one body meets it: a door that stands open for it, a layer that it passes.
+/// A space without some of its objects, for one body: an open door, a layer that the body passes.
 ///
 ///     roam::Filtered open(world);
-///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that met it
+///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// All promises of space.h hold for what is left. What is unknown is never ignored, and the triangles of a Pager have
-/// no numbered objects: there nothing is.
+/// The promises of space.h hold for the rest. Unknown space is never ignored; a Pager has no numbers of objects.
 
 #include <cstdint>
 #include <span>
@@ -17,30 +16,23 @@
 
 namespace roam {
 
-/// Bodies that ignore different objects of one space have a Filtered each; it holds no triangles. Queries may run at
-/// the same time, but not during a change of what is ignored.
+/// Use one for each body: it holds no triangles. Queries may run at the same time, but not during update() or a change.
 class Filtered final : public LiveSpace {
  public:
-  /// `space` must outlive it and stay where it is. Nothing is ignored yet.
+  /// Ignores nothing yet. `space` must outlive this and stay where it is. A Filtered made from a Filtered is its copy.
   explicit Filtered(const Space& space);
-  /// The same, and update() updates it.
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;
-  // A copy is of the same space and ignores the same: so is a Filtered that is made of a Filtered.
 
-  /// From now on queries pass over this object, or meet it again. A walker follows with its next step; one that stands
-  /// inside a door that is met again is freed or held (Walker::place). no_object is never ignored. A Patchwork numbers
-  /// the objects of each patch: there the same number is passed over in every patch.
+  /// Ignores an object, or no longer. no_object is never ignored; a number of a Patchwork means that object in every
+  /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
-  /// Ignores these objects and no others.
-  void ignore_only(std::span<const ObjectId> objects);
+  void ignore_only(std::span<const ObjectId> objects);  ///< these and no others
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
-
-  /// That of the space which it was made of; false where that is no LiveSpace.
+  /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
-
   [[nodiscard]] SpaceFacts facts() const override;
   [[nodiscard]] Object object(TriangleId triangle) const override { return space_->object(triangle); }
 

@@ -1,10 +1,9 @@
 #pragma once
 /// \file
-/// Points, boxes and the two conventions everything else relies on.
+/// Points and boxes; units and axes.
 ///
-/// Lengths are metres and angles are radians unless a name says otherwise. The up axis is +z. Positions are doubles
-/// in the scene's own frame: nothing in roam shifts or rotates what a caller passes, and import.h says what it does to
-/// files.
+/// Lengths are metres, angles radians unless a name says otherwise; +z is up. Positions are doubles in the scene's own
+/// frame. roam neither shifts nor rotates what a caller passes; import.h describes what happens to files.
 
 #include <glm/vec3.hpp>
 
@@ -12,27 +11,22 @@
 
 namespace roam {
 
-/// A point or a displacement, in metres.
-using Vec3 = glm::dvec3;
+using Vec3 = glm::dvec3;  ///< a point or a displacement
 
-/// An axis-aligned box. A default-constructed box is empty and grows from nothing; the size and centre of an empty box
-/// mean nothing.
+/// An axis-aligned box. Empty by default; include() extends it. An empty box has no meaningful size or centre.
 struct Box {
   Vec3 lower{std::numeric_limits<double>::infinity()};
   Vec3 upper{-std::numeric_limits<double>::infinity()};
-
   [[nodiscard]] bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
   [[nodiscard]] Vec3 size() const { return upper - lower; }
   [[nodiscard]] Vec3 center() const { return 0.5 * lower + 0.5 * upper; }
 
-  /// Whether a point lies in it or on its border; false for a point that is not a number.
+  /// Whether `p` lies inside or on the border; false for NaN.
   [[nodiscard]] bool holds(const Vec3& p) const {
     return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z && p.z <= upper.z;
   }
-  /// Larger on both sides by so many metres along each axis.
-  [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }
+  [[nodiscard]] Box grown(const Vec3& by) const { return {lower - by, upper + by}; }  ///< by so much on each side
   [[nodiscard]] Box grown(double by) const { return grown(Vec3(by)); }
-
   void include(const Vec3& p) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = p[k] < lower[k] ? p[k] : lower[k];

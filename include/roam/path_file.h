@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Path files: the places that a body is sent along.
+/// Path files: waypoints for a body. Library target roam::files.
 ///
 /// A line is a waypoint `x y z`, in metres in the scene's frame, or a line of osgViewer's animation path
-/// `t x y z qx qy qz qw`, as its key Z records it. `#` begins a comment, also behind numbers; empty lines mean nothing.
-/// One file holds one of the two kinds. Library target roam::files.
+/// `t x y z qx qy qz qw`, as its key Z records it. A file holds only one of the two kinds. `#` begins a comment, also
+/// after numbers; empty lines are ignored.
 
 #include <array>
 #include <cstddef>
@@ -22,43 +22,37 @@
 
 namespace roam {
 
-/// What a path file holds at most.
+// Limits of a path file. Numbers are at most 1e9 in absolute value.
 inline constexpr std::size_t most_waypoints = 1'000'000;
 inline constexpr std::uint64_t longest_path_file = 128ull << 20;  ///< bytes
 inline constexpr std::size_t longest_path_line = 4096;            ///< bytes
 
-/// Where the camera of an animation path was at its moment, and how it looked.
+/// Time and view of a line of an animation path.
 struct PathPose {
-  double time = 0.0;                 ///< seconds, never less than that of the line before
-  std::array<double, 4> rotation{};  ///< the quaternion x, y, z, w as the file gives it
+  double time = 0.0;                 ///< seconds, at least that of the line before
+  std::array<double, 4> rotation{};  ///< the quaternion x, y, z, w as in the file
 };
 
-/// One line of a path file.
 struct Waypoint {
   Vec3 position{0.0};            ///< metres, scene frame
   std::optional<PathPose> pose;  ///< of an animation path
   int line = 0;                  ///< of the file, from 1, for messages
 };
 
-/// Reads a path. `name` stands for the file in messages. Throws roam::Error naming the line for anything but numbers,
-/// for a wrong count of them, for numbers that are not finite or a time that runs backwards; for a path of fewer than
-/// two waypoints, and for what is beyond the limits above.
+/// Reads a path; messages call it `name`. Throws roam::Error, naming the line, for anything but finite numbers, a wrong
+/// count of them, and a time that runs backwards; also for fewer than two waypoints, beyond the limits above, and if
+/// reading fails. load_path() does so from a file or a pipe.
 [[nodiscard]] std::vector<Waypoint> read_path(std::istream& in, const std::string& name);
-
-/// The same from a file, or from a pipe. Throws roam::Error also when it cannot be read.
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
 
-/// The comment by which a path file says whose centre went there, without an end of line:
-/// "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45". `roam walk --path` takes that body.
+/// The comment that records the body in a path file, without an end of line; `roam walk --path` takes that body:
+/// "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45", and " support 0.7" if there is a support disc.
 [[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
-
-/// Writes a path that load_path reads back to the last bit: places of the centre of `body`, which is told in a comment
-/// where it is given. Throws roam::Error for fewer than two places, for places that load_path would refuse, and when
-/// the file cannot be written.
+/// Writes positions of the centre, after body_line() if `body` is given. load_path() reads them back to the last bit.
+/// Throws roam::Error for positions that load_path() would refuse, and if writing fails: the file is incomplete then.
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
                Mode mode = Mode::walk);
 
-/// The places alone, as Walker and Route take them.
-[[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);
+[[nodiscard]] std::vector<Vec3> positions(const std::vector<Waypoint>& path);  ///< for Walker and Route
 
 }  // namespace roam

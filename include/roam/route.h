@@ -1,16 +1,15 @@
 #pragma once
 /// \file
-/// Walking or flying along waypoints, and telling how it ended.
+/// A route: walking or flying a Walker along waypoints, and how that ended.
 ///
-///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));  // or other places, of the
-///                                                                                          // centre: see standing.h
+///     const std::vector<roam::Vec3> path = roam::positions(roam::load_path("tour.path"));
 ///     roam::Walker walker(space, {.radius = 0.3}, roam::Mode::walk, path[0]);
 ///     roam::Route route(walker, path, {.speed = 1.4});
 ///     while (!route.done()) route.advance();
 ///     std::cout << roam::to_string(route.result().outcome) << "\n";
 ///
-/// The body heads straight for one waypoint after the other and slides along what it meets: a route is followed, not
-/// searched. Deterministic as the Walker is.
+/// The body heads straight for each waypoint and slides along obstacles; it searches no path. The same input gives the
+/// same bits, as with Walker. Lengths are metres, times seconds.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,91 +27,63 @@
 namespace roam {
 
 struct RouteOptions {
-  double speed = 1.4;  ///< metres per second, > 0
-  double dt =
-      1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step. A step that comes to a waypoint ends there, earlier.
-  /// Metres per second squared, > 0: see WalkerInput. With a limit to either the body comes to rest at the last
-  /// waypoint and at each where the way turns.
+  double speed = 1.4;      ///< m/s, > 0
+  double dt = 1.0 / 60.0;  ///< of one step, >= Route::shortest_step; a step that comes to a waypoint ends there
+  /// m/s^2, > 0: see WalkerInput. With a limit the body comes to rest at each turn and at the end.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
-  /// Seconds, > 0. The body is blocked when in this time (and at least 8 steps) it neither came nearer to its waypoint
-  /// by a twentieth of what free motion at `speed` would have brought, nor slid so far aside and a little nearer: a
-  /// wall that is met 3 degrees off head-on, or more, leads on.
+  /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
+  /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
   double patience = 1.0;
-  /// Seconds of real time, >= 0. Of follow() with a LiveSpace alone: how long it waits for what is not known yet, after
-  /// the space has changed last.
-  double wait = 10.0;
-  /// The box that a body leaves the scene by coming out of (Outcome::left_scene), where it is another than that of all
-  /// triangles: a larger one for a route that leads beside or over them.
-  std::optional<Box> scene = {};
+  double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
+  std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
 };
 
-/// Throws what Route throws.
+/// Throws roam::Error as the constructor of Route does.
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker);
 
-/// How a route ended. The outcomes are those of `roam walk`.
 enum class Outcome : std::uint8_t {
-  reached,  ///< was at every waypoint in turn
-  blocked,  ///< no longer came nearer to a waypoint; see RouteOptions::patience
-  /// Fly mode: came out of the box of the scene (RouteOptions::scene) by its own size, so that nothing of the scene is
-  /// near; a route that starts outside may come in first. Walk mode: walked over the side of that box and fell.
-  left_scene,
-  fell,  ///< walk mode: dropped by more than Walker::fall_limit below where it last stood
-  held,  ///< cannot move: did not fit where it was put, found no ground below, or waits for what is not known (space.h)
+  reached,     ///< was at every waypoint in turn
+  blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
+  left_scene,  ///< left the box of the scene: flying, by more than its own size; walking, fell over its side
+  fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
+  held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
+[[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"
 
-/// "reached", "blocked", "left_scene", "fell" or "held".
-[[nodiscard]] const char* to_string(Outcome outcome);
-
-/// What a body was blocked by.
 struct Blockage {
-  Vec3 point{0.0};   ///< on the triangle, metres
+  Vec3 point{0.0};   ///< on the triangle
   Vec3 normal{0.0};  ///< from the point towards the body
   TriangleId triangle = no_triangle;
-  /// The width, metres, of the free opening in front of the blocked body, when there is one that is too narrow or too
-  /// low for it: the distance between the two points that it touches on either side (or above and below), provided that
-  /// a ray passes between them. Measured at the height of the contacts, to a few millimetres. None for a closed wall.
-  std::optional<double> opening;
+  std::optional<double> opening;  ///< width of the opening that is too small, see measure_opening(); none: closed wall
 };
 
 struct RouteResult : Tally {
-  Outcome outcome = Outcome::reached;  ///< means nothing before Route::done()
+  Outcome outcome = Outcome::reached;  ///< meaningless before Route::done()
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end
-  std::optional<Blockage> blocked_at;  ///< when blocked by a contact, or held by what is not known
-  /// In order, as an EventFilter picks them.
-  std::vector<RouteEvent> events;
+  std::optional<Blockage> blocked_at;  ///< if blocked by a contact, or held by unknown space
+  std::vector<RouteEvent> events;      ///< in order, as EventFilter picks them
 };
 
-/// One walk along waypoints, step by step, so that the caller can watch, time or draw each.
 class Route {
  public:
-  static constexpr double shortest_step = 1e-6;  ///< seconds
+  static constexpr double shortest_step = 1e-6;
 
-  /// Places the walker at waypoints[0], as Walker::place does: a place of the *centre*, half the height above the feet.
-  /// A way of the feet, as from train() or widest_way(), is for it only after standing() (standing.h): with the centre
-  /// on the floor a body is held, or freed sideways. In walk mode it first comes down to the ground there, on the spot.
+  /// Places the walker at waypoints[0], as Walker::place(); in walk mode it first comes down to the ground there.
+  /// Waypoints are positions of the *centre*, copied; standing() converts paths of the feet, as from train() or
+  /// widest_way(). The walker must outlive the route; do not move it meanwhile. A LiveSpace is not updated: do so
+  /// between steps. Throws roam::Error for no waypoint, a waypoint that is not finite or beyond coordinate_limit,
+  /// options out of range, and a walker in ghost mode.
   ///
-  /// In walk mode a waypoint counts as reached when it is within the body's radius of the axis, seen from above, and at
-  /// most the step height above the body's top or below its lowest point. For bodies lower than 2 m, paths being those
-  /// of persons, also at most 2 m above the lowest point, where nothing is between. In fly mode it
-  /// counts when it is within the radius of the axis. The body still heads for the waypoint itself and only turns to
-  /// the next one when it is there, or when it counts as reached and something keeps the body from coming nearer:
-  /// corners are not cut.
-  ///
-  /// The waypoints are copied. The walker must outlive the route and must not be moved by others meanwhile; its space
-  /// is never updated here, which for a LiveSpace is the caller's, between two steps. Throws roam::Error for no
-  /// waypoint, a waypoint that is not finite or beyond coordinate_limit, options out of range, and a walker in
-  /// ghost mode.
+  /// A waypoint counts as reached at a distance of at most the radius from the body's axis. In walk mode that distance
+  /// is horizontal, and the waypoint at most the step height above the body's top or below its lowest point, or in
+  /// sight at most 2 m above its lowest point. The body still heads for the waypoint itself until something keeps it
+  /// from coming nearer: corners are not cut.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
-
   [[nodiscard]] bool done() const { return done_; }
-
-  /// One step. Throws roam::Error when done().
-  const StepReport& advance();
-
-  /// What has been so far; complete when done().
-  [[nodiscard]] const RouteResult& result() const { return result_; }
+  const StepReport& advance();  ///< makes one step; throws roam::Error when done()
+  [[nodiscard]] const RouteResult& result() const { return result_; }  ///< so far; complete when done()
   [[nodiscard]] const Walker& walker() const { return *walker_; }
 
  private:
@@ -138,21 +109,18 @@ class Route {
   std::size_t next_ = 1;
   double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
   Vec3 window_from_{0.0};     ///< where the body was then
-  double window_time_ = 0.0;  ///< seconds since
-  double window_free_ = 0.0;  ///< metres that free motion would have brought since
+  double window_time_ = 0.0;  ///< since then
+  double window_free_ = 0.0;  ///< the way that free motion would have brought since
   std::uint64_t window_steps_ = 0;
   EventFilter filter_;
   bool done_ = false;
 };
 
-/// Follows the whole route, in a space that stays as it is. In a LiveSpace nothing would come, and the body be held at
-/// the end of what is known: pass the space too.
+/// Follows the whole route in a space that does not change. For a LiveSpace use the function below.
 [[nodiscard]] RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
-/// Follows the whole route in a space that comes meanwhile: `space`, which must be the walker's, is updated between
-/// the steps, and where the body meets what is not known yet, or where it starts in it, it is waited for: see
-/// RouteOptions::wait. Where the space holds the body back the steps are made no faster than in life. So the time that
-/// it takes, and with it the result, depends on what brings the space. Throws roam::Error as Route does, as `update`
-/// does, and for a space that is not the walker's.
+/// Follows the whole route in `space`, the walker's, which it updates between steps. Waits for unknown space, see
+/// RouteOptions::wait, and steps no faster than real time while the space limits the speed. The result depends on when
+/// the space loads. Throws roam::Error as Route and LiveSpace::update() do, and for another space than the walker's.
 [[nodiscard]] RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,
                                  const RouteOptions& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A part of a scene where a body has another size than elsewhere.
+/// A region of a scene with its own size of the body, for Walker::set_regions(). Lengths are metres.
 
 #include <string>
 
@@ -8,12 +8,12 @@
 
 namespace roam {
 
-/// In `bounds` a body has this size. Where regions overlap, the smallest body and the largest foot count.
+/// Where regions overlap, the smallest body and the largest support disc apply.
 struct SizeRegion {
-  Box bounds = {};              ///< metres, not empty
-  double radius = 0.0;          ///< of the body, metres, > 0; a capsule keeps its height
-  double support_radius = 0.0;  ///< of its foot, metres: see WalkerSettings::support_radius; 0: none of its own
-  std::string why = {};         ///< for people: "door 0.71 m wide"
+  Box bounds = {};              ///< finite, not empty
+  double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
+  double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc
+  std::string why = {};         ///< for display: "door 0.71 m wide"
 };
 
 }  // namespace roam

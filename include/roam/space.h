@@ -1,44 +1,26 @@
 #pragma once
 /// \file
-/// The interface of all that a body moves in: a World in memory, a Patchwork that grows while one walks in it, a Pager
-/// over a store. All of them answer the same questions.
+/// Collision queries: the interface of all that a body moves in (World, Patchwork, Instances, Filtered, Pager).
 ///
-///     double headroom(const roam::Space& space, const roam::Vec3& place) {
-///       const roam::FirstImpact up = space.first_impact({.radius = 0.3}, place, {0.0, 0.0, 100.0});
-///       return 100.0 * up.time;
-///     }
+///     const double headroom = 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///
-/// | question | function |
-/// |---|---|
-/// | what is met first, when and where | sweep(), ray() |
-/// | what is met first and when; the place only if it is wanted | first_impact(), completed() |
-/// | everything that comes near, nearest first | contacts() |
-/// | how near the nearest comes, and which it is | clearance(), floor_clearance() |
-/// | how near the nearest comes, in less time | gap() |
-/// | whether the body has room | fits() |
-/// | what was met | object() |
+/// sweep() returns the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
+/// nearest triangle. first_impact() and gap() return less, for less time.
 ///
-/// Space is *hit*, *free* or *unknown*. Free is only what is certified free: with `radius` and triangles as the caller
-/// passed them and distances measured in exact arithmetic,
+/// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
+/// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed
+/// them, in exact arithmetic:
 ///   - over [0, time] of a sweep the body's axis is at least radius - 1e-6 m from every triangle. A body that starts
-///     nearer is answered a hit at time 0;
-///   - a hit is only answered when, at `time`, a triangle is within radius + 2 mm of the axis. A body that
-///     starts with a gap of less than 2 mm may be answered a hit at time 0, even when it moves away.
-///     Keep a body that is to move on at least 2 * largest_error() from what it touches, as Walker
-///     does;
-///   - a gap() that is more than 0 certifies the same of its whole way;
-///   - what is unknown, because it has not been loaded yet, is solid: it is met like a wall, and the answer says
-///     `unknown`.
+///     nearer gets a hit at time 0;
+///   - at the `time` of a hit some triangle is within radius + 2 mm of the axis. A body that starts with a gap below
+///     2 mm may get a hit at time 0, even if it moves away: keep 2 * largest_error() from contacts, as Walker does;
+///   - a gap() above 0 certifies the first of these for the whole motion.
 ///
-/// Queries are const, never wait, and may run at the same time, unless an implementation's own header says otherwise.
-/// All but the batches never allocate. Each throws roam::Error, before it answers anything, for a place or motion that
-/// is not finite, a motion beyond Space::motion_limit, and a body or reach that is negative or beyond
-/// Space::reach_limit.
-///
-/// Whatever floating-point environment the host has set (rounding, subnormal numbers, trapped exceptions), the
-/// functions of this library that are not inline in a header reckon in the default one and then set the host's again:
-/// the answers are the same bits and raise no signal. Callbacks, and spaces of the host's own, run in the default one
-/// too.
+/// Queries are const, never wait and may run at the same time, unless an implementation's header says otherwise. Only
+/// batches allocate. Each query throws roam::Error, before it writes a result, for a position or motion that is not
+/// finite, a motion beyond Space::motion_limit, and a size or reach that is negative or beyond Space::reach_limit. The
+/// host's floating-point environment changes no result and raises no signal: functions that are not inline, with the
+/// callbacks and host's spaces that they call, run in the default one and then restore the host's.
 
 #include <algorithm>
 #include <array>
@@ -58,30 +40,23 @@ namespace roam {
 class Collector;
 class Vicinity;
 
-/// The number of a triangle in a space. A World numbers all meshes' triangles in the order in which they were passed;
-/// other spaces say what they number.
+/// Numbers of triangles and objects. A World numbers its meshes, and the triangles of all meshes, in the order passed;
+/// the headers of other spaces describe theirs.
 using TriangleId = std::uint64_t;
-/// The number of no triangle: of a miss, and of what is found nowhere near.
-inline constexpr TriangleId no_triangle = ~TriangleId{0};
-
-/// The number of an object in a space. A World numbers its meshes in the order in which they were passed; other spaces
-/// say what they number.
+inline constexpr TriangleId no_triangle = ~TriangleId{0};  ///< in a miss, or where nothing was found
 using ObjectId = std::uint32_t;
-/// The number of no object: of a miss, of what is unknown, and of every hit in a Pager, which has not read the objects.
-inline constexpr ObjectId no_object = ~ObjectId{0};
+inline constexpr ObjectId no_object = ~ObjectId{0};  ///< in a miss, for unknown space, and for all of a Pager
 
-/// What is known of the object that a triangle belongs to.
 struct Object {
-  ObjectId id = no_object;      ///< no_object: there is no such triangle, or its object is not numbered
-  std::string name;             ///< for people; may be empty
-  std::uint64_t user_data = 0;  ///< as the program gave it: Mesh::user_data
+  ObjectId id = no_object;      ///< no_object: there is no such triangle, or its object has no number
+  std::string name;             ///< for display; may be empty
+  std::uint64_t user_data = 0;  ///< from Mesh::user_data
 };
 
-/// Objects that a query passes over. Filtered (roam/filtered.h) is a space without them, for a body that moves.
+/// Objects that a query ignores. For a moving body use Filtered (roam/filtered.h).
 struct ObjectFilter {
   std::span<const ObjectId> objects;   ///< ascending
   const ObjectFilter* also = nullptr;  ///< more of them
-
   [[nodiscard]] bool ignores(ObjectId object) const {
     for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
       if (std::binary_search(f->objects.begin(), f->objects.end(), object)) return true;
@@ -90,133 +65,109 @@ struct ObjectFilter {
   }
 };
 
-/// A body and its straight way.
+/// A body and its straight motion.
 struct Query {
-  Body body;         ///< radius and half height in [0, Space::reach_limit]
-  Vec3 from{0.0};    ///< metres: where the centre is at time 0
-  Vec3 motion{0.0};  ///< metres, each component at most Space::motion_limit: where the centre is at time 1, less `from`
-  /// Objects that are passed over, by the numbers that hits have; null: none. What is unknown is not passed over.
-  const ObjectFilter* ignored = nullptr;
+  Body body;                              ///< radius and half height in [0, Space::reach_limit]
+  Vec3 from{0.0};                         ///< the centre at time 0
+  Vec3 motion{0.0};                       ///< the centre at time 1, less `from`
+  const ObjectFilter* ignored = nullptr;  ///< objects to ignore; unknown space is never ignored
 };
 
-/// The first impact of a sweep. On a miss `time` is 1, `distance` is 0 (Space::clearance measures how free the way is),
-/// and the rest keeps its default. See SweepResult for the other members, with this difference: because a space stores
-/// to within largest_error(), a hit at time 0 may be of a body that is up to 2 mm clear. `point` lies on the triangle
-/// as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
+/// The first impact of a sweep; see SweepResult for the other members. A miss has time 1 and distance 0. Because a
+/// space stores triangles to within largest_error(), a hit at time 0 may be up to 2 mm clear. `point` lies on the
+/// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct Impact : SweepResult {
-  TriangleId triangle = no_triangle;  ///< that is touched first, of a hit; means nothing where `unknown`
-  ObjectId object = no_object;        ///< that the triangle belongs to
-  bool unknown = false;  ///< of a hit: what is touched is the border of what is not known yet, or the body is in it
+  TriangleId triangle = no_triangle;  ///< touched first; meaningless if `unknown`
+  ObjectId object = no_object;        ///< of the triangle
+  bool unknown = false;               ///< the hit is the border of unknown space, or the body starts inside it
 };
 
-/// A triangle near a body. See Proximity for the other members.
+/// A triangle near a body; see Proximity.
 struct Contact : Proximity {
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
-  bool unknown = false;  ///< no triangle: the border of what is not known yet
+  bool unknown = false;  ///< the contact is the border of unknown space, not a triangle
 };
 
-/// How far a body's surface is from everything. See Proximity for the other members; they are set when `found`.
+/// The gap between a body and everything; see Proximity.
 struct Clearance : Proximity {
-  bool found = false;  ///< something lies within the reach that was asked for; else distance is that reach
-  TriangleId triangle = no_triangle;  ///< when `found`
-  ObjectId object = no_object;        ///< when `found`
-  bool unknown = false;               ///< what is nearest is not known yet
+  bool found = false;  ///< something lies within the reach; otherwise `distance` is the reach, and the rest default
+  TriangleId triangle = no_triangle;
+  ObjectId object = no_object;
+  bool unknown = false;  ///< the nearest is unknown space
 };
 
-/// The first impact of a sweep without the place where it touches: what sweep() answers in the members that both have.
+/// The first impact of a sweep without its contact: the members that it shares with Impact have the same values.
 struct FirstImpact {
   FirstImpact() noexcept {}  // NOLINT: where this is defaulted, compilers clear all of it
-
   bool hit = false;
   bool unknown = false;
   double time = 1.0;
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
-
   // For authors of spaces: how Space::completed() finds the contact.
   std::array<std::uint32_t, 4> place{};  ///< whatever the space finds the triangle by
-  std::optional<Contact> contact;        ///< at `time`, where the space has found it already
-  std::uint64_t revision = 0;            ///< of the space when it answered; set by Space
+  std::optional<Contact> contact;        ///< at `time`, if the space has found it already
+  std::uint64_t revision = 0;            ///< of the space; set by Space
 };
 
-/// What counts as floor, and which part of it.
+/// Which triangles count as floor.
 struct Floor {
-  /// Degrees, in [0, 89]. A triangle whose plane, as stored, is at most this far from level is floor, whichever side is
-  /// up. One without area is not.
-  double slope_degrees = 45.0;
-  /// Metres, >= 0. Only what of the floor lies at most this much higher or lower than the plane through `point` with
-  /// the upward `normal` counts; infinite: all of it.
-  double band = std::numeric_limits<double>::infinity();
-  Vec3 point{0.0};             ///< metres
-  Vec3 normal{0.0, 0.0, 1.0};  ///< of any length; z > 0
+  double slope_degrees = 45.0;  ///< [0, 89]: steepest floor (as stored), either side up; no triangle without area
+  double band = std::numeric_limits<double>::infinity();  ///< >= 0: how far above and below the plane floor counts
+  Vec3 point{0.0};
+  Vec3 normal{0.0, 0.0, 1.0};  ///< of the plane through `point`; any length, z > 0
 };
 
-/// Facts about a whole space.
 struct SpaceFacts {
-  Box bounds = {};  ///< of all that is there, known or not; empty for an empty space
-  /// The farthest that any stored vertex lies from where the caller put it, metres. Does not grow in the life of a
-  /// space.
-  double largest_error = 0.0;
-  /// Another number whenever something came or went. A body that is held then looks for a way out again. While the
-  /// number stays the same, Walker reuses earlier answers of gap(). None: the space may change without notice.
+  Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
+  double largest_error = 0.0;  ///< farthest that a stored vertex lies from where the caller put it; never grows
+  /// Changes whenever something came or went: then a held body tries again, and until then Walker reuses results of
+  /// gap(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
-  /// Metres per second that a body should not exceed now, so that what it comes to is known by then; Walker slows down
-  /// to it. Going faster is safe too: the body stops before what is unknown. No limit where everything is known.
+  /// m/s: the speed at which space ahead is known in time. Walker slows down to it; a faster body stops at the unknown.
   double speed_limit = std::numeric_limits<double>::infinity();
 };
 
 class Space {
  public:
-  /// Largest radius, half height and contact or clearance reach of a query, in metres.
-  static constexpr double reach_limit = 1000.0;
-  /// Largest component of a motion, in metres.
-  static constexpr double motion_limit = 1e6;
-
+  static constexpr double reach_limit = 1000.0;  ///< largest radius, half height and reach of a query
+  static constexpr double motion_limit = 1e6;    ///< largest component of a motion
   virtual ~Space() = default;
 
-  /// First impact of the body on its way. Asked again from where it hit, it may answer a hit at time 0 whichever way
-  /// the motion leads: see the head of this file.
+  /// First impact of the body on its motion.
   [[nodiscard]] Impact sweep(const Query& query) const { return swept(query, nullptr); }
-  /// The same without point, normal, feature and distance, which take a sixth of the time of a hit.
+  /// The same without the contact, which takes a sixth of the time of a hit.
   [[nodiscard]] FirstImpact first_impact(const Query& query) const;
-  /// Completes the answer `first` of first_impact() to the same query; the result has the bits of sweep(). Throws
-  /// roam::Error when the space has changed since.
+  /// Completes `first`, from first_impact() for the same query, to the result of sweep(), to the bit. Throws
+  /// roam::Error for a hit if the space's revision has changed since; a space without revision must not have changed.
   [[nodiscard]] Impact completed(const Query& query, const FirstImpact& first) const;
-
-  /// The triangles that come within `reach` (m) of the body's surface somewhere on its way (zero motion: at the place).
-  /// Each contact is measured where the body comes closest on its way. Writes at most contacts.size() of them, nearest
-  /// first (ties by triangle id), and returns how many it wrote: fewer than contacts.size() means all.
-  /// Costs n log n for n contacts; n^2 for motions over 64 m.
+  /// The triangles within `reach` of the body's surface, each measured where the motion brings the body closest. Writes
+  /// at most contacts.size(), nearest first, ties by triangle, and returns how many: fewer than contacts.size() means
+  /// all. The cost for n contacts is n log n, or n^2 for motions over 64 m.
   std::size_t contacts(const Query& query, double reach, std::span<Contact> contacts) const;
 
-  /// How near the body comes to anything on its way (zero motion: at the place), looking no farther than `reach` (m)
-  /// from its surface. `distance` is a certified lower bound of the gap to every triangle over the whole way, at most
-  /// 2 mm less than the true one. If the true gap is more than 2 mm, it is positive. Among triangles whose distances
-  /// differ by less than 2 mm, any may be named; contacts() names the nearest.
+  /// The least gap on the motion, within `reach` of the body's surface. `distance` is a certified lower bound, at most
+  /// 2 mm too low. Any triangle within 2 mm of the nearest may be named; contacts() names the nearest.
   [[nodiscard]] Clearance clearance(const Query& query, double reach) const;
 
-  /// The clearance of a body at rest, of floor alone: walls and steep things are passed over. With a band, only the
-  /// part of a triangle inside it is measured; a vertical capsule as high as the band measures the horizontal distance.
-  /// What is unknown counts as floor where it may hold some: of a band, where the unknown box reaches into it near the
-  /// body. The answer says `unknown` then: a caller who must know floor from a guess has to wait. Throws roam::Error
-  /// also for a `floor` that is out of range.
+  /// The clearance of a body at rest from floor alone. With a band, only the part of a triangle inside it is measured:
+  /// a capsule as high as the band measures the horizontal distance. Unknown space counts as floor if it reaches into
+  /// the band near the body. Also throws roam::Error for a `floor` out of range.
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const;
 
-  /// A certified lower bound of the gap that clearance() measures, metres, for a fraction of its cost: what a moving
-  /// body needs at every step. `reach` where nothing comes as near. Where the answer is between 0 and `reach`, the true
-  /// gap is at most answer * 8 / 7 + 2 mm. More than 0 only when the whole way is free. A value <= 0 means touching or
-  /// overlapping, or a gap of less than 2 mm; it is not a depth, and may be minus the radius where the axis meets
-  /// something.
+  /// A certified lower bound of the least gap on the motion, or `reach` if nothing is within it. A value above 0 means
+  /// that the whole motion is free; if below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
+  /// touching, overlapping or a gap below 2 mm; it is not a depth.
   [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
-  /// Many queries at once, on all cores: answers[i] is what the function above answers to queries[i], to the bit. Both
-  /// have one size. Allocates. An error names the query by its index, and then nothing is answered.
+  /// Batches on all cores; they allocate. answers[i] is, to the bit, what the function above returns for queries[i];
+  /// both spans have one size. An error names the query by its index, and no answer is written.
   void sweep(std::span<const Query> queries, std::span<Impact> answers) const;
   void clearance(std::span<const Query> queries, double reach, std::span<Clearance> answers) const;
   void gap(std::span<const Query> queries, double reach, std::span<double> answers) const;
 
-  // The same, for a body, a place and a motion that are at hand.
+  // The same queries from separate arguments.
   [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
     return sweep(Query{body, from, motion});
   }
@@ -237,38 +188,31 @@ class Space {
     return gap(Query{body, from, motion}, reach);
   }
 
-  /// First triangle that the ray from + t * motion, t in [0, 1], meets: the sweep of a point, which slips through no
-  /// crack between triangles that share an edge.
+  /// First triangle on the ray from + t * motion, t in [0, 1]: the sweep of a point. It slips through no shared edge.
   [[nodiscard]] Impact ray(const Vec3& from, const Vec3& motion) const { return sweep({0.0, 0.0}, from, motion); }
-  /// Whether the body has room at `place`: a certified gap of a micrometre at least, so that a sweep from there starts
-  /// free. What is unknown is no room.
+  /// Whether the body has a certified gap of at least 1e-6 m at `place`, so that a sweep from there starts free.
   [[nodiscard]] bool fits(const Body& body, const Vec3& place) const {
     constexpr double least_gap = 1e-6;
     return clearance(body, place, least_gap).distance >= least_gap;
   }
 
-  /// Facts about the whole space, as it is now.
-  [[nodiscard]] virtual SpaceFacts facts() const = 0;
+  [[nodiscard]] virtual SpaceFacts facts() const = 0;  ///< as of now
   [[nodiscard]] Box bounds() const { return facts().bounds; }
   [[nodiscard]] double largest_error() const { return facts().largest_error; }
-  /// The object that a triangle belongs to; Object{} for a number that no triangle here has. Allocates.
-  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;
+  [[nodiscard]] virtual Object object(TriangleId triangle) const = 0;  ///< Object{} for no triangle; allocates
   [[nodiscard]] std::string object_name(TriangleId triangle) const { return object(triangle).name; }
 
  protected:
-  // For authors of spaces: the two questions that all of the above come down to. That no body passes a wall rests on
-  // both. Queries have been checked before they are asked, and may come from several threads at once. `vicinity`, which
-  // may be null, is where a body that asks again from nearly the same place keeps what this library's spaces have found
-  // around it: other spaces leave it alone.
+  // For authors of spaces: all queries come down to these two functions, which must keep the promises in the head of
+  // this file. Queries have been checked and may come from several threads at once. `vicinity` is a cache of this
+  // library's own spaces, or null: other spaces ignore it.
 
-  /// What is met first: the earliest impact, as the head of this file promises. At time 0 it names the triangle with
-  /// the most negative distance. Objects that `query.ignored` ignores are passed over.
+  /// The earliest impact, without ignored objects. At time 0 it names the triangle with the most negative distance.
   [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
-  /// What comes near: offers the collector (roam/collector.h) all that comes within its reach of the body on its way.
+  /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
   virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
-  // A space that is made of others asks them by these. Pass the vicinity on to one of them at most, with the same body
-  // and way, else pass null.
+  // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
   [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.ask_first(query, vicinity);
   }
@@ -283,19 +227,17 @@ class Space {
   Space& operator=(Space&&) noexcept = default;
 
  private:
-  friend struct Nearby;  // how a Walker asks
-
+  friend struct Nearby;  // how a Walker queries
   [[nodiscard]] Impact swept(const Query& query, Vicinity* vicinity) const;
   [[nodiscard]] Impact touched(const Query& query, const FirstImpact& first) const;
   [[nodiscard]] double gap_over(const Query& query, double reach, Vicinity* vicinity) const;
 };
 
-/// A space that changes between two steps of the body that moves in it. What has come or is to go is taken into use by
-/// update() and at no other time; update() belongs to the thread that moves the body, and no query may run during it.
+/// A space that changes, but only in update(). That belongs to the thread that moves the body; no query may run then.
 class LiveSpace : public Space {
  public:
-  /// `body` at `place` (m) with `velocity` (m/s) is what the space is wanted for. Returns whether anything changed.
-  /// Throws roam::Error for a body, place or velocity that no query takes, and then takes nothing.
+  /// Takes changes into use, for `body` at `place` with `velocity` (m/s). Returns whether anything changed. Throws
+  /// roam::Error, and changes nothing, for a body or position that no query takes or a velocity that is not finite.
   virtual bool update(const Body& body, const Vec3& place, const Vec3& velocity) = 0;
 
  protected:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a walker stands: Walker::stance().
+/// The stance of a walker: what carries it. See Walker::stance().
 
 #include <cstdint>
 #include <optional>
@@ -12,27 +12,23 @@ namespace roam {
 
 /// What carries a body in walk mode; `air` in the other modes.
 enum class Footing : std::uint8_t {
-  air,      ///< nothing: the body jumps, falls or slides down what is too steep
-  falling,  ///< nothing, and it has dropped more than Walker::fall_limit(); an ordinary fall is `air`
+  air,      ///< nothing: the body jumps, falls or slides down a steep slope
+  falling,  ///< nothing, and it has dropped by more than Walker::fall_limit()
   ground,   ///< ground within the slope limit
-  rim,      ///< the rim of a crack or of a step, or slopes between which the body is wedged; it cannot step up
-  foot,     ///< its foot alone, over a crack: see WalkerSettings::support_radius
+  rim,      ///< the rim of a crack or step, or slopes that wedge the body; it cannot step up
+  foot,     ///< the support disc alone, over a crack: see WalkerSettings::support_radius
 };
 
 struct Stance {
   Footing footing = Footing::air;
-  bool unknown = false;         ///< what carries the body is not known yet (space.h); false in the air
+  bool unknown = false;         ///< unknown space carries the body; false in the air
   Vec3 ground{0.0, 0.0, 1.0};   ///< unit normal of the ground stood on now or last
-  std::optional<double> level;  ///< z of the point stood on now or last, metres; none: not stood since it was placed
-  /// That carries the body, or carried it last. An instance may have been removed since (Instances::has).
-  ObjectId object = no_object;
-  /// Of the ground at the feet, metres per second, as move_instances() moved it last; 0 where it stands still. In the
-  /// air: what the ground had when the body left it, kept until it lands.
+  std::optional<double> level;  ///< z, in metres, of the point stood on now or last; none: not stood since it was put
+  ObjectId object = no_object;  ///< that carries the body now or last; it may be gone (see Instances::has())
+  /// m/s: of the ground at the lowest point, as move_instances() moved it last; in the air, of the ground left last.
   Vec3 ground_velocity{0.0};
-
-  /// Whether anything carries the body.
   [[nodiscard]] bool grounded() const { return footing != Footing::air && footing != Footing::falling; }
-  /// Whether that is ground within the slope limit, or the foot over it.
+  /// Whether ground within the slope limit, or the support disc, carries the body.
   [[nodiscard]] bool firm() const { return footing == Footing::ground || footing == Footing::foot; }
 };
 

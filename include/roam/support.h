@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// What carries a body over gaps of the floor: their rims, and its foot (WalkerSettings::support_radius).
+/// What carries a body over cracks of the floor: their rims, and its support disc (WalkerSettings::support_radius).
 ///
-/// docs/walking.md, "The foot", has the reasons. All functions are const and safe to call from any number of threads,
-/// as the space is; they allocate nothing. Lengths are metres, up is +z.
+/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. docs/walking.md: "The foot".
 
 #include <cstdint>
 
@@ -13,63 +12,53 @@ namespace roam {
 
 class Walker;
 
-/// The steepest contact with a rim that still carries, degrees. A crack of width w carries a sphere of radius r when
-/// r >= w / (2 sin 70) = 0.532 w, and lets it through when r < w / 2; in between it is caught between the rims, from
-/// where it can not step up.
-/// At 1.25 m: carried from 0.665 m on, through below 0.625 m.
+/// The steepest contact with a rim that still carries. A crack of width w carries a sphere of radius r if
+/// r >= w / (2 sin 70) = 0.532 w, and lets it through if r < w / 2. In between the rims catch it: it cannot step up.
 inline constexpr double rim_slope_degrees = 70.0;
 inline constexpr double rim_cosine = 0.34202014332566873;
 inline constexpr double rim_sine = 0.93969262078590838;
 inline constexpr double rim_tangent = rim_sine / rim_cosine;
+inline constexpr double carrying_band = 0.25;  ///< floor at most so far above or below the plane carries the disc
 
-/// Floor that is at most so much higher or lower than the plane carries a foot, metres.
-inline constexpr double carrying_band = 0.25;
-
-/// A plane that the floor around goes on in.
 struct FloorPlane {
   Vec3 point{0.0};
   Vec3 normal{0.0, 0.0, 1.0};  ///< z > 0
-
-  /// z of the plane over a place, metres.
+  /// z of the plane above or below `place`.
   [[nodiscard]] double level(const Vec3& place) const {
     return point.z - (normal.x * (place.x - point.x) + normal.y * (place.y - point.y)) / normal.z;
   }
-
   friend bool operator==(const FloorPlane&, const FloorPlane&) = default;
 };
 
-/// The level disc that a foot is.
 struct SupportDisc {
-  double radius = 0.0;         ///< metres, > 0
-  double slope_degrees = 0.0;  ///< what is at most so steep is floor
-  /// Metres above the plane: what is as high is a wall, and a gap behind it does not count.
-  double knee = 0.0;
-  /// Metres above and below the plane in which there is floor.
-  double band = carrying_band;
+  double radius = 0.0;          ///< (0, Space::reach_limit]
+  double slope_degrees = 0.0;   ///< [0, 89]: the steepest floor
+  double knee = 0.0;            ///< height above the plane of what counts as a wall: gaps behind it do not count
+  double band = carrying_band;  ///< floor is at most this much above or below the plane
 };
 
-/// Whether there is room for a disc in a gap of the floor: a foot that is as large falls through.
+/// Whether a gap in the floor has room for a disc.
 enum class DiscRoom : std::uint8_t {
   none,
-  unknown,  ///< none, if what is not known yet is solid
+  unknown,  ///< none, if unknown space is solid
   free,
 };
 
-/// Whether a disc of that radius, seen from above, holds `axis` and is free of floor within the band about the plane;
-/// its centre must be in sight from the axis at the height of the knee. Where it is not settled, because a disc fits to
-/// within a millimetre or after more work than is sensible, the answer is that it is free.
+/// Whether some level disc of that radius, seen from above, contains `axis` and is free of floor within the band about
+/// the plane; its centre must be in sight from the axis at the height of the knee. Unsettled cases, which fit to within
+/// a millimetre or take too much work, are free. Throws roam::Error as Space::floor_clearance() does.
 [[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc,
                                  const Vec3& axis);
 
-/// Whether a foot carries.
+/// Whether a support disc carries a body.
 enum class Carrying : std::uint8_t {
   no,
-  unknown,  ///< yes, if what is not known yet is solid
+  unknown,  ///< yes, if unknown space is solid
   yes,
 };
 
-/// Whether a foot of that radius would carry the walker where it is, over the floor that it saw last: there is no floor
-/// under its axis, and no room for a disc as large.
+/// Whether a disc of that radius would carry the walker where it is, over the floor that it saw last: there is no floor
+/// under its axis and no room for the disc. A radius below the body's counts as the body's.
 [[nodiscard]] Carrying carrying(const Walker& walker, double support_radius);
 
 }  // namespace roam
