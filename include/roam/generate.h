@@ -9,8 +9,8 @@
 /// Counts and bounds of a scene are known before it is made. The same options give the same bits on every machine,
 /// compiler, run and thread. Lengths are metres. Triangles are counter-clockwise seen from the open air: inside a
 /// gallery, outside a building. Meshes that touch share border vertices bit by bit, so the surface has no cracks;
-/// docs/proofs.md, "The made gallery", lists openings. All
-/// functions are thread-safe. Options out of range throw roam::Error. Target roam::generate.
+/// docs/proofs.md, "The made gallery", lists openings. All functions are thread-safe. Options out of range throw
+/// roam::Error.
 
 #include <array>
 #include <cstdint>
