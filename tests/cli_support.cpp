@@ -32,7 +32,7 @@ TEST(SupportRadius, CarriesOverAGapThatTheBodyFallsInto) {
     EXPECT_EQ(report["violations"], 0);
     EXPECT_GE(report["least_gap_m"].get<double>(), -1e-6);
     if (wide) {
-      EXPECT_TRUE(contains(result.out, "\"carried\""));
+      EXPECT_TRUE(contains(result.out, "\"bridged\""));
     } else {
       EXPECT_TRUE(contains(report["why"], "support radius of 0.73 m does not bridge"));
     }
