@@ -7,28 +7,29 @@
 /// length and that many bytes.
 ///
 ///     hello         Greeting                                                 first, once
-///     opened        text file                                                at any time, of each file once
+///     opened        text file                                                at any time; each file once
 ///     outside       text file                                                a reference that was left out
-///     file          text file                                                where files are only to be listed: one
-///                                                                            that the file names
+///     file          text file                                                in a list: a file that the scene's file
+///                                                                            names
 ///     progress      u64 bytes read so far                                    at any time
-///     georeference  f64 x, y, z; text srs                                    folders of tiles, at most once
-///     tile          text root file; u8 whether it is there                   of folders that are only to be listed
-///     object        text name; u8 continues                                  begins a mesh, or a piece of one: where
-///                   the program asked for pieces, one that continues goes on with the object of the piece before
-///     vertices      f64 x, y, z of each                                      belong to the mesh begun last
-///     triangles     u32 a, b, c of each                                      index the vertices of the mesh or piece
-///                                                                            that were sent so far
+///     georeference  f64 x, y, z; text srs                                    of a folder of tiles, at most once
+///     tile          text root file; u8 whether it exists                     in a list of a folder's tiles
+///     object        text name; u8 continues                                  begins a mesh or a piece; a piece that
+///                                                                            continues has the object of the one
+///                                                                            before
+///     vertices      f64 x, y, z of each                                      of the current mesh or piece
+///     triangles     u32 a, b, c of each                                      indices of the vertices sent so far of
+///                                                                            the current mesh or piece
 ///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
 ///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, bytes;
-///                   begins a part of what is shown (display.h); only where the program asked for that, and then
-///                   neither object, vertices nor triangles come
-///     part_bytes    bytes of the part begun last (part_format.h), until all are there
+///                   begins a display part (display.h); only on request, and then there is neither object, vertices
+///                   nor triangles
+///     part_bytes    bytes of the current part (part_format.h), until all are sent
 ///     missing_page  text file
 ///     missing_texture  text file
 ///     note          text sentence
 ///     failure       text sentence                                            last: the file cannot be read
-///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: all is said
+///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: reading is complete
 ///
 /// The receiver trusts nothing. It checks the numbering and the sizes, that vertices are finite and within the limit,
 /// that indices are in range, and that the totals of `end` equal the contents received.

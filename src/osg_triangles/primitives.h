@@ -50,7 +50,7 @@ struct Corners {
   bool indexed;        ///< false: triangles do not share vertices
 };
 
-/// Hands all triangles of a geometry to `Receiver`, which has
+/// Passes all triangles of a geometry to `Receiver`, which has
 ///     void begin(const auto* vertices, std::size_t count);   // before the triangles
 ///     void triangle(const Corners& corners);
 template <class Receiver>

@@ -38,7 +38,7 @@ struct Source {
   std::array<std::array<std::uint8_t, 3>, node_width> corners;  ///< slots
   std::array<Place, node_width> places;
   std::array<std::uint16_t, node_width> numbers;  ///< of the vertices, no_vertex for those not seen before
-  std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< the triangle with an edge from .. to, node_width: none
+  std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< triangle by its edge; node_width: none
   std::array<std::uint8_t, node_width> slot;                        ///< of the source, for each of the leaf that grows
 
   /// The slot of the third corner of triangle `t`, which has an edge from .. to.

@@ -78,7 +78,7 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
 class Memory {
  public:
   explicit Memory(std::size_t bytes) : bytes_(static_cast<std::byte*>(::operator new(bytes, alignment))) {
-    // Large pages where the system has them: with small ones, each step into new tiles misses the address cache.
+    // Large pages, where the system has them: a step into new tiles then misses the address cache no more than others.
     ::madvise(bytes_, bytes, MADV_HUGEPAGE);
     std::memset(bytes_, 0, bytes);
   }

@@ -45,7 +45,7 @@ bool limit(int resource, rlim_t value) {
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
-/// Whether no other thread runs. Landlock would not confine it.
+/// Whether no other thread runs, which Landlock would not confine. Also true if /proc cannot be read.
 bool is_alone() {
   std::error_code none;
   std::filesystem::directory_iterator thread("/proc/self/task", none);
