@@ -25,8 +25,8 @@ using Result = osgDB::ReaderWriter::ReadResult;
 /// Limit of files that name files.
 constexpr std::size_t nesting_limit = 64;
 
-/// Reads every kind of embedded image as "left out" before osgDB loads a decoder for it. Collision needs no colours,
-/// and image decoders are a common target of attacks.
+/// Claims all formats of images and finds no image, so that osgDB loads no decoder for an image inside another file.
+/// Collision needs no colours, and image decoders are a common target of attacks.
 class NoImages : public osgDB::ReaderWriter {
  public:
   NoImages() {
@@ -49,9 +49,9 @@ bool names_files(std::string_view extension) {
   return std::find(naming.begin(), naming.end(), extension) != naming.end();
 }
 
-/// The path of a file that another file names. Tries the name itself, then its last part, in the folders of the files
-/// that name it. Returns the first that exists, else a path outside of the scene if the name leads there, else the path
-/// where the file would be.
+/// The path of a file that another file names. An absolute name is returned as it is. Otherwise tries the name, then
+/// its last part, in the folders of the files that name it. Returns the first that exists, else a path outside of the
+/// scene if the name leads there, else the path where the file would be.
 fs::path place_of(const std::string& name, const osgDB::Options* options, const SceneFiles& files) {
   std::string spelling = name;
   std::replace(spelling.begin(), spelling.end(), '\\', '/');
