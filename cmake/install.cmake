@@ -1,7 +1,8 @@
 # cmake --install, and find_package(roam) with the target roam::roam.
 #
-# Each library is an export set of its own, so that a program that only asks for the core needs none of what the
-# readers need: find_package(roam) finds glm and TBB, find_package(roam COMPONENTS import) what roam::import needs.
+# Each library is an export set of its own, so that a program that only uses the core needs no library of the readers.
+# find_package(roam) finds glm and TBB; find_package(roam COMPONENTS import) also finds the dependencies of
+# roam::import.
 include(CMakePackageConfigHelpers)
 set(roam_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roam)
 
@@ -22,7 +23,7 @@ if(ROAM_TOOLS)
   roam_install(roam_osg osgRoam)
   install(DIRECTORY include/osgRoam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(TARGETS roam_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  # Where the program looks for it from bin: not a command for people.
+  # The program looks for it there. It is not in bin, because it is not a command for people.
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
 endif()
 

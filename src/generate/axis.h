@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The line in plan that a gallery or a dam follows: straight legs that meet in a mitre.
+/// The line in plan that a gallery or a dam follows: straight legs joined by a mitre.
 
 #include <vector>
 
@@ -11,13 +11,13 @@ namespace roam::generate {
 /// One or two straight legs in plan. Stations are metres along the line; y is metres to the left of it.
 class Axis {
  public:
-  /// From a to b.
+  /// A straight line from a to b.
   Axis(const Vec3& a, const Vec3& b);
-  /// From a over the corner b to c. Cross-sections turn into the mitre over `blend` metres before and behind it.
+  /// From a by the corner b to c. Cross-sections turn into the mitre over `blend` metres before and after it.
   Axis(const Vec3& a, const Vec3& b, const Vec3& c, double blend);
 
   [[nodiscard]] double length() const { return corner_ + length2_; }
-  /// The station of the corner; the end when there is none.
+  /// The station of the corner, or of the end if there is no corner.
   [[nodiscard]] double corner() const { return corner_; }
 
   /// A cross-section: the point at y to the left lies at origin + left * y, in plan.
@@ -25,12 +25,12 @@ class Axis {
     Vec3 origin, left;
   };
   [[nodiscard]] Frame frame(double station) const;
-  /// Unit vectors, level: ahead, and square to it to the left. The mitre is left out of account.
+  /// Level unit vectors ahead and to the left, square to each other. They ignore the mitre.
   [[nodiscard]] Vec3 ahead(double station) const { return station <= corner_ ? ahead1_ : ahead2_; }
   [[nodiscard]] Vec3 left(double station) const;
 
-  /// Station and offset to the left of a point in plan, continuous across the mitre (which is why stations shear
-  /// beside the axis by the tangent of half the bend).
+  /// Station and offset to the left of a point in plan, continuous across the mitre. Therefore stations beside the axis
+  /// shear by the tangent of half the bend.
   struct Place {
     double station, offset;
   };
@@ -40,7 +40,7 @@ class Axis {
   Vec3 start_, ahead1_, ahead2_;
   Vec3 corner_point_;
   double corner_ = 0.0, length2_ = 0.0;
-  double half_tangent_ = 0.0;  // of the bend; positive when it goes to the left
+  double half_tangent_ = 0.0;  // of the bend; positive for a bend to the left
   double blend_ = 1.0;
 };
 

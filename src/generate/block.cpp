@@ -11,7 +11,8 @@ namespace roam::generate {
 Vec3 Block::point(int i, int j, int k) const {
   double x = a[static_cast<std::size_t>(i)], z = b[static_cast<std::size_t>(j)], y = c[static_cast<std::size_t>(k)];
   if (roughness > 0.0 && j > 0 && k > 0) {
-    constexpr double bump = 0.6, ramp = 0.4;  // m: size of the bumps; over which they grow from floor and front
+    constexpr double bump = 0.6, ramp = 0.4;  // m: size of the bumps; distance from floor and front over which they
+                                              // grow
     const double share = roughness * smooth((z - b.front()) / ramp) * smooth((y - c.front()) / ramp);
     const double p = (x + 0.7 * y) / bump, q = (z + 0.4 * y) / bump;
     x += share * value_noise(seed, p, q);
@@ -25,7 +26,7 @@ Grid block_side(const std::shared_ptr<const Block>& block, Side side, bool from_
   const int na = static_cast<int>(block->a.size()) - 1, nb = static_cast<int>(block->b.size()) - 1,
             nc = static_cast<int>(block->c.size()) - 1;
   Grid grid;
-  bool inward = false;  // as the grid is, unflipped
+  bool inward = false;  // whether the grid without a flip faces inward
   const auto set = [&](int rows, int cols, bool wound_inward, auto index) {
     grid.rows = rows;
     grid.cols = cols;

@@ -13,7 +13,7 @@ namespace {
 // Lengths in metres; heights above the pavement.
 constexpr double margin = 0.8;  // from a corner of the building to its first bay
 constexpr double parapet_width = 0.3, parapet_height = 0.9;
-constexpr double foundation = 0.5, sill = 0.05;  // the ground floor lies a little over the pavement
+constexpr double foundation = 0.5, sill = 0.05;  // the ground floor is a little higher than the pavement
 constexpr double door_width = 0.9, door_top = 2.1, passage_top = 2.6;
 constexpr double ground_window = 0.9, window_sill = 0.9, recess = 0.15;
 constexpr double wall = 0.3, partition = 0.2, room_height = 2.8;
@@ -39,7 +39,7 @@ Span window_rows(const BuildingDesign& d, int storey) {
   return {from, from + d.window_height};
 }
 
-/// Marks along a facade: its ends, the parapet's, and the edges of its windows.
+/// Marks along a facade: its ends, those of the parapet, and the edges of its windows.
 std::vector<double> marks(const BuildingDesign& d, int bays, double bay_width, double length) {
   std::vector<double> m{0.0, parapet_width};
   for (int k = 0; d.windows && k < bays; ++k) {
@@ -76,7 +76,7 @@ std::shared_ptr<const Block> body(const BuildingDesign& d, const Site& site, dou
   return block;
 }
 
-/// A hole of a facade. Fronts and backs have rows along the street, ends have rows upwards.
+/// A hole of a facade. Fronts and backs have rows along the street; ends have rows along the height.
 Hole hole(const Block& block, Side side, const Span& along, const Span& up) {
   const bool front_or_back = side == Side::front || side == Side::back;
   const std::vector<double>& lines = front_or_back ? block.a : block.c;
@@ -89,7 +89,7 @@ int layers(double depth, double cell) { return std::max(1, static_cast<int>(std:
 
 struct Pocket {
   Hole hole;
-  double depth;  // into the building; negative: an overhang
+  double depth;  // m into the building; negative for an overhang
 };
 
 /// The windows of one side.
@@ -182,7 +182,7 @@ Part interior(const BuildingDesign& d, const Site& site, double cell) {
   first->corner = site.corner;
   first->ahead = site.ahead;
   first->aside = site.aside;
-  // The rooms have the door's lines, so that its passage fits them and the inner door too.
+  // The rooms share the lines of the door, so that its passage and the inner door fit them.
   const Span opening = door_of(d);
   const std::array<double, 2> left{wall + 0.1, opening.from}, right{opening.to, margin + 2.0 * d.bay},
       above{door_top, room_height}, deep{wall, wall + first_room};

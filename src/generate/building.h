@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A building of the made city: facades with window recesses, a door into two rooms, a passage right through, bays
-/// that overhang the street, a roof behind a parapet.
+/// A building of the generated city: facades with window recesses, a door into two rooms, a passage from front to back,
+/// bays that overhang the street, a roof behind a parapet.
 
 #include <cstdint>
 
@@ -14,7 +14,7 @@ struct BuildingDesign {
   int bays = 4, side_bays = 3, storeys = 5;
   double bay = 4.0, side_bay = 4.0, storey = 3.2;
   double window_width = 1.4, window_height = 1.4;
-  int overhanging_bay = -1;  ///< of the front, above the ground floor; -1: none
+  int overhanging_bay = -1;  ///< number of the bay of the front, above the ground floor; -1: none
   bool passage = false;      ///< through the last bay, from the front to the back
   bool windows = true;
 
@@ -23,23 +23,23 @@ struct BuildingDesign {
   [[nodiscard]] double height() const;
 };
 
-/// The largest that design() makes.
+/// m: the largest that design() makes.
 inline constexpr double greatest_building_width = 19.0, greatest_building_height = 40.0;
-/// How far a bay overhangs the front.
+/// m: how far a bay overhangs the front.
 inline constexpr double overhang = 0.9;
 
 /// Design `number` of a city.
 [[nodiscard]] BuildingDesign design(std::uint64_t seed, int number, bool windows);
 
-/// Where a building stands: its front runs from `corner` along `ahead`, its depth to the left of that.
+/// Position of a building: its front runs from `corner` along `ahead`, its depth to the left of that.
 struct Site {
   Vec3 corner{0.0};
   Vec3 ahead{1.0, 0.0, 0.0}, aside{0.0, 1.0, 0.0};
 };
 
-/// Facades, roof and passage; closed but for the front door.
+/// Facades, roof and passage, closed except for the front door.
 [[nodiscard]] Part facades(const BuildingDesign& design, const Site& site, double cell);
-/// From the front door through the first room into the second; shares its border with the facades.
+/// The front door, the first room and the second. Shares its border with the facades.
 [[nodiscard]] Part interior(const BuildingDesign& design, const Site& site, double cell);
 
 }  // namespace roam::generate

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points of a circle without the mathematics library, whose last bits differ from machine to machine.
+/// Points of a circle without the mathematics library, whose last bits differ between machines.
 
 namespace roam::generate {
 
@@ -8,8 +8,8 @@ struct CirclePoint {
   double cosine, sine;
 };
 
-/// The point of the unit circle at `turn` full turns, 0 <= turn <= 1: Taylor series about the middle of a quarter's
-/// half, wrong by less than 1e-15.
+/// The point of the unit circle at `turn` full turns, 0 <= turn <= 1. Uses Taylor series about the nearest multiple of
+/// a quarter turn; the error is less than 1e-15.
 [[nodiscard]] inline CirclePoint circle(double turn) {
   const int quarter = static_cast<int>(turn * 4.0 + 0.5);  // nearest multiple of a quarter turn
   constexpr double full = 6.283185307179586;

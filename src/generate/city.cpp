@@ -14,7 +14,7 @@
 namespace roam::generate {
 namespace {
 
-// Lengths in metres. A tile is a block in the middle of half its streets.
+// Lengths in metres. A tile is a block, with half of each street around it.
 constexpr double tile = 64.0, half_street = 8.0, kerb = 0.15, pavement = 3.0;
 constexpr double bridge_height = 5.5, bridge_thickness = 0.4, bridge_width = 3.0, bridge_landing = 2.0;
 constexpr double bridge_parapet = 1.1, parapet_edge = 0.1, parapet_width = 0.15, pier_size = 0.5, pier_depth = 0.5;
@@ -22,14 +22,14 @@ constexpr int most_blocks = 40;  // along a side
 constexpr int designs = 64, lots = 4;
 constexpr double bridge_share = 0.3, cell_limit_low = 0.01, cell_limit_high = 30.0;
 
-/// Everything that the parts of a city follow from.
+/// The values that determine all parts of a city.
 struct City {
   std::uint64_t seed = 0;
   Vec3 origin{0.0};
   int blocks = 1;  // along a side
   bool windows = true;
   double cell = 1.0;
-  int street_rows = 0, street_cols = 0;  // lines of a tile besides those it needs
+  int street_rows = 0, street_cols = 0;  // grid lines of a tile beyond those that it needs
 
   [[nodiscard]] int design_of(int row, int col, int lot) const {
     return static_cast<int>(hash(seed, row * most_blocks + col, lot) % designs);
@@ -133,7 +133,7 @@ double triangles(const Part& part) {
   return static_cast<double>(n);
 }
 
-/// Triangles of each thing that is built at a given cell. Buildings of one design have equal numbers.
+/// Triangles of each kind of thing at a given cell. Buildings of one design have equal numbers.
 struct Built {
   std::array<double, designs> building{};
   double bridge = 0.0;
@@ -150,7 +150,7 @@ Built count_built(const City& city) {
   return built;
 }
 
-/// Of all that is not street.
+/// Triangles of everything except streets.
 double built_triangles(const City& city, const Built& built) {
   double sum = 0.0;
   for (int row = 0; row < city.blocks; ++row) {
@@ -166,10 +166,10 @@ double built_triangles(const City& city, const Built& built) {
 
 double built_triangles(const City& city) { return built_triangles(city, count_built(city)); }
 
-constexpr double built_share = 0.9;   // of the triangles at most; the streets make up the rest
+constexpr double built_share = 0.9;   // of the triangles at most; streets take the rest
 constexpr double coarse_share = 0.7;  // of the triangles at most for the coarsest city, so that it can be refined
 
-/// The largest city that leaves triangles to refine it.
+/// Chooses the largest city that leaves triangles to refine it.
 bool fit_blocks(City& city, double asked) {
   city.cell = cell_limit_high;
   const Built built = count_built(city);
@@ -195,7 +195,8 @@ City fit(const CityOptions& options) {
   }
   city.cell = coarse;
 
-  // Tiles of streets: 2 rows cols triangles and the kerb's; as many as are missing, rows and columns alike.
+  // A tile's street has 2 rows cols triangles and those of the kerb. Rows and columns grow alike until they reach the
+  // number; then columns are removed until they do not exceed it.
   const double per_tile = (asked - built_triangles(city)) / (static_cast<double>(city.blocks) * city.blocks);
   const auto made = [&] { return triangles(street(city, 0, 0)); };
   while (city.street_rows < (1 << 14) && made() < per_tile) {
@@ -213,7 +214,7 @@ Scene city(const CityOptions& options) {
   const DefaultFloatingPoint guard;
   check_options("city", options.triangles, options.origin);
   const City city = fit(options);
-  // Of each block: its street, four buildings with their insides, and a bridge or nothing.
+  // Each block has its street, four buildings with their interiors, and a bridge or nothing.
   constexpr std::uint64_t parts_per_block = 2 + 2 * lots;
   const auto blocks = static_cast<std::uint64_t>(city.blocks);
   Scene::Plan plan;

@@ -23,13 +23,13 @@ Scene::Plan plan_of(const GalleryOptions& options, const GalleryDetail& detail) 
   return {.parts = parts->size(), .part = [parts](std::uint64_t i) { return (*parts)[i](); }};
 }
 
-/// Rows by which the upper gallery comes to square cells.
+/// Sets the cell, and the rows that make the cells of the upper gallery square.
 void set_cell(GalleryDetail& detail, double cell) {
   detail.cell = cell;
   detail.more_rows = static_cast<std::int64_t>(upper_axis(1.0).length() / cell);
 }
 
-/// Distances between grottos, joints and drains, in metres: the first of these that leaves enough triangles.
+/// Distances in metres between grottos, joints and drains. The first entry that leaves enough triangles is used.
 struct Spacing {
   double grotto, joint, drain;
 };
@@ -39,7 +39,7 @@ constexpr double finest_cell = 0.01, coarsest_cell = 10.0;  // m
 
 GalleryDetail roomy_detail(const GalleryOptions& options) {
   const double asked = static_cast<double>(options.triangles);
-  constexpr double furniture_share = 0.8;  // the rest is for the walls between what stands along the gallery
+  constexpr double furniture_share = 0.8;  // the rest is for the walls of the gallery
   GalleryDetail detail{};
   for (const Spacing& spacing : spacings) {
     detail = {.cell = coarsest_cell,
@@ -54,7 +54,8 @@ GalleryDetail roomy_detail(const GalleryOptions& options) {
   return detail;
 }
 
-/// The finest cells that need no more triangles than asked, and then rows of the gallery until the number is met.
+/// Chooses the finest cells that need no more triangles than requested, then adds rows to the gallery until the number
+/// is met.
 GalleryDetail detail_for(const GalleryOptions& options) {
   const double asked = static_cast<double>(options.triangles);
   GalleryDetail detail = roomy_detail(options);
@@ -67,7 +68,7 @@ GalleryDetail detail_for(const GalleryOptions& options) {
     (made > asked ? fine : coarse) = cell;
   }
   set_cell(detail, coarse);
-  constexpr int corrections = 3;  // rows within a door are rows of its grotto too, so one is not enough
+  constexpr int corrections = 3;  // rows within a door are also rows of its grotto, so one correction is not enough
   for (int i = 0; i < corrections; ++i) {
     const double missing = asked - static_cast<double>(count(plan_of(options, detail)).triangles);
     const double row = 2.0 * static_cast<double>(upper_gallery(options, detail).tube->section.columns.size());

@@ -11,7 +11,7 @@ namespace {
 // Lengths in metres.
 constexpr double wall_thickness = 0.5;
 
-/// A room, its walls aligned with the door, and where its furnishing stands on its floor.
+/// A room whose walls are aligned with the door, and the hole of its furnishing in the floor.
 struct Grotto {
   std::shared_ptr<const Block> room;
   Hole door;      // in the front
@@ -27,7 +27,7 @@ Grotto make_grotto(const Tube& tube, const Opening& door, double cell, std::uint
 
   auto room = std::make_shared<Block>();
   const double before = ahead_is_wide ? narrow : wide, behind = ahead_is_wide ? wide : narrow;
-  // The plinth keeps clear of the door's lines, which must be those of the gallery's wall.
+  // The plinth keeps clear of the door's lines, which must equal those of the gallery's wall.
   const double plinth0 = ahead_is_wide ? before + gallery_door_width + back_margin : back_margin;
   const double plinth1 = plinth0 + plinth_length;
   std::vector<double> left = {0.0}, right = {before + gallery_door_width};

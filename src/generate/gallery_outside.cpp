@@ -7,10 +7,11 @@
 namespace roam::generate {
 namespace {
 
-// The dam, in metres: offsets to the left of the gallery's axis (downstream), heights above the datum. Ours: the
-// paper only says that the gallery lies in a dam. The lower gallery and its split lie inside, 15 m above the base.
+// The dam, in metres: offsets to the left of the gallery's axis (downstream), heights above the datum. These dimensions
+// are our own; the paper only says that the gallery lies in a dam. The lower gallery and its split lie inside, 15 m
+// above the base.
 constexpr double upstream = -14.0, crest_edge = 8.0, crest = 190.0, shoulder = 176.0, base = 66.0, batter = 0.75;
-// Level of the ground along the axis: it buries the dam's ends and stays below every gallery.
+// Height of the ground along the axis. It buries the ends of the dam and stays below every gallery.
 constexpr double valley = 62.0, below_gallery = 172.0, above_crest = 192.0;
 constexpr double valley_from = 500.0, valley_to = 1950.0;          // stations
 constexpr double bank_from = 4.0, bank_to = 40.0, dam_end = 38.0;  // beyond the gallery's ends
@@ -33,8 +34,8 @@ Box plan() {
   return box;
 }
 
-/// Coarse ground is a chord of the true one: banks move outwards by as much as a chord can reach, so that no
-/// triangle of the ground enters a gallery however few there are.
+/// Coarse ground consists of chords of the true one. Banks move outwards by the greatest reach of a chord, so that no
+/// triangle of the ground enters a gallery, however few there are.
 double bank_margin(const GalleryDetail& detail) { return 1.5 * ground_cell(detail, plan()); }
 
 double bank_height(double length, double station, double margin) {
@@ -126,7 +127,7 @@ Part ground(const GalleryOptions& options, const GalleryDetail& detail) {
   Grid grid{.rows = rows, .cols = cols};
   grid.points = [axis, area, size, rows, cols, margin = bank_margin(detail), seed = mix(options.seed ^ 0x20),
                  origin = options.origin](int row, std::span<Vec3> out) {
-    // The hills end before they reach the dam.
+    // The hills end before the dam.
     constexpr double plain_from = 120.0, plain_over = 300.0;
     const double x = area.lower.x + size.x * (static_cast<double>(row) / rows);
     for (int col = 0; col <= cols; ++col) {

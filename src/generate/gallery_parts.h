@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the dam gallery is made of. docs/proofs.md, "The made gallery", has the plan.
+/// Parts of the dam gallery. docs/proofs.md, "The made gallery", has the plan.
 
 #include <memory>
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace roam::generate {
 
-/// How fine the gallery is and how much stands in it. Few triangles leave no room for every grotto and joint.
+/// Fineness and furnishing of the gallery. Few triangles leave no room for every grotto and joint.
 struct GalleryDetail {
   double cell;             ///< m, of walls and rooms
   double grotto_spacing;   ///< m
   double joint_spacing;    ///< m
   double drain_spacing;    ///< m
-  std::int64_t more_rows;  ///< rows of the upper gallery besides those that something stands on
+  std::int64_t more_rows;  ///< rows of the upper gallery beyond those at marks
   double dam_triangles;
   double ground_triangles;
 };
@@ -32,7 +32,7 @@ struct GalleryTube {
 [[nodiscard]] GalleryTube upper_gallery(const GalleryOptions& options, const GalleryDetail& detail);
 [[nodiscard]] GalleryTube lower_gallery(const GalleryOptions& options, const GalleryDetail& detail);
 
-/// What stands in a grotto: instruments on a plinth, or a sump in its floor.
+/// The furnishing of a grotto: instruments on a plinth, or a sump in its floor.
 enum class Furnishing { instruments, sump };
 
 /// A room behind a door in the left wall of a straight stretch of `tube`: `NAME/door`, `NAME/room` and, with
@@ -40,12 +40,12 @@ enum class Furnishing { instruments, sump };
 void add_grotto(std::vector<std::function<Part()>>& parts, const std::shared_ptr<const Tube>& tube, const Opening& door,
                 const std::string& name, Furnishing furnishing, double cell, std::uint64_t seed);
 
-/// The axis of path 1 and path 2, some metres longer at both ends.
+/// The axis of path 1 and path 2, extended by some metres at both ends.
 [[nodiscard]] Axis upper_axis(double blend);
 
 [[nodiscard]] Part dam(const GalleryOptions& options, const GalleryDetail& detail);
 [[nodiscard]] Part ground(const GalleryOptions& options, const GalleryDetail& detail);
-/// Holds everything, before the origin is added.
+/// The bounds of everything, before the origin is added.
 [[nodiscard]] Box gallery_bounds();
 
 }  // namespace roam::generate

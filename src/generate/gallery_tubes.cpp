@@ -9,16 +9,17 @@
 namespace roam::generate {
 namespace {
 
-// Lengths in metres. The cross-section is ours; the paper gives none.
+// Lengths in metres. The cross-section is our own; the paper gives none.
 constexpr double half_width = 1.5, spring = 2.0;  // a horseshoe, 3.5 m high at the crown
 constexpr double gutter_edge = 1.3, gutter_depth = 0.15;
 constexpr double joint_edge = 1.2, drain_edge = 0.6;
-constexpr double block_foot = 0.4, block_face = 0.6;  // of the gate behind the corner: 1.2 m are left between them
+constexpr double block_foot = 0.4, block_face = 0.6;  // of the gate behind the corner, which leaves 1.2 m between its
+                                                      // blocks
 constexpr double wall_roughness = 0.025, floor_roughness = 0.0025;
 constexpr double end_beyond_path = 6.0;
-constexpr double bay = 60.0;  // one object of the gallery
+constexpr double bay = 60.0;  // length of one object of the gallery
 
-// Corners of the upper section by number.
+// Indices of the corners of the upper section.
 constexpr int floor_right = 2, joint_right = 3, drain_right = 4, joint_left = 5, floor_left = 6, left_foot = 9,
               left_block = 10, left_door_top = 11, left_spring = 12, right_spring = 13, right_block = 14,
               right_foot = 15;
@@ -42,7 +43,7 @@ std::vector<Section::Corner> upper_corners() {
           {-half_width, 0.0}};
 }
 
-// Corners of the lower section by number.
+// Indices of the corners of the lower section.
 constexpr int lower_right = 0, lower_left = 1, lower_door_top = 2;
 
 std::vector<Section::Corner> lower_corners() {
@@ -55,11 +56,11 @@ std::vector<Section::Corner> lower_corners() {
 
 int layers(double depth, double cell) { return std::max(1, static_cast<int>(std::ceil(depth / cell))); }
 
-/// What is cut into a tube besides its door openings, and how deep.
+/// A pocket cut into a tube, and its depth. Door openings are separate.
 struct Pocket {
   Opening opening;
   Vec3 depth;
-  std::string name;  // of an object of its own; empty: it belongs to the segment
+  std::string name;  // of its own object; if empty, it belongs to the segment
 };
 
 void add_pockets(Part& part, const std::shared_ptr<const Tube>& tube, const std::vector<Pocket>& pockets, double cell) {
@@ -70,7 +71,7 @@ void add_pockets(Part& part, const std::shared_ptr<const Tube>& tube, const std:
   }
 }
 
-/// Marks, openings and pockets of the upper gallery as they are laid out along it.
+/// Marks, openings and pockets of the upper gallery, added along it.
 struct Layout {
   std::vector<double> marks;
   std::vector<Opening> openings;
@@ -105,7 +106,7 @@ Layout lay_out(const Axis& axis, const GalleryDetail& detail, std::uint64_t seed
   layout.marks = {0.0, corner, end};
   for (double s = bay; s < end - 3.0; s += bay) layout.marks.push_back(s);
 
-  // Nothing else stands where the arm, the mitre and the gate are.
+  // Nothing else may lie at the arm, the mitre and the gate.
   const auto reserved = [&](double s) { return (s > corner - 6.5 && s < corner + 4.5) || s > end - 3.0; };
   const Vec3 right1 = -axis.left(0.0), right2 = -axis.left(end);
   const double arm_depth = 8.0, block_depth = half_width - block_face;
@@ -203,7 +204,7 @@ GalleryTube upper_gallery(const GalleryOptions& options, const GalleryDetail& de
 }
 
 GalleryTube lower_gallery(const GalleryOptions& options, const GalleryDetail& detail) {
-  // Path 3 goes down 1 m on 8.6 m. The ramp begins before it and ends behind it, so that all of the path is ramp.
+  // Path 3 descends 1 m over 8.6 m. The ramp begins before it and ends after it, so that the whole path is on the ramp.
   constexpr double before = 30.0, behind = 8.0, ramp_beyond_path = 2.0;
   const Path& path = gallery_paths[2];
   const Axis line(path.from, path.to);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Counter-based noise: every value is a hash of the seed and of integers, so it needs no state, no order and no
-/// library. Only + - * / of doubles: the same bits on every machine.
+/// library. It uses only + - * / of doubles, so all machines give the same bits.
 
 #include <cstdint>
 
@@ -13,7 +13,7 @@ namespace roam::generate {
   return mix(mix(seed ^ static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b));
 }
 
-/// A hash as a number in [0, 1): its upper 53 bits.
+/// The upper 53 bits of a hash as a number in [0, 1).
 [[nodiscard]] inline double unit(std::uint64_t h) { return static_cast<double>(h >> 11) * 0x1p-53; }
 
 /// A number in [low, high) that depends on the seed and two integers.
@@ -21,13 +21,13 @@ namespace roam::generate {
   return low + (high - low) * unit(hash(seed, a, b));
 }
 
-/// Largest integer that is not above x, for |x| < 2^62.
+/// The largest integer not above x, for -2^62 < x < 2^62.
 [[nodiscard]] inline std::int64_t floor_int(double x) {
   const auto i = static_cast<std::int64_t>(x);
   return i - (static_cast<double>(i) > x);
 }
 
-/// 0 below 0, 1 above 1, and a curve without kinks between (3 x^2 - 2 x^3).
+/// 0 below 0, 1 above 1, and between them the smooth curve 3 x^2 - 2 x^3.
 [[nodiscard]] inline double smooth(double x) {
   if (x <= 0.0) return 0.0;
   if (x >= 1.0) return 1.0;
@@ -62,8 +62,8 @@ namespace roam::generate {
   return low + (high - low) * v;
 }
 
-/// Gradient noise for octave `octave` of a sum. Each has an offset of its own: gradient noise is 0 at all integers, and
-/// octaves of halved size would share them and draw a cross through the sum.
+/// Gradient noise for one octave of a sum. Gradient noise is 0 at all integers. Octaves of halved size would share
+/// these zeros and draw a cross through the sum, so each octave has its own offset.
 [[nodiscard]] inline double octave_noise(std::uint64_t seed, int octave, double x, double y) {
   constexpr double farthest = 256.0;
   const std::uint64_t own = seed + static_cast<std::uint64_t>(octave);

@@ -7,7 +7,8 @@
 namespace roam::generate {
 namespace {
 
-/// The cells of row `row` that are kept; nothing when all are.
+/// Sets `kept` to 1 for each cell of row `row` that is in no hole, else to 0. Returns whether all are kept. Rows
+/// outside [row0, row1) keep none.
 bool kept_cells(const Grid& grid, int row, int row0, int row1, std::vector<char>& kept) {
   if (row < row0 || row >= row1) {
     kept.assign(static_cast<std::size_t>(grid.cols), 0);
@@ -37,7 +38,7 @@ std::uint64_t vertices(const Grid& grid, int row0, int row1) {
   for (const Hole& h : grid.holes) {
     const int a = std::max(row0, h.row0), b = std::min(row1, h.row1);
     if (a >= b) continue;
-    // A vertex goes when all its cells go: inside the hole, and on the rim of the grid where the hole reaches it.
+    // A vertex disappears with all its cells: inside the hole, and on the rim of the grid where the hole reaches it.
     const int rows = b - a - 1 + (a == row0) + (b == row1);
     const int cols = h.col1 - h.col0 - 1 + (!grid.closed && h.col0 == 0) + (!grid.closed && h.col1 == grid.cols);
     n -= static_cast<std::int64_t>(rows) * cols;
@@ -74,7 +75,7 @@ void emit_grid(const Grid& grid, int row0, int row1, Mesh& mesh) {
                    next = static_cast<std::size_t>(c + 1 == n ? (grid.closed ? 0 : c + 1) : c + 1);
         std::array<std::uint32_t, 4> q{below[k], here[k], here[next], below[next]};
         if (grid.flipped) std::swap(q[1], q[3]);
-        // Alternating diagonals, so that the mesh has no direction of its own.
+        // Alternate the diagonals, so that the mesh has no preferred direction.
         if ((row + c) & 1) {
           mesh.triangles.push_back({q[0], q[1], q[2]});
           mesh.triangles.push_back({q[0], q[2], q[3]});
@@ -192,7 +193,7 @@ std::vector<Vec3> loop(const Grid& grid, const Hole& hole) {
 
 namespace {
 
-/// A hole's loop, computed when it is first needed. A part is used by one thread.
+/// The loop of a hole, computed at its first use. Only one thread uses a part.
 auto lazy_loop(const Grid& grid, const Hole& hole) {
   return [grid, hole, points = std::make_shared<std::vector<Vec3>>()]() -> const std::vector<Vec3>& {
     if (points->empty()) *points = loop(grid, hole);

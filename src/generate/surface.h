@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Surfaces as grids with rectangular holes, and what is fitted into the holes.
+/// Surfaces as grids with rectangular holes, and the fittings of these holes.
 ///
-/// Every scene is made of grids and fans whose numbers of triangles and vertices are known from their dimensions.
-/// Where two surfaces meet they compute the shared points by the same function of the same integers, hence bit by bit.
+/// Every scene consists of grids and fans whose numbers of triangles and vertices follow from their dimensions. Where
+/// two surfaces meet, the same function of the same integers computes the shared points, so their bits are equal.
 
 #include <cstdint>
 #include <functional>
@@ -17,8 +17,8 @@
 
 namespace roam::generate {
 
-/// The cells of rows [row0, row1) and columns [col0, col1) of a grid that are left out. Holes of one grid do not
-/// touch each other.
+/// A hole: the cells of rows [row0, row1) and columns [col0, col1) of a grid. Holes of one grid do not touch each
+/// other.
 struct Hole {
   int row0, row1, col0, col1;
 };
@@ -26,11 +26,11 @@ struct Hole {
 /// Fills one row of vertices of a grid.
 using RowPoints = std::function<void(int row, std::span<Vec3> points)>;
 
-/// A surface of rows x cols cells, two triangles each. Triangles are wound counter-clockwise seen from the side of
-/// (direction of growing row) x (direction of growing column), or from the other side when `flipped`.
+/// A surface of rows x cols cells, two triangles each. Triangles are counter-clockwise as seen from the side of
+/// (direction of growing row) x (direction of growing column), or from the other side if `flipped`.
 struct Grid {
   int rows = 0, cols = 0;
-  RowPoints points = {};  ///< rows + 1 rows of cols + 1 vertices; of cols vertices when closed
+  RowPoints points = {};  ///< rows + 1 rows of cols + 1 vertices, or of cols vertices if closed
   bool closed = false;    ///< column `cols` is column 0
   bool flipped = false;
   std::vector<Hole> holes = {};
@@ -38,7 +38,7 @@ struct Grid {
   [[nodiscard]] int vertex_cols() const { return cols + (closed ? 0 : 1); }
 };
 
-/// A polygon that its centre sees whole, closed by triangles (centre, p[k], p[k+1]).
+/// A polygon that is star-shaped about its centre, closed by triangles (centre, p[k], p[k+1]).
 struct Fan {
   Vec3 center{0.0};
   int corners = 0;
@@ -46,14 +46,14 @@ struct Fan {
   bool flipped = false;
 };
 
-/// What becomes one object of the scene, or several when it is large.
+/// A part becomes one object of the scene, or several if it is large.
 struct Part {
   std::string name = {};
   std::vector<Grid> grids = {};
   std::vector<Fan> fans = {};
 };
 
-/// A run of rows of one grid of a part, or (grid < 0) all its fans: what goes into one mesh together.
+/// A run of rows of one grid of a part, or all its fans (grid < 0). A slice lies in one mesh.
 struct Slice {
   int grid, row0, row1;
 };
@@ -68,15 +68,16 @@ struct Count {
 /// Appends the slices' vertices and triangles to `mesh`.
 void emit(const Part& part, const std::vector<Slice>& slices, Mesh& mesh);
 
-/// The vertices around a hole, without repetition: up the first row's columns, along the last column, and back.
+/// The vertices around a hole without repetition: the first row by growing column, the last column, and back.
 [[nodiscard]] int loop_size(const Hole& hole);
 [[nodiscard]] std::vector<Vec3> loop(const Grid& grid, const Hole& hole);
 
-/// Fits a box into a hole of `grid`: sides in `layers` layers and a bottom of the hole's own grid, displaced by
-/// `depth`. Against the surface's normal it is a pit, a recess or a dead-end tunnel, along it a plinth or a corbel.
+/// Fits a box into a hole of `grid`: sides of `layers` layers, and a bottom of the hole's own grid displaced by
+/// `depth`. A depth against the surface's normal makes a pit, a recess or a dead-end tunnel; one along it makes a
+/// plinth or a corbel.
 void add_pocket(Part& part, const Grid& grid, const Hole& hole, const Vec3& depth, int layers);
 
-/// Joins a hole of one grid with a hole of equal dimensions of another by a tunnel of `layers` layers.
+/// Joins a hole of one grid to a hole of equal dimensions of another, by a tunnel of `layers` layers.
 void add_passage(Part& part, const Grid& from, const Hole& hole, const Grid& to, const Hole& end, int layers);
 
 }  // namespace roam::generate

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double least_size = 10.0, most_size = 100'000.0;  // m
 constexpr int tile_cells = 128;                             // along a side
-constexpr double height_per_wavelength = 0.16;              // of each octave
+constexpr double height_per_wavelength = 0.16;              // amplitude of each octave divided by its wavelength
 constexpr int most_octaves = 16;
 
-/// Height at a point: octaves of noise, the broad ones folded into ridges, cut by scarps where a mask says so.
+/// Height at a point: octaves of noise, the broad ones folded into ridges, cut by scarps where a mask allows them.
 class Relief {
  public:
   Relief(std::uint64_t seed, double size, double cell) : seed_(seed), broadest_(0.5 * size) {
-    // Waves shorter than two cells cannot be seen in the mesh.
+    // The mesh cannot represent waves shorter than two cells.
     for (double w = broadest_; w >= 2.0 * cell && octaves_ < most_octaves; w *= 0.5) ++octaves_;
   }
 
@@ -39,7 +39,7 @@ class Relief {
   }
 
  private:
-  /// Benches that rise by a step within a twelfth of the height that the slope would have needed.
+  /// Benches between cliffs. A cliff rises three quarters of a step within a twelfth of a step of the original slope.
   [[nodiscard]] double scarps(double height) const {
     constexpr double steepness = 12.0, rise_on_bench = 0.25;
     const double step = 0.25 * height_per_wavelength * broadest_;
@@ -53,8 +53,8 @@ class Relief {
   int octaves_ = 0;
 };
 
-/// The sum of the octaves cannot exceed this many times the broadest wavelength: 0.16 (1 + 1/2 + 1/4 + ...), and a
-/// scarp moves a point by one step at most.
+/// An upper bound of the sum of all octaves, as a multiple of the broadest wavelength: 0.16 (1 + 1/2 + 1/4 + ...), plus
+/// one step by which a scarp may move a point.
 constexpr double highest_per_wavelength = 2.25 * height_per_wavelength;
 
 }  // namespace

@@ -9,12 +9,12 @@
 namespace roam::generate {
 namespace {
 
-// Roughness ends at openings, bulkheads and sharp corners: nothing within `plain`, all of it beyond `plain + ramp`.
+// Roughness fades at openings, bulkheads and sharp corners: none within `plain`, all of it beyond `plain + ramp`.
 constexpr double plain = 0.05, ramp = 0.4;  // m
 
 double fade(double distance) { return smooth((distance - plain) / ramp); }
 
-/// Rock under shotcrete: three sizes of bumps (m) and their shares.
+/// Rock under shotcrete: bumps of three sizes (m), with their weights.
 double roughness(std::uint64_t seed, double s, double v) {
   return 0.6 * value_noise(seed, s / 1.1, v / 1.1) + 0.28 * value_noise(seed + 1, s / 0.37, v / 0.37) +
          0.12 * value_noise(seed + 2, s / 0.13, v / 0.13);

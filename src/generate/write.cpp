@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary PLY and STL are written as they lie in memory");
 
-/// One place of a file where data is appended, through a buffer.
+/// A buffered writer that appends data at one position of a file.
 class Cursor {
  public:
   Cursor(files::WholeFile& file, std::uint64_t offset) : file_(file), offset_(offset) {
@@ -52,7 +52,8 @@ class Cursor {
   std::vector<char> buffer_;
 };
 
-// Scenes have fewer vertices than corners, and miss the number asked for by 3 % at most: all formats can count them.
+// Scenes have fewer vertices than corners, and exceed the requested number by 3 % at most, so all formats can count
+// them.
 static_assert(most_triangles + most_triangles / 32 <= std::numeric_limits<std::uint32_t>::max() / 3);
 
 void write_ply(const Scene& scene, files::WholeFile& file, const Progress& progress) {
@@ -62,7 +63,7 @@ void write_ply(const Scene& scene, files::WholeFile& file, const Progress& progr
       "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       scene.vertices(), scene.triangles());
   file.write_at(0, std::as_bytes(std::span(header)));
-  // All numbers are known, so vertices and faces are written at once, each in its own place of the file.
+  // All numbers are known, so vertices and faces are written in one pass, each at its own position in the file.
   Cursor vertices(file, header.size());
   Cursor faces(file, header.size() + scene.vertices() * 3 * sizeof(double));
   std::uint32_t first = 0;
@@ -95,8 +96,8 @@ void write_obj(const Scene& scene, files::WholeFile& file, const Progress& progr
   text.flush();
 }
 
-/// Rounding a coordinate to float moves it by half a unit in the last place at most: 2^-24 of the next power of two.
-constexpr double stl_coordinate_limit = 32768.0;  // there half a unit is 0.98 mm below and 1.95 mm above
+/// Rounding a coordinate to float moves it by at most half a unit in the last place: 2^-24 of the next power of two.
+constexpr double stl_coordinate_limit = 32768.0;  // below it half a unit is 0.98 mm at most, above it 1.95 mm or more
 
 void write_stl(const Scene& scene, files::WholeFile& file, const Progress& progress) {
   std::array<char, 80> header{};

@@ -8,7 +8,7 @@
 namespace roam::graphics {
 namespace {
 
-/// Shaders of GLSL 1.20 and framebuffer objects are what everything is drawn with.
+/// All drawing needs shaders of GLSL 1.20 and framebuffer objects.
 constexpr float least_version = 2.1f;
 
 std::string text(GLenum name) {
@@ -16,7 +16,7 @@ std::string text(GLenum name) {
   return words ? reinterpret_cast<const char*>(words) : "";
 }
 
-/// Whether it is one of Mesa's drivers that need no graphics card.
+/// Whether this is one of Mesa's drivers without a graphics card.
 bool is_software(const std::string& renderer) {
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
     if (renderer.find(name) != std::string::npos) return true;
@@ -24,7 +24,8 @@ bool is_software(const std::string& renderer) {
   return false;
 }
 
-/// Whether the driver takes a framebuffer with this depth. Says so only after trying: some name what they then refuse.
+/// Whether the driver accepts a framebuffer with this depth. Tries it, because some drivers claim formats that they
+/// refuse.
 bool takes_depth(osg::GLExtensions& gl, GLenum depth_format) {
   constexpr GLsizei size = 16;
   GLuint frame = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Asks a context's OpenGL what it can do.
+/// Abilities of a context's OpenGL.
 
 #include <osg/GraphicsContext>
 
@@ -8,8 +8,8 @@
 
 namespace roam::graphics {
 
-/// Makes the realized `window` current, asks, and releases it. Throws roam::Error when its OpenGL cannot be used, or is
-/// older than what roam draws with.
+/// Makes the realized `window` current, queries its OpenGL, and releases it. Throws roam::Error if that OpenGL cannot
+/// be used, or is older than roam needs.
 [[nodiscard]] Abilities ask_abilities(osg::GraphicsContext& window);
 
 }  // namespace roam::graphics

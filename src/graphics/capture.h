@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pictures and films of what a Frame shows.
+/// Pictures and films of a Frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,31 +13,31 @@
 
 namespace roam::graphics {
 
-/// Writes an image by its extension (.png, .jpg, .jpeg): under a temporary name beside `path`, then renamed, so that
-/// there is never half a picture. Throws roam::Error with the reason.
+/// Writes an image in the format of its extension (.png, .jpg, .jpeg). The file gets a temporary name beside `path`
+/// until it is complete. Throws roam::Error with the reason.
 void write_image(const osg::Image& image, const std::filesystem::path& path);
 
-/// One picture of the next frame, written by a thread of its own.
+/// One picture of the next frame. A thread of its own writes the file.
 ///
 ///     Screenshot shot(frame, "out.png", true);
 ///     viewer.frame();
 ///     shot.finish();
 class Screenshot {
  public:
-  /// Asks for the picture. with_hud: with the head-up display. Throws roam::Error at once for an extension it cannot
-  /// write.
+  /// Requests the picture, with the head-up display if `with_hud`. Throws roam::Error at once for an extension that it
+  /// cannot write.
   Screenshot(Frame& frame, std::filesystem::path path, bool with_hud);
   /// Waits for a file that is being written.
   ~Screenshot();
-  /// What was moved from is done, has nothing to finish and an empty path.
+  /// The moved-from object is done, has nothing to finish and an empty path.
   Screenshot(Screenshot&&) noexcept;
   Screenshot& operator=(Screenshot&&) noexcept;
 
-  /// Whether the file is written, or will not be: then finish() does not wait.
+  /// Whether the file has been written or has failed, so that finish() does not wait.
   [[nodiscard]] bool done() const;
-  /// Waits until the file is written. Throws roam::Error with the reason when it could not be, and when the picture was
-  /// too large to be drawn: then there is no file. In threaded viewers the frame may still be being drawn when
-  /// viewer.frame() returns, so this waits for it: 10 s in vain, and then throws, when no frame was drawn at all.
+  /// Waits until the file is written. Throws roam::Error with the reason if that failed, or if the picture was too
+  /// large to be drawn; then there is no file. In threaded viewers viewer.frame() may return before the frame is drawn,
+  /// so this waits for it. Throws after 10 s if no frame is drawn.
   void finish();
   [[nodiscard]] const std::filesystem::path& path() const;
 
@@ -46,30 +46,30 @@ class Screenshot {
   std::shared_ptr<State> state_;
 };
 
-/// A film in H.264 (.mp4, yuv420p, constant frame rate) by the program ffmpeg, fed by a thread of its own. Odd sizes
-/// get a black row or column. Under a temporary name until finish().
+/// A film in H.264 (.mp4, yuv420p, constant frame rate), encoded by the program ffmpeg. A thread of its own feeds
+/// ffmpeg. Odd sizes get a black row or column. The file has a temporary name until finish().
 class Video {
  public:
-  /// `frames_per_second` in [1, 240]. Throws roam::Error when ffmpeg is not on the PATH (says how to install it), for
-  /// an extension other than .mp4, and for a size out of [16, 8192].
+  /// `frames_per_second` in [1, 240]. Throws roam::Error if ffmpeg is not on the PATH (the message says how to install
+  /// it), for an extension other than .mp4, and for a size outside [16, 8192].
   Video(std::filesystem::path path, int width, int height, int frames_per_second);
-  /// Drops what is not finished, and removes the temporary file.
+  /// Discards a film that is not finished, and removes its temporary file.
   ~Video();
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
 
-  /// Appends a picture of the film's size (RGB, 8 bit, as Frame::request_picture gives it). Waits while 8 pictures are
-  /// waiting to be encoded. May be called from any one thread. Throws roam::Error for another size, and with the last
-  /// words of ffmpeg when that has failed.
+  /// Appends a picture of the film's size (RGB, 8 bit, as from Frame::request_picture). Blocks while 8 pictures wait to
+  /// be encoded. Call it from one thread only. Throws roam::Error for another size, and with the last line of ffmpeg's
+  /// output if ffmpeg has failed.
   void add(osg::ref_ptr<osg::Image> image);
-  /// Appends a picture taken at `seconds` since the film's begin, which must not fall: repeated or left out so that the
-  /// film runs as time did.
+  /// Appends a picture taken `seconds` after the start of the film; `seconds` must not decrease. Repeats or drops
+  /// pictures so that the film runs in real time.
   void add(osg::ref_ptr<osg::Image> image, double seconds);
-  /// Pictures in the film so far.
+  /// Number of pictures in the film so far.
   [[nodiscard]] std::int64_t frames() const;
 
-  /// Ends the film: waits until all is encoded and gives the file its name. Throws roam::Error with the last words of
-  /// ffmpeg when it failed, or when the film has no picture.
+  /// Ends the film: waits until it is encoded, and gives the file its name. Throws roam::Error with the last line of
+  /// ffmpeg's output if ffmpeg has failed, or if the film has no picture.
   void finish();
 
  private:

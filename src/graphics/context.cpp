@@ -11,9 +11,9 @@
 namespace roam::graphics {
 namespace {
 
-/// The least that every driver of the last fifteen years can.
+/// Pixels. Every driver of the last fifteen years supports this size.
 constexpr int largest_side = 16384;
-/// Room for a window on Xvfb to grow.
+/// Largest size to which a window on Xvfb can grow, unless opened larger.
 constexpr int xvfb_width = 3840, xvfb_height = 2160;
 
 void check_size(int width, int height) {

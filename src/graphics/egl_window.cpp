@@ -13,7 +13,7 @@
 namespace roam::graphics {
 namespace {
 
-/// A display that EGL may open, in the order in which they are tried.
+/// A display that EGL may open.
 struct Candidate {
   EGLDisplay display = EGL_NO_DISPLAY;
   std::string name;
@@ -30,7 +30,8 @@ Function function(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/// Hardware first: where there is a graphics card, surfaceless may still mean the processor.
+/// The displays in the order in which they are tried. Hardware is first, because surfaceless may use the processor even
+/// if there is a graphics card.
 std::vector<Candidate> candidates() {
   std::vector<Candidate> hardware, surfaceless, software;
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -58,7 +59,7 @@ std::vector<Candidate> candidates() {
   return all;
 }
 
-/// An OpenGL context with a pbuffer of the wished size.
+/// An OpenGL context with a pbuffer of the requested size.
 class EglWindow : public osgViewer::GraphicsWindow {
  public:
   EglWindow(EGLDisplay display, EGLConfig config, EGLContext context, int width, int height)
@@ -89,11 +90,11 @@ class EglWindow : public osgViewer::GraphicsWindow {
     eglDestroyContext(display_, context_);
     surface_ = EGL_NO_SURFACE;
     context_ = EGL_NO_CONTEXT;
-    // The display stays open: EGL has one for all windows, and it would close under the others.
+    // The display stays open: EGL shares it between all windows, and closing it would break the others.
   }
 
   bool makeCurrentImplementation() override {
-    eglBindAPI(EGL_OPENGL_API);  // each thread has its own choice, and begins with OpenGL ES
+    eglBindAPI(EGL_OPENGL_API);  // a setting of each thread, which defaults to OpenGL ES
     const EGLint width = width_, height = height_;
     if (surface_ == EGL_NO_SURFACE || width != surface_width_ || height != surface_height_) {
       const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
@@ -116,7 +117,7 @@ class EglWindow : public osgViewer::GraphicsWindow {
   }
   void swapBuffersImplementation() override { glFlush(); }
 
-  /// The surface follows when a thread makes it current next.
+  /// The surface is resized when a thread next makes it current.
   bool setWindowRectangleImplementation(int, int, int width, int height) override {
     if (width < 1 || height < 1) return false;
     width_ = width;
@@ -142,7 +143,7 @@ class EglWindow : public osgViewer::GraphicsWindow {
   EGLContext context_;
   EGLSurface surface_ = EGL_NO_SURFACE;
   EGLint surface_width_ = 0, surface_height_ = 0;
-  std::atomic<int> width_, height_;  // wished; set by one thread, taken by the one that draws
+  std::atomic<int> width_, height_;  // requested size; one thread sets it, and the drawing thread applies it
 };
 
 std::string failure(const char* what) {
@@ -159,7 +160,7 @@ std::string failure(const char* what) {
   }
 }
 
-/// Nothing, and why, when it does not work.
+/// Opens a window on the display. Returns null, with the reason in `why`, if that fails.
 osg::ref_ptr<EglWindow> open_on(EGLDisplay display, int width, int height, std::string& why) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
     why = failure("cannot be initialized");
@@ -169,7 +170,7 @@ osg::ref_ptr<EglWindow> open_on(EGLDisplay display, int width, int height, std::
     why = failure("has no OpenGL");
     return nullptr;
   }
-  // No depth, no samples: Frame draws to buffers of its own.
+  // No depth and no samples, because Frame draws to buffers of its own.
   const EGLint wishes[] = {EGL_SURFACE_TYPE,
                            EGL_PBUFFER_BIT,
                            EGL_RENDERABLE_TYPE,

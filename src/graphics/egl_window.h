@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A window that is none: OpenGL by EGL, without an X server.
+/// A surface for OpenGL by EGL, without an X server.
 
 #include <osg/ref_ptr>
 #include <osgViewer/GraphicsWindow>
@@ -8,14 +8,14 @@
 
 namespace roam::graphics {
 
-/// What EGL opened, and how: "EGL, surfaceless" or "EGL, device 0".
+/// A window of EGL, and its kind: "EGL, surfaceless" or "EGL, device 0".
 struct EglOpening {
   osg::ref_ptr<osgViewer::GraphicsWindow> window{};
   std::string place{};
 };
 
-/// Opens a realized place of `width` x `height` pixels, resizable by setWindowRectangle; it has no events. Throws
-/// roam::Error with what was tried and how each failed.
+/// Opens a realized surface of `width` x `height` pixels. setWindowRectangle resizes it; it has no events. Throws
+/// roam::Error with all that was tried and why each failed.
 [[nodiscard]] EglOpening open_egl(int width, int height);
 
 }  // namespace roam::graphics

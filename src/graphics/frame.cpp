@@ -12,11 +12,12 @@
 namespace roam::graphics {
 namespace {
 
-/// Where OpenSceneGraph believes the picture to end, metres. Reversed depth has no end; an ordinary one has this.
+/// Metres: the far plane that OpenSceneGraph uses for its own computations. An ordinary depth buffer ends there;
+/// reversed depth has no end.
 constexpr double believed_far = 1e7;
 constexpr double largest_near = 1e3;
 constexpr double radians = 3.14159265358979323846 / 180.0;
-/// Behind everything, where there is no sky.
+/// The colour where there is no sky.
 const osg::Vec4 background(0.45f, 0.49f, 0.53f, 1.0f);
 
 void check_near(double near) {
@@ -30,7 +31,7 @@ void check_vertical_fov(double degrees) {
               " degrees cannot be used: it must be in [10, 150]");
 }
 
-/// Keeps a flat camera as large as the picture.
+/// Keeps a flat camera the size of the picture.
 class FollowPicture : public osg::NodeCallback {
  public:
   explicit FollowPicture(osg::ref_ptr<osg::Camera> picture) : picture_(std::move(picture)) {}
@@ -38,7 +39,7 @@ class FollowPicture : public osg::NodeCallback {
     osg::Camera& flat = *node->asCamera();
     const osg::Viewport& now = *picture_->getViewport();
     if (flat.getViewport()->width() != now.width() || flat.getViewport()->height() != now.height()) {
-      // Replaced, not changed: a thread may still be drawing by the old one.
+      // Replaced, not changed, because another thread may be drawing with the old viewport.
       flat.setViewport(new osg::Viewport(0, 0, now.width(), now.height()));
       flat.setProjectionMatrixAsOrtho2D(0, now.width(), 0, now.height());
     }
@@ -177,7 +178,7 @@ void Frame::request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::
 }
 
 const char* depth_glsl() {
-  // With reversed depth, z / w = near / distance. near is what the perspective matrix was made with.
+  // With reversed depth, z / w = near / distance, where near is that of the perspective matrix.
   return R"(#version 120
 #pragma import_defines(ROAM_REVERSED_DEPTH)
 vec4 roam_clip(vec4 eye) {

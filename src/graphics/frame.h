@@ -1,19 +1,19 @@
 #pragma once
 /// \file
-/// The picture: everything between the scene graph and the pixels of the window.
+/// The rendering of the scene graph into the pixels of the window.
 ///
-/// The scene is drawn into a buffer of our own, with several samples a pixel and a depth that keeps its precision from
-/// the wall before the nose to the horizon: *reversed depth*. The vertex shader writes near / distance, which is 1 at
-/// the near plane and 0 at infinity, into 32-bit floats; their exponent gives every distance the same relative
-/// precision (2^-24, that is 0.6 mm at 10 km), so that the near plane can be a few centimetres and there is no far one.
-/// Then the display is drawn over it, and what results goes to the window and to who asked for the picture.
+/// The scene is drawn into a separate buffer with several samples a pixel and *reversed depth*, which stays precise
+/// from walls before the eye to the horizon. The vertex shader writes near / distance, which is 1 at the near plane and
+/// 0 at infinity, into 32-bit floats. Their exponent gives every distance the same relative precision (2^-24, that is
+/// 0.6 mm at 10 km). So the near plane can be a few centimetres, and there is no far plane. Then the head-up display is
+/// drawn over the scene, and the result goes to the window and to requested pictures.
 ///
 ///     graph      root() ── space() ── sky, scene, overlay     own depth; shaders must use depth_glsl()
 ///                      └── flat()  ── head-up display         over the picture, no depth
 ///
-/// To OpenSceneGraph the camera is an ordinary perspective camera that renders to the window: culling, picking, level
-/// of detail and manipulators work as they always do. Only fixed-function drawing below space() does not: its depth
-/// would be the wrong way round. Give such a node a program that uses depth_glsl().
+/// For OpenSceneGraph the camera is an ordinary perspective camera that renders to the window. Culling, picking, level
+/// of detail and manipulators work as usual. Only fixed-function drawing below space() does not work, because its depth
+/// is not reversed. Give such a node a program that uses depth_glsl().
 
 #include <functional>
 #include <osg/Group>
@@ -29,39 +29,41 @@ namespace roam::graphics {
 
 struct FrameSettings {
   double vertical_fov = 65.0;  ///< degrees, in [10, 150]
-  /// Metres, in (0, 1000]: nothing nearer is drawn. For a body of radius r to see every wall it can touch:
+  /// Metres, in (0, 1000]. Nothing nearer is drawn. For a body of radius r to see every wall that it can touch, use
   /// near_limit(r, ...).
   double near = 0.05;
-  /// A pixel; 0 or 1: jagged edges, and the least work. At most what the driver can; 1 where it has no room for more.
+  /// Samples a pixel. 0 or 1 gives jagged edges and the least work. Limited by the driver; 1 if it has no memory for
+  /// more.
   int samples = 4;
-  bool reversed_depth = true;  ///< false: an ordinary depth buffer even where a reversed one could be had
+  bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one
 };
 
-/// The largest near plane, in metres, at which an eye `radius` metres from every wall sees no wall cut by it: the
-/// corners of the picture are further out than its centre.
+/// The largest near plane, in metres, that cuts no wall at least `radius` metres from the eye. It is nearer than
+/// `radius` because the corners of the picture are farther from the eye than its centre.
 [[nodiscard]] double near_limit(double radius, double vertical_fov, double aspect);
 
-/// A line of sight. In the frame of the scene graph: what is drawn is the scene minus one origin, so add that to
-/// `origin` to have a place of the scene.
+/// A line of sight in the frame of the scene graph, which is the scene minus one origin. Add that origin to `origin`
+/// for a point of the scene.
 struct Ray {
   Vec3 origin{0.0};     ///< metres
   Vec3 direction{0.0};  ///< length 1
 };
 
-/// Sets up `viewer` to draw to a context. Everything it made lives on in the viewer: a Frame may go before or after.
-/// Use it from the thread that calls viewer.frame(), which may run in any of OpenSceneGraph's threading models.
+/// Sets up `viewer` to draw to a context. All that it makes stays in the viewer, so a Frame may be destroyed before or
+/// after it. Use it from the thread that calls viewer.frame(). The viewer may have any of OpenSceneGraph's threading
+/// models.
 class Frame {
  public:
   /// Takes over the viewer's camera (context, viewport, projection, clearing, draw callbacks, lighting) and its scene
-  /// data (root()). Throws roam::Error for settings out of range. Call before viewer.realize().
+  /// data (root()). Throws roam::Error for settings out of range. Call it before viewer.realize().
   Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSettings& settings);
   ~Frame();
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
   [[nodiscard]] osg::Group* root() const;
-  [[nodiscard]] osg::Group* space() const;  ///< what is in space: add the sky, the scene, the overlay here
-  [[nodiscard]] osg::Camera* flat() const;  ///< what is on the picture: pixels from the lower left corner
+  [[nodiscard]] osg::Group* space() const;  ///< drawn in space: add the sky, the scene and the overlay here
+  [[nodiscard]] osg::Camera* flat() const;  ///< drawn on the picture: pixels from the lower left corner
   [[nodiscard]] const Context& context() const;
   [[nodiscard]] int width() const;   ///< pixels; follows the window
   [[nodiscard]] int height() const;  ///< pixels; follows the window
@@ -72,18 +74,18 @@ class Frame {
   [[nodiscard]] double near() const;
   [[nodiscard]] double vertical_fov() const;
 
-  /// Whether the depth is reversed, or an ordinary 24-bit one: then what is far flickers.
+  /// Whether the depth is reversed. If not, it is an ordinary 24-bit depth, with which distant surfaces flicker.
   [[nodiscard]] bool reversed_depth() const;
-  /// One line: renderer, depth, samples, and what is missing.
+  /// One line: renderer, depth, samples, and missing abilities.
   [[nodiscard]] std::string describe() const;
 
-  /// What lies under a pixel of the window, by the camera's present place: x to the right, y up, from the lower left
-  /// corner, as osgGA's events count them. In the frame of the scene graph, as the camera is: scene minus origin.
+  /// The line of sight through a pixel of the window, by the camera's present position. x to the right, y up, from the
+  /// lower left corner, as in osgGA's events. In the frame of the scene graph, which is the scene minus origin.
   [[nodiscard]] Ray ray(double x, double y) const;
 
-  /// Asks for the picture of the next frame that is drawn: RGB, 8 bit, rows from the bottom, as osg::Image is used to.
-  /// with_hud: with what is drawn in flat(). Either `done` or `failed` is called, once, in the thread that draws:
-  /// `failed` where the picture is too large for the driver, with the reason and a size that can be drawn.
+  /// Requests the picture of the next frame: RGB, 8 bit, rows from the bottom as in osg::Image. With `with_hud` it
+  /// includes flat(). Either `done` or `failed` is called, once, in the drawing thread. `failed` is called if the
+  /// picture is too large for the driver; `reason` names a size that can be drawn.
   void request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
                        std::function<void(const std::string& reason)> failed = {});
 
@@ -99,7 +101,7 @@ class Frame {
   osg::ref_ptr<osg::Camera> flat_;
 };
 
-/// GLSL 1.20, to be put before a vertex shader for use below Frame::space(): `vec4 roam_clip(vec4 eye)` gives the
+/// GLSL 1.20 to put before a vertex shader for use below Frame::space(). `vec4 roam_clip(vec4 eye)` returns the
 /// gl_Position of a point in eye coordinates.
 [[nodiscard]] const char* depth_glsl();
 

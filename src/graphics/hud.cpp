@@ -10,7 +10,8 @@
 
 namespace roam::graphics {
 
-/// What is to be shown, and the nodes that show it. As an update callback it makes them agree before each frame.
+/// The contents of the display, and the nodes that show them. As an update callback it makes the nodes match the
+/// contents before each frame.
 class Hud::Panels : public osg::NodeCallback {
  public:
   explicit Panels(osg::ref_ptr<osg::Camera> picture) : picture_(std::move(picture)) {}
@@ -26,7 +27,7 @@ class Hud::Panels : public osg::NodeCallback {
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
 
-  /// The nodes, from the lowest to the uppermost.
+  /// Adds the nodes, from the lowest to the topmost.
   void add_to(osg::Group& group) {
     for (osg::Node* node : {static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
                             static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(help_.get())}) {
@@ -37,7 +38,7 @@ class Hud::Panels : public osg::NodeCallback {
   void change_all() { status_changed = message_changed = help_changed = crosshair_changed = true; }
 
   [[nodiscard]] std::vector<StatusLine> status_shown() const {
-    if (help_shown) return {};  // it stands there itself
+    if (help_shown) return {};  // the help takes its place
     std::vector<StatusLine> shown = status;
     if (detail == Detail::minimal) shown.resize(std::min(shown.size(), minimal_lines));
     return shown;
@@ -80,7 +81,7 @@ class Hud::Panels : public osg::NodeCallback {
 Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
   group_->setName("head-up display");
   osg::StateSet& state = *group_->getOrCreateStateSet();
-  // As they were added, whatever bins the texts would choose: panels before what stands on them.
+  // In the order in which they were added, whatever bins the texts would choose: panels before their texts.
   state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
   state.setAttributeAndModes(new osg::BlendFunc);
   state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);

@@ -11,15 +11,15 @@ const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.90f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 text_color(0.86f, 0.89f, 0.92f, 1.0f);
-/// Below this nobody reads.
+/// Pixels. Smaller letters are unreadable.
 constexpr int smallest_letter = 7;
-/// Rather than smaller than this, lines are broken.
+/// Pixels. Lines are broken before letters get smaller than this.
 constexpr int comfortable_letter = 10;
 constexpr std::size_t most_columns = 5;
-constexpr float columns_gap = 2.5f;  ///< in gaps between a key and what it does
+constexpr float columns_gap = 2.5f;  ///< in gaps between a key and its effect
 constexpr const char* more = "… enlarge the window";
 
-/// One column: lines [first, last), and how wide their two halves are.
+/// One column: lines [first, last), and the widths of its two halves.
 struct Column {
   std::size_t first = 0, last = 0;
   float keys = 0, deeds = 0;
@@ -35,17 +35,17 @@ struct Arrangement {
 
 bool is_heading(const HelpLine& line) { return line.second.empty(); }
 
-/// Above every heading but a column's first.
+/// Above every heading, except at the top of a column.
 constexpr float heading_space = 0.6f;  // lines
 
-/// Lines that a column of these is high.
+/// Height of a column, in lines.
 float height_of(const std::vector<HelpLine>& lines, const Column& column) {
   float height = static_cast<float>(column.last - column.first);
   for (std::size_t i = column.first + 1; i < column.last; ++i) height += is_heading(lines[i]) ? heading_space : 0.0f;
   return height;
 }
 
-/// Where the column ends when a heading with few lines of its own at the foot goes to the next column.
+/// The end of the column after moving a heading with few lines at its foot to the next column.
 std::size_t without_stub(const std::vector<HelpLine>& lines, const Column& column) {
   constexpr std::size_t stub = 3;  // lines, the heading counted
   for (std::size_t i = column.last - 1; i > column.first && i + stub >= column.last; --i) {
@@ -54,7 +54,7 @@ std::size_t without_stub(const std::vector<HelpLine>& lines, const Column& colum
   return column.last;
 }
 
-/// Columns of at most `most` lines.
+/// Divides the lines into columns of at most `most` lines.
 std::vector<Column> cut(const std::vector<HelpLine>& lines, float most) {
   std::vector<Column> columns;
   for (std::size_t first = 0; first < lines.size();) {
@@ -67,7 +67,7 @@ std::vector<Column> cut(const std::vector<HelpLine>& lines, float most) {
   return columns;
 }
 
-/// At most `count` columns, as even as they can be.
+/// Divides the lines into at most `count` columns of similar height.
 std::vector<Column> cut_evenly(const std::vector<HelpLine>& lines, std::size_t count) {
   const float all = height_of(lines, {0, lines.size()});
   float most = std::floor(all / static_cast<float>(count));
@@ -84,7 +84,7 @@ Arrangement blank(int letter) {
   return a;
 }
 
-/// Says where the columns lie.
+/// Computes the positions of the columns.
 Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<Column> columns) {
   Arrangement a = blank(letter);
   a.lines = lines;
@@ -108,10 +108,10 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<
   return a;
 }
 
-/// The message stays seen below the help.
+/// The bottom of the help, above the message.
 float bottom_of_help(const Page& page) { return 0.07f * page.height + 3.6f * static_cast<float>(page.letter); }
 
-/// The lines, broken so that a column of them is at most `width` pixels wide. What has no space is shortened.
+/// The lines, broken so that a column of them is at most `width` pixels wide. Text without a space is shortened.
 std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, float width) {
   const Look key_look{letter, true, key_color}, deed_look{letter, false, text_color};
   const float gap = blank(letter).gap;
@@ -135,8 +135,8 @@ std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, f
   return broken;
 }
 
-/// What fits of the lines, in at most `count` columns of at most `most` lines and `width` pixels each, and that there
-/// are more.
+/// The lines that fit into at most `count` columns of at most `most` lines and `width` pixels each, and a line that
+/// says that there are more.
 Arrangement first_of(const std::vector<HelpLine>& lines, int letter, std::size_t count, float most, float width) {
   std::vector<Column> columns = cut(lines, most - heading_space);
   columns.resize(std::min(columns.size(), count));
@@ -146,8 +146,8 @@ Arrangement first_of(const std::vector<HelpLine>& lines, int letter, std::size_t
   return arrange(some, letter, std::move(columns));
 }
 
-/// The largest letters with which all fits, with them lines that are not broken if that is possible, and the fewest
-/// columns; else as many lines as possible.
+/// The arrangement with the largest letters with which all lines fit, then with unbroken lines if possible, then with
+/// the fewest columns. If none fits, as many lines as possible.
 Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
   const float width = page.width - 2 * page.margin, height = page.height - bottom_of_help(page) - page.margin;
   const auto fits = [&](const Arrangement& a) { return a.width <= width && a.height <= height; };
@@ -165,7 +165,7 @@ Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
     for (std::size_t count = 1; count <= most_columns; ++count) {
       const auto n = static_cast<float>(count);
       const float column = std::floor((width - 3 * none.gap - columns_gap * none.gap * (n - 1)) / n) - 1;
-      constexpr float least_column = 14.0f;  // letters; below, each line is a word
+      constexpr float least_column = 14.0f;  // letters; in narrower columns each line is one word
       if (count > 1 && column < least_column * static_cast<float>(letter)) break;
       const std::vector<HelpLine> broken = narrowed(lines, letter, column);
       Arrangement a = arrange(broken, letter, cut_evenly(broken, count));

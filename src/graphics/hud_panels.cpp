@@ -6,8 +6,8 @@
 namespace roam::graphics {
 namespace {
 
-// On the darkest and on the lightest picture the panel stays so dark that the text's contrast is above 7 : 1, which
-// the Web Content Accessibility Guidelines ask for in their strictest level.
+// Over the darkest and the lightest picture the panel is so dark that the contrast of its text is above 7 : 1. That is
+// the strictest level of the Web Content Accessibility Guidelines.
 const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.87f);
 const osg::Vec4 text_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 label_color(0.72f, 0.79f, 0.86f, 1.0f);
@@ -24,7 +24,7 @@ osg::ref_ptr<osg::Geometry> plate(osg::StateSet* plates, const Rectangle& where,
   return made;
 }
 
-/// A note with its remedy has two or three.
+/// A note with its remedy takes two or three lines.
 constexpr std::size_t most_value_lines = 3;
 
 float up_to(float value, float step) { return std::ceil(value / step) * step; }
@@ -32,7 +32,7 @@ float up_to(float value, float step) { return std::ceil(value / step) * step; }
 }  // namespace
 
 Page Page::of(float width, float height) {
-  // 12 pixels at 640 x 360, 15 at 1280 x 720, 19 at 1920 x 1080, 33 at 3840 x 2160: the same share of a large window,
+  // 12 pixels at 640 x 360, 15 at 1280 x 720, 20 at 1920 x 1080, 33 at 3840 x 2160: a constant share of a large window,
   // and a little more of a small one. A narrow window counts as one of 16 : 9.
   const float effective = std::min(height, width * 9.0f / 16.0f);
   Page page;
@@ -76,7 +76,7 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
     const osg::BoundingBox& box = row.value->getBoundingBox();
     if (box.valid()) widest = std::max(widest, box.xMax());
   }
-  // In steps, and slow to shrink: a panel that follows each digit is restless.
+  // The width changes in steps and shrinks late, because a panel that follows each digit is restless.
   const float step = 3.0f * static_cast<float>(page.letter);
   const float wished = std::min(up_to(widest - page.margin, step), page.width - 2.8f * page.margin);
   const bool resized = wished > width_ || wished + 2 * step < width_;
@@ -84,14 +84,14 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
 }
 
 float StatusPanel::width_for(std::size_t row) const {
-  // Less than half of the picture, but in small windows more: there it would be a word a line.
+  // Less than half of the picture; more in small windows, where half would be a word a line.
   const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 30.0f * page_.margin));
   return right - (labels_[row].empty() ? 1.8f * page_.margin : value_left_);
 }
 
 void StatusPanel::break_value(std::size_t row, const std::string& words) {
   Row& r = rows_[row];
-  // Most stay what they were: measuring them with every frame would take longer than drawing them.
+  // Most rows are unchanged. Measuring them in every frame would take longer than drawing them.
   if (!r.broken.empty() && r.words == words) return;
   const Look look{page_.letter, false, text_color};
   r.words = words;
@@ -113,7 +113,7 @@ std::string StatusPanel::first_lines(std::size_t row, std::size_t count) const {
   std::string text;
   for (std::size_t k = 0; k < count; ++k) {
     std::string line = broken[k];
-    // Too long then, so that "…" ends it.
+    // This makes the line too long, so that it ends with "…".
     if (k + 1 == count && count < broken.size()) line.append(1, ' ').append(broken[count]);
     if (k > 0) text += '\n';
     text += shorten(line, look, width_for(row));
@@ -172,7 +172,7 @@ osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, 
   const float bar = std::max(3.0f, std::round(0.3f * page.margin));
 
   std::vector<std::string> lines = break_lines(text, look, 0.78f * page.width);
-  // Never over the middle, where one looks.
+  // Never over the middle of the picture.
   const auto most = static_cast<std::size_t>(std::max(1.0f, 0.3f * page.height / line_height));
   if (lines.size() > most) lines.resize(most);
   float widest = progress ? 16.0f * page.margin : 0.0f;
@@ -216,7 +216,7 @@ osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates) 
   for (const float rim : {1.0f, 0.0f}) {
     const osg::Vec4& color = rim > 0 ? rim_color : text_color;
     const float half = 0.5f * thick + rim, length = arm + rim;
-    // The upright stroke in two pieces, so that what is not opaque is nowhere drawn twice.
+    // The upright stroke has two pieces, so that no transparent pixel is drawn twice.
     group->addChild(plate(plates, {x - length, y - half, 2 * length, 2 * half}, 0, color));
     group->addChild(plate(plates, {x - half, y + half, 2 * half, length - half}, 0, color));
     group->addChild(plate(plates, {x - half, y - length, 2 * half, length - half}, 0, color));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where on the picture the parts of the head-up display lie, and what they are drawn with.
+/// Layout and drawing of the parts of the head-up display.
 
 #include <optional>
 #include <osg/Group>
@@ -14,7 +14,7 @@
 
 namespace roam::graphics {
 
-/// The picture's size, and what follows from it. All in pixels.
+/// The size of the picture and the sizes derived from it, in pixels.
 struct Page {
   float width = 0, height = 0;
   int letter = 16;    ///< size of the text
@@ -25,8 +25,8 @@ struct Page {
   bool operator==(const Page&) const = default;
 };
 
-/// The status lines at the upper left. Keeps its texts, because what they say changes with every frame. Long values are
-/// broken into up to three lines, fewer where there would be no room for all below each other.
+/// The status lines at the upper left. Keeps its texts, because they change with every frame. Long values are broken
+/// into up to three lines, or fewer if there is no room for all of them.
 class StatusPanel {
  public:
   explicit StatusPanel(osg::ref_ptr<osg::StateSet> plates) : plates_(std::move(plates)) {}
@@ -36,17 +36,17 @@ class StatusPanel {
  private:
   struct Row {
     osg::ref_ptr<osgText::Text> label, value;
-    std::string words;                // the value as it came
-    std::vector<std::string> broken;  // as many lines as it would take
-    std::string shown;                // the first of them
-    std::size_t lines = 0;            // and how many it has; 0: not yet said
+    std::string words;                // the unbroken value
+    std::vector<std::string> broken;  // all its lines
+    std::string shown;                // the lines that are shown
+    std::size_t lines = 0;            // and their number; 0: not known yet
   };
   void rebuild(const std::vector<StatusLine>& lines);
-  /// Pixels that a row has for its value.
+  /// Width of a row's value, in pixels.
   [[nodiscard]] float width_for(std::size_t row) const;
   void break_value(std::size_t row, const std::string& words);
   [[nodiscard]] std::size_t lines_in_all(std::size_t most_lines) const;
-  /// A row's first lines, with "…" where that is not all.
+  /// A row's first lines, with "…" if there are more.
   [[nodiscard]] std::string first_lines(std::size_t row, std::size_t count) const;
   void place_rows();
   void place_plate(float width);
@@ -62,12 +62,12 @@ class StatusPanel {
   std::size_t lines_ = 0;
 };
 
-/// The message in the lower middle, with the bar of progress.
+/// The message in the lower middle, with the progress bar.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
                                                    std::optional<double> progress, osg::StateSet* plates);
 
-/// The keys, over the whole picture: in as many columns, as small and broken into as many lines as they need to fit.
-/// Where not even that is enough, the first of them and "… enlarge the window".
+/// The keys, over the whole picture. Uses as many columns, as small letters and as many breaks as needed to fit. If
+/// they still do not fit, shows the first of them and "… enlarge the window".
 [[nodiscard]] osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>& lines,
                                                 osg::StateSet* plates);
 

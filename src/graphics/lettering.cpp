@@ -10,7 +10,7 @@
 namespace roam::graphics {
 namespace {
 
-/// The file that fontconfig has for DejaVu Sans, or for what it would write instead; empty where it has none.
+/// The file of DejaVu Sans, or of fontconfig's replacement for it; empty if there is none.
 std::string find_font(bool bold) {
   const std::unique_ptr<FcConfig, void (*)(FcConfig*)> fonts(FcInitLoadConfigAndFonts(), FcConfigDestroy);
   if (!fonts) return {};
@@ -33,7 +33,7 @@ osg::ref_ptr<osgText::Font> load_font(bool bold) {
 }
 
 osgText::Font* font_for(bool bold) {
-  // Never given back: at the program's end their textures would outlive what OpenSceneGraph manages textures with.
+  // Never freed: at the end of the program their textures would outlive OpenSceneGraph's texture manager.
   static const auto& regular = *new osg::ref_ptr<osgText::Font>(load_font(false));
   static const auto& heavy = *new osg::ref_ptr<osgText::Font>(load_font(true));
   return bold ? heavy.get() : regular.get();
@@ -48,10 +48,10 @@ void load_fonts() { static_cast<void>(font_for(false)); }
 osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look, float x, float y) {
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setDataVariance(osg::Object::DYNAMIC);
-  // The other techniques' shaders need GLSL 1.30 and do not compile everywhere.
+  // Shaders of the other techniques need GLSL 1.30 and do not compile everywhere.
   text->setShaderTechnique(osgText::GREYSCALE);
   text->setFont(font_for(look.bold));
-  // Two texels a pixel. One would be sharper if the letters lay on whole pixels, which OpenSceneGraph's do not.
+  // Two texels a pixel. One would be sharper on whole pixels, but OpenSceneGraph does not align letters to them.
   text->setFontResolution(2 * static_cast<unsigned>(look.size), 2 * static_cast<unsigned>(look.size));
   text->setCharacterSize(static_cast<float>(look.size));
   text->setAlignment(osgText::Text::LEFT_BASE_LINE);
@@ -99,7 +99,7 @@ std::string shorten(const std::string& words, const Look& look, float width) {
   if (width_of(words, look) <= width) return words;
   std::string kept = words;
   do {
-    // A whole UTF-8 character at a time.
+    // Remove one whole UTF-8 character.
     while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80) kept.pop_back();
     if (!kept.empty()) kept.pop_back();
   } while (!kept.empty() && width_of(kept + std::string(ellipsis), look) > width);

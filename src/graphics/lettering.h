@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Text on the picture: which font, how wide, where lines break.
+/// Text on the picture: font, width, line breaks.
 
 #include <osg/Vec4>
 #include <osg/ref_ptr>
@@ -10,31 +10,30 @@
 
 namespace roam::graphics {
 
-/// How a text is written. Two of one look share their glyphs.
+/// The style of a text. Texts of one style share their glyphs.
 struct Look {
-  int size = 16;  ///< pixels, of an em
+  int size = 16;  ///< height of an em, pixels
   bool bold = false;
   osg::Vec4 color{1, 1, 1, 1};
 };
 
-/// Loads the fonts, which make_text does else: for programs that let OpenSceneGraph read no file later.
+/// Loads the fonts, as make_text would do later. For programs in which OpenSceneGraph may read no file later.
 void load_fonts();
 
-/// A text in UTF-8 whose base line begins at (x, y), pixels, drawn in any threading model. In DejaVu Sans as fontconfig
-/// finds it, else in the font that OpenSceneGraph brings.
+/// A text in UTF-8 whose baseline begins at (x, y), pixels, for any threading model. The font is DejaVu Sans as
+/// fontconfig finds it, else OpenSceneGraph's own.
 [[nodiscard]] osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look, float x, float y);
 
-/// Changes what is different only. To be called between frames.
+/// Updates only what differs. Call it between frames.
 void change_text(osgText::Text& text, const std::string& words, const osg::Vec4& color);
 
-/// Pixels from the first letter's left to the last one's right.
+/// Pixels from the left edge of the first letter to the right edge of the last.
 [[nodiscard]] float width_of(const std::string& words, const Look& look);
 
-/// The lines of `words`, broken at spaces where they would be wider than `width` pixels. A word that is wider itself
-/// stays whole.
+/// Breaks `words` at spaces into lines of at most `width` pixels. A word that is wider stays whole.
 [[nodiscard]] std::vector<std::string> break_lines(const std::string& words, const Look& look, float width);
 
-/// `words`, or as many of them as fit `width` pixels with "…" behind them.
+/// `words` if they fit into `width` pixels, else their beginning with "…".
 [[nodiscard]] std::string shorten(const std::string& words, const Look& look, float width);
 
 }  // namespace roam::graphics

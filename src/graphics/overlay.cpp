@@ -54,7 +54,7 @@ class Strokes {
     add(a, color);
     add(b, color);
   }
-  /// Part of a circle about `centre`: centre + cos t u + sin t v.
+  /// Adds the part of a circle about `centre` from angle `from` to `to`: centre + cos t u + sin t v.
   void arc(const Vec3& centre, const Vec3& u, const Vec3& v, double from, double to, const osg::Vec4& color) {
     const int pieces = std::max(1, static_cast<int>(std::lround(circle_corners * (to - from) / (2 * pi))));
     const auto at = [&](int i) {
@@ -119,12 +119,12 @@ void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& 
   }
 }
 
-/// `depth_test` off: what is behind walls, faintly.
+/// `depth_test` false: draws faintly what walls hide.
 osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
   osg::ref_ptr<osg::Group> pass = new osg::Group;
   osg::StateSet& state = *pass->getOrCreateStateSet();
   state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
-  // After everything that is transparent. Depth is compared as everywhere in the space around.
+  // After all transparent surfaces. The depth comparison is that of the space around.
   state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
   if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   pass->addChild(content);
@@ -144,7 +144,7 @@ void make_state(osg::StateSet& state) {
 
 }  // namespace
 
-/// A line in pieces that are full, and one that grows.
+/// A line as a number of full pieces and one that grows.
 class Overlay::Trail : public osg::Group {
  public:
   void add(const Vec3& point) {
@@ -155,7 +155,7 @@ class Overlay::Trail : public osg::Group {
       points_->push_back(last);
     }
     points_->push_back(to_osg(point));
-    // A line strip of one point is nothing; OpenGL takes it.
+    // A strip of one point draws nothing, and OpenGL accepts it.
     strip_->setCount(static_cast<GLsizei>(points_->size()));
     points_->dirty();
     geometry_->dirtyBound();

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// What the collision knows, drawn in the scene: for understanding it and for pictures.
+/// Collision data drawn in the scene: body, contacts, triangles and trail.
 ///
-/// What is behind a wall shines through faintly. All places are in the frame of the scene graph, which is the scene
-/// minus one origin: subtract that from places of the scene.
+/// Walls do not hide it completely: hidden parts are drawn faintly. All positions are in the frame of the scene graph,
+/// which is the scene minus one origin; subtract that from positions in the scene.
 
 #include <array>
 #include <optional>
@@ -19,17 +19,17 @@ namespace roam::graphics {
 struct BodyMark {
   Vec3 centre{0.0};     ///< metres, scene minus origin
   double radius = 0.0;  ///< metres, > 0
-  double height = 0.0;  ///< metres, whole; less than 2 * radius counts as that
+  double height = 0.0;  ///< metres; a value below 2 * radius counts as 2 * radius
   bool held = false;    ///< drawn in the colour of warnings
 };
 
-/// Where the body touches or touched.
+/// A present or past contact of the body.
 struct ContactMark {
   Vec3 point{0.0};   ///< metres, scene minus origin
   Vec3 normal{0.0};  ///< away from the wall, length 1; drawn 0.3 m long
 };
 
-/// What may be drawn. Nothing by default.
+/// The marks to draw. Empty by default.
 struct Marks {
   std::optional<BodyMark> body{};
   std::vector<ContactMark> contacts{};
@@ -40,15 +40,15 @@ struct Marks {
 class Overlay {
  public:
   explicit Overlay(Frame& frame);
-  ~Overlay();  ///< takes it out of the picture
+  ~Overlay();  ///< removes it from the picture
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
   void set_marks(const Marks& marks);
-  /// The way that was recorded; `point` in metres, scene minus origin. Points can be added at 60 Hz for hours: only the
-  /// last piece is sent anew.
+  /// Appends a point to the recorded path, in metres, scene minus origin. Points can be added at 60 Hz for hours,
+  /// because only the last piece is sent to the driver again.
   void add_to_trail(const Vec3& point);
-  /// The next point begins a new line: after a teleport.
+  /// The next point begins a new line, for example after a teleport.
   void break_trail();
   void clear_trail();
 

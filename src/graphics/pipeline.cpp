@@ -28,7 +28,7 @@ osg::ref_ptr<osg::Camera::DrawCallback> callback(osg::Referenced* owner, Step st
   return new StepCallback<Step>(owner, step);
 }
 
-/// The longest sides that the driver draws to, pixels.
+/// The largest width and height that the driver can draw to, pixels.
 std::array<int, 2> largest_sides() {
   GLint buffer = 0;
   std::array<GLint, 2> viewport{};
@@ -37,9 +37,9 @@ std::array<int, 2> largest_sides() {
   return {std::min(buffer, viewport[0]), std::min(buffer, viewport[1])};
 }
 
-/// Takes back what OpenGL complained about, so that OpenSceneGraph does not find it and complain again.
+/// Clears errors of OpenGL, so that OpenSceneGraph does not report them again.
 void forget_errors() {
-  constexpr int most = 8;  // a lost context complains without end
+  constexpr int most = 8;  // a lost context reports errors without end
   for (int i = 0; i < most && glGetError() != GL_NO_ERROR; ++i) continue;
 }
 
@@ -48,7 +48,7 @@ osg::GLExtensions& functions(osg::RenderInfo& info) { return *info.getState()->g
 }  // namespace
 
 void Frame::Pipeline::attach(osg::Camera& camera) {
-  // What is bound below is no window: OpenSceneGraph must not ask for its back buffer.
+  // The buffers bound below are no window, so OpenSceneGraph must not use its back buffer.
   camera.setDrawBuffer(GL_COLOR_ATTACHMENT0_EXT);
   camera.setReadBuffer(GL_COLOR_ATTACHMENT0_EXT);
   camera.setPreDrawCallback(callback(this, [this](osg::RenderInfo& info) { begin(info); }));
@@ -108,9 +108,9 @@ void Frame::Pipeline::resize(osg::GLExtensions& gl, int width, int height) {
     if (within && allocate(gl, width, height, samples)) return;
   }
   problem_ = refuse(gl);
-  // OpenSceneGraph draws whatever happens: into a pixel that nobody sees.
+  // OpenSceneGraph draws in any case, so give it one invisible pixel.
   allocate(gl, 1, 1, 1);
-  // Who draws without a screen hears of it by the picture that is asked for.
+  // A program without a screen gets the message with the picture that it requests.
   if (!headless_) OSG_WARN << "The picture cannot be drawn: " << problem_ << ".\n";
 }
 
@@ -171,7 +171,7 @@ bool Frame::Pipeline::make(osg::GLExtensions& gl, Buffers& buffers, int width, i
 void Frame::Pipeline::release(osg::GLExtensions& gl) {
   if (picture_.frame == scene_.frame) picture_ = {};
   for (Buffers* buffers : {&scene_, &picture_}) {
-    // Zeros are passed over by OpenGL.
+    // OpenGL ignores zeros.
     gl.glDeleteFramebuffers(1, &buffers->frame);
     gl.glDeleteRenderbuffers(1, &buffers->color);
     gl.glDeleteRenderbuffers(1, &buffers->depth);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The buffers of a Frame, and what happens to them while OpenGL draws.
+/// The buffers of a Frame, and their use during drawing.
 
 #include <atomic>
 #include <functional>
@@ -16,31 +16,31 @@
 
 namespace roam::graphics {
 
-/// Runs in the thread that draws, as callbacks of the viewer's camera: begin before the scene is drawn, resolve after
-/// it, finish after everything that lies over it. The buffers follow the camera's viewport by themselves. Where the
-/// driver has no room for the samples, there is one a pixel; where it has none for that, nothing is drawn and all
-/// requests fail.
+/// Runs in the drawing thread, as callbacks of the viewer's camera: begin before the scene is drawn, resolve after it,
+/// and finish after everything that lies over it. The buffers follow the camera's viewport. If the driver has no memory
+/// for the samples, there is one sample a pixel. If it has none for that either, nothing is drawn and all requests
+/// fail.
 class Frame::Pipeline : public osg::Referenced {
  public:
-  /// `headless`: only the advice in messages depends on it.
+  /// `headless` only affects the advice in messages.
   Pipeline(bool reversed_depth, int samples, bool headless)
       : reversed_depth_(reversed_depth), headless_(headless), wished_samples_(samples), samples_(samples) {}
 
-  /// Makes `camera` draw through this.
+  /// Makes `camera` draw through this pipeline.
   void attach(osg::Camera& camera);
 
   [[nodiscard]] bool reversed_depth() const { return reversed_depth_; }
   [[nodiscard]] int wished_samples() const { return wished_samples_; }
-  /// In the last frame that was drawn. From any thread.
+  /// Samples of the last frame. Any thread.
   [[nodiscard]] int samples() const { return samples_; }
 
   using Done = std::function<void(osg::ref_ptr<osg::Image>)>;
   using Failed = std::function<void(const std::string&)>;
-  /// May be called from any thread.
+  /// Any thread.
   void request(bool with_hud, Done done, Failed failed);
 
  private:
-  /// A framebuffer object and what is attached to it; 0 where it is not.
+  /// A framebuffer object and its attachments; 0 for those that it does not have.
   struct Buffers {
     GLuint frame = 0;
     GLuint color = 0;
@@ -57,11 +57,11 @@ class Frame::Pipeline : public osg::Referenced {
   void finish(osg::RenderInfo& info);
 
   void resize(osg::GLExtensions& gl, int width, int height);
-  /// Makes all buffers anew; false, and none, where the driver refuses.
+  /// Makes all buffers anew. If the driver refuses, leaves none and returns false.
   bool allocate(osg::GLExtensions& gl, int width, int height, int samples);
   bool make(osg::GLExtensions& gl, Buffers& buffers, int width, int height, int samples, bool with_depth) const;
   void release(osg::GLExtensions& gl);
-  /// Says that nothing can be drawn in this size, and in which it can.
+  /// The message that this size cannot be drawn, with a size that can.
   std::string refuse(osg::GLExtensions& gl);
   void serve(bool with_hud);
 
@@ -69,9 +69,9 @@ class Frame::Pipeline : public osg::Referenced {
   const int wished_samples_;
   std::atomic<int> samples_;
   int width_ = 0, height_ = 0;
-  std::string problem_;  // why nothing can be drawn; empty: it can
+  std::string problem_;  // why nothing can be drawn; empty if it can
   Buffers scene_;        // several samples a pixel, and the depth
-  Buffers picture_;      // one sample a pixel; the same as scene_ where that has no more
+  Buffers picture_;      // one sample a pixel; equal to scene_ if that has one too
   std::mutex mutex_;
   std::vector<Request> requests_;
 };

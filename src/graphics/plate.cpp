@@ -19,7 +19,7 @@ void main() {
 }
 )";
 
-// The distance to the outline, in pixels, makes the edge one pixel soft.
+// The distance to the outline, in pixels, gives an edge that is soft over one pixel.
 constexpr const char* fragment_source = R"(#version 120
 varying vec2 roam_place;
 varying vec3 roam_shape;
@@ -56,7 +56,7 @@ void move_plate(osg::Geometry& plate, const Rectangle& where, float radius) {
   auto& shapes = static_cast<osg::Vec3Array&>(*plate.getTexCoordArray(1));
   const osg::Vec2 half(0.5f * where.width, 0.5f * where.height);
   for (unsigned i = 0; i < 4; ++i) {
-    // One pixel more on all sides, for the soft edge.
+    // One pixel more on all sides for the soft edge.
     const osg::Vec2 place((i & 1 ? 1.0f : -1.0f) * (half.x() + 1), (i & 2 ? 1.0f : -1.0f) * (half.y() + 1));
     corners[i].set(where.x + half.x() + place.x(), where.y + half.y() + place.y(), 0);
     places[i] = place;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rectangles on the picture, with round corners and smooth edges.
+/// Rectangles on the picture, with rounded corners and smooth edges.
 
 #include <osg/Geometry>
 #include <osg/StateSet>
@@ -14,12 +14,13 @@ struct Rectangle {
   float x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A filled rectangle; `radius` of its corners in pixels. Drawn below plate_state(), in any threading model.
+/// A filled rectangle; `radius` of its corners in pixels. Draw it below a node with plate_state(), in any threading
+/// model.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> make_plate(const Rectangle& where, float radius, const osg::Vec4& color);
-/// To be called between frames.
+/// Moves a plate. Call it between frames.
 void move_plate(osg::Geometry& plate, const Rectangle& where, float radius);
 
-/// The state that plates need: their program.
+/// The state that plates need, with their shader program.
 [[nodiscard]] osg::ref_ptr<osg::StateSet> plate_state();
 
 }  // namespace roam::graphics

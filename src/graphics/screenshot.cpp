@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A frame that has not been drawn by then never will be.
+/// A frame that is not drawn within this time never will be.
 constexpr std::chrono::seconds frame_patience{10};
 
 void check_extension(const fs::path& path) {
@@ -41,7 +41,7 @@ void write_image(const osg::Image& image, const fs::path& path) {
   files::write_whole(path, bytes.str());
 }
 
-/// Shared by who asks, the thread that draws and the one that writes.
+/// Shared by the caller, the drawing thread and the writing thread.
 struct Screenshot::State {
   fs::path path;
   std::mutex mutex;
@@ -67,7 +67,7 @@ struct Screenshot::State {
 
   ~State() { end(std::chrono::seconds(0)); }
 
-  /// Of the thread that writes, where nobody would catch what is thrown.
+  /// The writing thread, in which no exception would be caught.
   void run() noexcept {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return image || given_up; });
@@ -82,7 +82,7 @@ struct Screenshot::State {
         why = "no picture was drawn for " + path.string();
       }
     } catch (const std::bad_alloc&) {
-      why = "out of memory";  // short enough to take none
+      why = "out of memory";  // short enough to need no allocation
     } catch (...) {
       why = "it failed";
     }
@@ -103,7 +103,7 @@ struct Screenshot::State {
     return "";
   }
 
-  /// Waits for the picture for at most `patience`, and then for the file.
+  /// Waits for the picture for at most `patience`, then for the file.
   void end(std::chrono::seconds patience) {
     {
       std::unique_lock lock(mutex);
@@ -117,7 +117,8 @@ struct Screenshot::State {
 Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud) : state_(std::make_shared<State>()) {
   check_extension(path);
   state_->path = std::move(path);
-  // The thread does not own the state: ~Screenshot waits for it. The request does: its frame may come later.
+  // The thread does not own the state, because ~Screenshot waits for it. The request does, because its frame may come
+  // later.
   state_->writer = std::thread([state = state_.get()] { state->run(); });
   frame.request_picture(
       with_hud, [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); },

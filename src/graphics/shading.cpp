@@ -29,8 +29,8 @@ void main() {
 }
 )";
 
-// The shares of the light add up to 1 on a floor before the feet: white stays white and nothing is clipped. Walls get
-// about 0.7, a ceiling 0.6, and what lies in the dark of a long corridor 0.4.
+// The terms of the light add up to 1 on a floor before the eye, so white stays white and nothing is clipped. Walls get
+// about 0.7, a ceiling 0.6, and the dark end of a long corridor 0.4.
 constexpr const char* scene_fragment = R"(#version 120
 #pragma import_defines(ROAM_TEXTURED)
 varying vec3 roam_position;
@@ -90,7 +90,7 @@ void main() {
 }
 )";
 
-// Grey enough that white and black both stand out. The noise, of half a step of 8 bit, hides the bands.
+// Grey enough to show both white and black. Noise of half a step of 8 bit hides bands.
 constexpr const char* sky_fragment = R"(#version 120
 varying vec3 roam_direction;
 uniform mat4 osg_ViewMatrix;
@@ -116,7 +116,7 @@ osg::ref_ptr<osg::Program> make_program(const char* name, const std::string& ver
   return program;
 }
 
-/// Says that something is nowhere, so that it moves no bounds.
+/// Makes a drawable invisible to bounds.
 struct Nowhere : osg::Drawable::ComputeBoundingBoxCallback {
   osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
 };

@@ -1,12 +1,11 @@
 #pragma once
 /// \file
-/// How surfaces and sky look.
+/// Appearance of surfaces and sky.
 ///
-/// One program draws every scene: colour = vertex colour x texture, on both sides of every face. The light
-/// is made for being inside: a soft lamp at the eye, a sky that is brighter than the ground, and a weak sun, so that
-/// floor, walls and ceiling of one colour differ and nothing is black. Photogrammetry (textured, without normals) is
-/// shown as it is: its pictures have their light already. Of a wall that is in the model twice, with opposite normals,
-/// the side that faces the eye is seen.
+/// One program draws every scene: colour = vertex colour x texture, on both sides of every face. The light suits
+/// interiors: a soft lamp at the eye, a sky brighter than the ground, and a weak sun. So floor, walls and ceiling of
+/// one colour differ, and nothing is black. Photogrammetry (textured, without normals) is not lit, because its pictures
+/// contain light already. If the model has a wall twice with opposite normals, the side that faces the eye is visible.
 ///
 ///     osg::ref_ptr<osg::Group> scene = roam::graphics::make_scene_group();
 ///     frame.space()->addChild(roam::graphics::make_sky());
@@ -19,16 +18,16 @@
 
 namespace roam::graphics {
 
-/// Said (StateSet::setDefine) of what has a texture on unit 0.
+/// The define (StateSet::setDefine) of states with a texture on unit 0.
 inline constexpr const char* textured_define = "ROAM_TEXTURED";
 
-/// The group below which scenes are drawn as told above; up is +z. Every geometry below has colours, and normals; one
-/// zero normal for all says to take each face's own. States say no more than a texture on unit 0, with textured_define,
+/// The group for scenes drawn as described above; up is +z. Every geometry below must have colours and normals. A
+/// single zero normal means that each face uses its own. States may have only a texture on unit 0 with textured_define,
 /// blending and an alpha test.
 [[nodiscard]] osg::ref_ptr<osg::Group> make_scene_group();
 
-/// A quiet gradient from the ground over the horizon to the zenith, dark enough for white things and light enough for
-/// black ones. Has no size: it changes no bounds.
+/// A gradient from the ground over the horizon to the zenith, dark enough for white objects and light enough for black
+/// ones. It has no bounds.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_sky();
 
 }  // namespace roam::graphics

@@ -23,18 +23,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_waiting = 8;
-/// Bytes. A disk that has no more left has none for a film.
+/// Bytes. A disk with no more free space than this counts as full.
 constexpr std::uintmax_t full_disk = 1 << 20;
 constexpr int least_side = 16, largest_side = 8192;
-/// For what is left to be encoded after the last picture; x264 looks ahead some dozens of pictures.
+/// For encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
 constexpr std::chrono::seconds ending_patience{120};
 
 std::vector<std::string> arguments(const fs::path& out, int width, int height, int rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  // Images begin with their lowest row. Sizes must be even for yuv420p. Players take what says nothing of its colours
-  // for BT.709 when it is large, so that is what is made, and said.
+  // Images begin with their lowest row. Sizes must be even for yuv420p. Players assume BT.709 for large films without a
+  // stated colour space, so that is used and stated.
   const std::string filters = "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
-  // A file name that begins with a dash or holds a colon is no option and no protocol.
+  // With "file:" a name that begins with a dash is no option, and one with a colon no protocol.
   const std::string name = "file:" + out.string();
   return {"-hide_banner",
           "-loglevel",
@@ -75,7 +75,7 @@ std::vector<std::string> arguments(const fs::path& out, int width, int height, i
           name};
 }
 
-/// Two connected ends. A socket, not a pipe: writing to one whose reader has died is an error and no signal.
+/// A pair of sockets instead of a pipe: writing to one whose reader has died is an error, not a signal.
 struct Line {
   int ours = -1, theirs = -1;
   Line() {
@@ -112,7 +112,7 @@ fs::path find_ffmpeg() {
 
 }  // namespace
 
-/// ffmpeg, and the thread that feeds it.
+/// The process of ffmpeg, and the thread that feeds it.
 class Video::Encoder {
  public:
   Encoder(fs::path path, int width, int height, int rate)
@@ -135,7 +135,7 @@ class Video::Encoder {
         ended_ = true;
         changed_.notify_all();
       }
-      process_.end();  // also wakes a feeder that is writing
+      process_.end();  // this also wakes a thread that is writing
       feeder_.join();
     }
   }
@@ -253,7 +253,7 @@ Video::~Video() = default;
 void Video::add(osg::ref_ptr<osg::Image> image) { encoder_->add(std::move(image), 1); }
 
 void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
-  // Picture k is shown from k / rate on: this one fills all that have begun by now.
+  // Picture k is shown from k / rate on. This picture fills all that have begun by now.
   const auto begun = static_cast<std::int64_t>(std::floor(seconds * encoder_->rate())) + 1;
   encoder_->add(std::move(image), begun - encoder_->frames());
 }

@@ -13,16 +13,16 @@
 namespace roam::graphics {
 namespace {
 
-/// OpenSceneGraph's window, which may be realized twice and knows the server it lives on.
+/// OpenSceneGraph's X11 window, extended: it may be realized twice and keeps its server.
 class XWindow : public osgViewer::GraphicsWindowX11 {
  public:
   XWindow(osg::GraphicsContext::Traits* traits, osg::ref_ptr<osg::Referenced> server)
       : osgViewer::GraphicsWindowX11(traits), server_(std::move(server)) {}
 
-  /// Viewer::realize realizes every window once more, and the base class would complain.
+  /// Viewer::realize realizes every window again, about which the base class would complain.
   bool realizeImplementation() override { return _realized || osgViewer::GraphicsWindowX11::realizeImplementation(); }
 
-  /// What desktops group windows and find icons by.
+  /// Sets the class by which desktops group windows and find icons.
   void set_class() {
     XClassHint hint;
     hint.res_name = const_cast<char*>("roam");
@@ -31,14 +31,14 @@ class XWindow : public osgViewer::GraphicsWindowX11 {
   }
 
  protected:
-  /// Closed here: the server goes before the base class does, and X ends programs whose server has gone.
+  /// Closes here: the server would end before the base class closes, and Xlib ends programs whose server has gone.
   ~XWindow() override { close(true); }
 
  private:
   osg::ref_ptr<osg::Referenced> server_;
 };
 
-/// Where the display's name says which screen: ":1.2" -> 2.
+/// Sets the host, display and screen from the display's name, for example screen 2 of ":1.2".
 void name_display(osg::GraphicsContext::Traits& traits, const std::string& display) {
   const std::size_t colon = display.rfind(':');
   traits.hostName = display.substr(0, colon);
@@ -51,13 +51,14 @@ void name_display(osg::GraphicsContext::Traits& traits, const std::string& displ
 }
 
 struct Screen {
-  /// Kept until the window is there: an X server whose last client goes begins anew, and lets nobody in meanwhile.
+  /// Kept open until the window exists: an X server resets when its last client leaves, and accepts no client
+  /// meanwhile.
   std::unique_ptr<Display, int (*)(Display*)> connection;
   int width = 0;
   int height = 0;
 };
 
-/// Looks before OpenSceneGraph does, which says less.
+/// Tests the display before OpenSceneGraph does, whose messages say less.
 Screen look_at(const std::string& name) {
   std::unique_ptr<Display, int (*)(Display*)> connection(XOpenDisplay(name.c_str()), XCloseDisplay);
   Display* display = connection.get();
@@ -77,7 +78,7 @@ Screen look_at(const std::string& name) {
 }  // namespace
 
 osg::ref_ptr<osgViewer::GraphicsWindow> open_x_window(const XWindowWish& wish, osg::ref_ptr<osg::Referenced> server) {
-  // The system interface starts Xlib's locks, which must be there before the first connection.
+  // Creating the system interface initialises Xlib's locks, which must happen before the first connection.
   if (!osg::GraphicsContext::getWindowingSystemInterface()) throw Error("OpenSceneGraph was built without X11");
   const Screen screen = look_at(wish.display);
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A window of an X display.
+/// A window on an X display.
 
 #include <osg/ref_ptr>
 #include <osgViewer/GraphicsWindow>
@@ -8,7 +8,7 @@
 
 namespace roam::graphics {
 
-/// What window is wished.
+/// The properties of a new window.
 struct XWindowWish {
   std::string display{};  ///< ":0"
   std::string title{};
@@ -17,7 +17,7 @@ struct XWindowWish {
   bool decorated = true;  ///< in the middle of the screen and with a frame; else bare at the upper left
 };
 
-/// Opens it, realized. `server`, if any, is kept until the window has been closed. Throws roam::Error when the display
+/// Opens a realized window. Keeps `server`, if any, until the window is closed. Throws roam::Error if the display
 /// cannot be opened or has no OpenGL.
 [[nodiscard]] osg::ref_ptr<osgViewer::GraphicsWindow> open_x_window(const XWindowWish& wish,
                                                                     osg::ref_ptr<osg::Referenced> server);

@@ -16,9 +16,9 @@
 namespace roam::graphics {
 namespace {
 
-/// Xvfb is up within a second even on a slow machine; one that is not after this never will be.
+/// Xvfb starts within a second even on a slow machine. After this time it counts as failed.
 constexpr std::chrono::seconds patience{30};
-/// The number that -displayfd names in the child.
+/// The child's descriptor for -displayfd.
 constexpr int display_descriptor = 3;
 
 struct Pipe {
@@ -38,7 +38,7 @@ struct Pipe {
   }
 };
 
-/// The line that Xvfb writes when it takes connections; less when it does not.
+/// The line that Xvfb writes when it accepts connections; incomplete if it does not.
 std::string read_line(int descriptor) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + patience;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// An X server that has no screen, started for us.
+/// A child process with an X server that has no screen.
 
 #include <memory>
 #include <osg/Referenced>
@@ -9,10 +9,10 @@
 
 namespace roam::graphics {
 
-/// Runs Xvfb for as long as it exists, or as the thread that made it.
+/// Runs Xvfb for the life of the object. It also ends with this process, even if that crashes.
 class Xvfb : public osg::Referenced {
  public:
-  /// A screen of `width` x `height` pixels. Throws roam::Error when Xvfb is not there or does not come up.
+  /// A screen of `width` x `height` pixels. Throws roam::Error if Xvfb is not installed or does not start.
   Xvfb(int width, int height);
 
   [[nodiscard]] int display() const { return display_; }  ///< N of ":N"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The checks that a reader's meshes must pass on their way into a scene.
+/// Checks and assembly of a reader's meshes into a scene.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace roam::reader {
 
-/// Takes the frames of one reader and appends what they say to a scene.
+/// Takes the frames of one reader and appends their meshes to a scene.
 class Assembler : public StreamReceiver {
  public:
   /// `mesh_bytes`: most bytes of vertices and triangles that this reader may still send.
@@ -31,7 +31,8 @@ class Assembler : public StreamReceiver {
   ImportedScene& scene_;
   std::uint64_t vertices_ = 0, triangles_ = 0;
 
-  // The mesh in the making, in the pieces it came in: joined once their number is known, never grown by copying.
+  // The current mesh, in the pieces that arrived. They are joined once their number is known, so nothing grows by
+  // copying.
   bool in_mesh_ = false;
   std::string name_;
   std::uint64_t mesh_vertices_ = 0;

@@ -30,7 +30,7 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
                      reader::read_one(reading, receiver, matched);
                      bytes_left -= receiver.bytes_taken();
                      ++source;
-                     // What a pattern matches in pages is not known.
+                     // Which patterns match in pages is not known.
                      if (report.paged) matched.assign(matched.size(), true);
                      return report.parts > parts_before;
                    });

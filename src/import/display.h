@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// A scene as it is to be seen, read by the child process roam-reader.
+/// Reading a scene for display, in the child process roam-reader.
 ///
 ///     roam::DisplayReport report = roam::read_display(paths, options, [&](roam::DisplayPart&& part) {
 ///       give(std::move(part));   // to the thread that draws
 ///       return !closed;
 ///     });
 ///
-/// The same readers, options and checks as import_scene: every triangle that it gives is in exactly one part, and
-/// nothing else is, but for pages (see below). What a part holds is said in display_part.h: colours are material times
-/// vertex colour of the file, white where there is none, so that what is seen is this colour times the texture. Images
-/// have at most 4096 texels a side, unless they are compressed. Geometry of one texture comes in one part as far as it
-/// takes no more than 64 MB, so that a texture is seldom sent twice; a part has about 8 MB else.
+/// Uses the readers, options and checks of import_scene. Every triangle that import_scene gives is in exactly one part,
+/// and nothing else is, except for pages (see below). display_part.h describes a part. Colours are material times
+/// vertex colour of the file, or white if it has none; the displayed colour is this times the texture. Images have at
+/// most 4096 texels a side, unless they are compressed. Geometry of one texture comes in one part if it takes at most
+/// 64 MB, so that a texture is seldom sent twice. Other parts have about 8 MB.
 ///
-/// Pages. Tiles and OpenSceneGraph files that refer to pages which exist are not read here but handed on: a
-/// DisplayPages whose only level is a page. PageReader (page_reader.h) reads it when it is wanted, with the same
-/// readers, options and checks: what it gives are geometries and further pages.
+/// Pages. Tiles and OpenSceneGraph files that refer to existing pages are not read here. They are passed on as
+/// DisplayPages whose only level is a page. PageReader (page_reader.h) reads that page on demand, with the same
+/// readers, options and checks. A page contains geometries and further pages.
 
 #include <cstdint>
 #include <filesystem>
@@ -30,31 +30,31 @@
 
 namespace roam {
 
-/// What there is to be seen and what is missing of it.
+/// Totals of the parts, and what is missing.
 struct DisplayReport {
-  /// Zero, or, for a scene that begins more than 10 km away from it, a place near its first triangles.
+  /// Zero, or a point near the first triangles if these are more than 10 km from zero.
   Vec3 origin{0.0};
   Box bounds;  ///< of all parts, in the frame of the scene
   std::uint64_t parts = 0;
-  std::uint64_t triangles = 0;         ///< of all parts; those of pages are not counted
-  std::uint64_t textures = 0;          ///< images that were read; those of pages are not counted
-  std::uint64_t missing_textures = 0;  ///< images that are absent or unreadable; what they cover is shown without
+  std::uint64_t triangles = 0;         ///< of all parts; pages are not counted
+  std::uint64_t textures = 0;          ///< images that were read; pages are not counted
+  std::uint64_t missing_textures = 0;  ///< images that are absent or unreadable; their surfaces are shown without them
   std::vector<std::string> missing_texture_files;  ///< at most ImportReport::name_limit
-  bool paged = false;                              ///< whether any part holds pages
-  /// What import_scene says of the same files, but for `vertices`, which is 0; of pages only what their roots tell,
-  /// so that a pattern of ImportOptions::ignore that matches nothing is not said where there are pages.
-  /// Its notes also name files of materials that are absent, and images that are shown smaller.
+  bool paged = false;                              ///< whether any part has pages
+  /// The report of import_scene for the same files, with these differences. `vertices` is 0. Pages count only with the
+  /// data of their root files. If there are pages, patterns of ImportOptions::ignore that match nothing are not
+  /// reported. The notes also name absent material files, and images that are shown smaller.
   ImportReport import;
-  /// Whole sentences for the user about what is not seen as it should be. What import_scene says of the same files is
-  /// in import.notes, not here.
+  /// Sentences for the user about things that are not shown as they should be. Notes of import_scene on the same files
+  /// are in import.notes.
   std::vector<std::string> notes;
 };
 
-/// Reads files and folders for showing. Blocks, and calls `take` from the calling thread with each part as it comes;
-/// a slow `take` holds the reader up, nothing piles up. When `take` or options.progress returns false, the reader is
-/// ended and roam::Cancelled thrown. May be called from several threads at once.
+/// Reads files and folders for display. Blocks, and calls `take` from the calling thread with each part. A slow `take`
+/// slows the reader down; parts do not accumulate. If `take` or options.progress returns false, the reader is ended and
+/// roam::Cancelled thrown. Several threads may call it at once.
 ///
-/// Throws roam::Error in the cases and with the sentences of import_scene. Parts that came before stay good.
+/// Throws roam::Error in the cases and with the messages of import_scene. Parts passed to `take` before stay valid.
 DisplayReport read_display(std::span<const std::filesystem::path> paths, const ImportOptions& options,
                            const std::function<bool(DisplayPart&&)>& take);
 

@@ -7,7 +7,7 @@ namespace roam {
 
 std::uint64_t DisplayTexture::bytes_of(DisplayTexels texels, std::uint32_t width, std::uint32_t height,
                                        std::uint32_t levels) {
-  // Of a texel, or of a block.
+  // Bytes of a texel, or of a block of texels.
   constexpr std::uint64_t unit_bytes[] = {1, 2, 3, 4, 8, 8, 16, 16};
   const std::uint32_t side = texels >= DisplayTexels::dxt1 ? 4 : 1;
   std::uint64_t bytes = 0;
@@ -24,7 +24,7 @@ std::uint32_t DisplayTexture::all_levels(std::uint32_t width, std::uint32_t heig
 }
 
 std::uint64_t DisplayPart::node_bytes() const {
-  // A geometry of OpenSceneGraph with its arrays and buffers; others take less.
+  // A geometry of OpenSceneGraph with its arrays and buffers; other nodes take less.
   constexpr std::uint64_t most = 2048;
   std::uint64_t nodes = textures.size() + looks.size() + geometries.size() + groups;
   for (const DisplayPages& node : pages) nodes += 1 + node.levels.size();

@@ -56,7 +56,7 @@ fs::path find_reader(const fs::path& wanted) {
   }
   if (const char* of_package = package_reader) places.emplace_back(of_package);
   places.emplace_back(ROAM_READER_INSTALLED);
-  // An installation elsewhere, whose command line the user can call.
+  // An installation elsewhere, whose program is in PATH.
   std::istringstream path(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));
   std::vector<fs::path> installations;
   for (std::string folder; std::getline(path, folder, ':');) {

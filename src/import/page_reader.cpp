@@ -18,7 +18,7 @@
 namespace roam {
 namespace {
 
-/// Scenes of many paged files have a reader each; more than these are not near the eye together.
+/// Most readers at a time; each file with pages needs its own. More such files are seldom near the eye together.
 constexpr std::size_t reader_limit = 4;
 
 }  // namespace
@@ -74,7 +74,7 @@ DisplayPart PageReader::read(std::uint32_t source, const Vec3& origin, const std
     one.process->request(page);
     reader::receive(one.reading, *one.process, receiver, std::move(budget));
   } catch (...) {
-    // One that said itself what is wrong goes on.
+    // A reader that itself reported the error stays usable.
     if (!receiver.ended()) one.process.reset();
     throw;
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pages of a scene that is shown, read as they are wanted.
+/// Reading of a displayed scene's pages on demand.
 
 #include <atomic>
 #include <cstdint>
@@ -16,21 +16,22 @@
 
 namespace roam {
 
-/// Reads pages in child processes that stay, one a path, of which as many are kept as are in use. A page that makes its
-/// reader crash, or say what is no page, costs that reader: the next page has a new one.
+/// Reads pages in child processes, one for each path. A few of them, those used last, stay for further pages. A page
+/// that makes its reader crash or send invalid data ends that reader; the next page has a new one.
 class PageReader {
  public:
-  /// `paths` and `options` are those that read_display was given; its progress is not asked.
+  /// Takes the `paths` and `options` of read_display. It does not call the progress function.
   PageReader(std::vector<std::filesystem::path> paths, const ImportOptions& options);
   ~PageReader();
   PageReader(const PageReader&) = delete;
   PageReader& operator=(const PageReader&) = delete;
 
-  /// What is in a page (DisplayLevel::page) that a part of that source and origin has named. Blocks; calls wait for
-  /// each other. Throws roam::Error when it is absent or unreadable, and roam::Cancelled.
+  /// The contents of a page (DisplayLevel::page), given the source and origin of the part that names it. Blocks; calls
+  /// from several threads wait for each other. Throws roam::Error if the page is absent or unreadable, and
+  /// roam::Cancelled.
   [[nodiscard]] DisplayPart read(std::uint32_t source, const Vec3& origin, const std::string& page);
 
-  /// From any thread: ends what is being read, and every reading after it.
+  /// Cancels the present read and all later ones. Any thread.
   void cancel() { cancelled_ = true; }
 
  private:
@@ -41,7 +42,7 @@ class PageReader {
   ImportOptions options_;
   std::atomic<bool> cancelled_ = false;
   std::mutex mutex_;
-  std::list<Reader> readers_;  ///< that used last first
+  std::list<Reader> readers_;  ///< most recently used first
 };
 
 }  // namespace roam

@@ -25,7 +25,7 @@ class Writer {
   void add(const Vec3& v) {
     for (int k = 0; k < 3; ++k) add(v[k]);
   }
-  /// Of values without padding.
+  /// Values must have no padding.
   template <class List>
   void add_list(const List& list) {
     add(std::uint64_t{list.size()});
@@ -73,7 +73,7 @@ class Reader {
     list.resize(count);
     if (count > 0) std::memcpy(static_cast<void*>(list.data()), from.data(), from.size());
   }
-  /// The length of a list of which each element takes at least `size` bytes.
+  /// The length of a list whose elements take at least `size` bytes each.
   std::uint64_t take_count(std::size_t size) {
     const auto count = take<std::uint64_t>();
     if (count > rest_.size() / size) throw StreamDamaged{"a list that is not there"};
@@ -92,7 +92,7 @@ class Reader {
   std::span<const std::byte> rest_;
 };
 
-/// Both ends of a scene and its origin, and what rounding adds.
+/// Bound of a position: both ends of a scene, its origin, and rounding.
 constexpr double place_limit = 4.0 * coordinate_limit;
 
 void check_place(const Vec3& v) {
@@ -171,11 +171,11 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   return g;
 }
 
-/// Levels within levels; what draws them calls itself for each.
+/// Most levels within levels; the display recurses into each.
 constexpr std::uint32_t depth_limit = 64;
 constexpr std::uint32_t not_shown = std::numeric_limits<std::uint32_t>::max();
 
-/// `depth`: how deep each group lies that is a level already.
+/// `depth`: the depth of each group that is already a level.
 DisplayPages take_pages(Reader& from, const DisplayPart& part, std::vector<std::uint32_t>& depth) {
   DisplayPages pages;
   pages.group = from.take<std::uint32_t>();
@@ -260,9 +260,9 @@ std::vector<std::byte> encode(const DisplayPart& part) {
 }
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {
-  // What an element takes at least, so that no count makes more of itself than the bytes that are there.
+  // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
   constexpr std::size_t texture_bytes = 23, look_bytes = 9, geometry_bytes = 72, pages_bytes = 41;
-  // A group costs no byte by itself; each but the first is a level, which does.
+  // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
   Reader from(bytes);
   part.groups = from.take<std::uint32_t>();

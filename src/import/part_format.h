@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The bytes of a DisplayPart in the stream of a reader.
+/// The bytes of a DisplayPart in a reader's stream.
 ///
-/// In the order of the machine, without padding; a list is a u64 number of elements and these:
+/// In the byte order of the machine, without padding. A list is a u64 number of elements, followed by the elements:
 ///
 ///     part       u32 groups; list of texture; list of look; list of geometry; list of pages
 ///     texture    u32 width, height, levels; u8 texels, across, up; list of u8
@@ -12,7 +12,7 @@
 ///     pages      u32 group; f64 center x, y, z; f32 radius; u8 by_pixels; list of level
 ///     level      f32 from, to; u32 group; list of the bytes of its page
 ///
-/// Origin, bounds and triangles are in the frame that begins the part (PartHeader).
+/// The frame that begins the part (PartHeader) has origin, bounds and triangles.
 
 #include <cstddef>
 #include <span>
@@ -24,8 +24,8 @@ namespace roam::reader {
 
 [[nodiscard]] std::vector<std::byte> encode(const DisplayPart& part);
 
-/// Fills in `part`, whose origin is known. Trusts nothing: every count is compared with the bytes that are there, every
-/// index with what it counts, every number with what it may be. Throws StreamReceiver::StreamDamaged.
+/// Decodes into `part`, whose origin is set. Checks every count against the bytes present, every index against the
+/// number of its elements, and every number against its range. Throws StreamReceiver::StreamDamaged.
 void decode(std::span<const std::byte> bytes, DisplayPart& part);
 
 }  // namespace roam::reader

@@ -53,7 +53,7 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
     part_.origin[k] = header.origin[k];
     part_.bounds.lower[k] = header.lower[k];
     part_.bounds.upper[k] = header.upper[k];
-    // False for a NaN too. Pages state their bounds themselves, so that these may be too large.
+    // False for a NaN too. Files of pages state their own bounds, which may be too large.
     constexpr double limit = 4.0 * coordinate_limit;
     if (!(std::abs(header.origin[k]) <= coordinate_limit && std::abs(header.lower[k]) <= limit &&
           std::abs(header.upper[k]) <= limit && header.lower[k] <= header.upper[k])) {
@@ -61,19 +61,19 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
     }
   }
   if (origin_ && *origin_ != part_.origin) throw StreamDamaged{"parts of several origins"};
-  // The bytes of a part and what is made of them are there together for a moment.
+  // The bytes of a part and the part decoded from them are in memory together for a moment.
   if (header.bytes > (part_bytes_ - bytes_taken_) / 2) throw ContentTooLarge{};
   bytes_missing_ = header.bytes;
-  // A header may promise more than ever comes.
+  // A header may promise more bytes than ever arrive.
   bytes_.clear();
   bytes_.reserve(std::min<std::uint64_t>(header.bytes, reserve_limit));
 }
 
 void PartReceiver::finish_part() {
   decode(bytes_, part_);
-  // Whoever takes the part makes something of it in turn.
+  // The caller of `give` allocates in turn, so free these bytes first.
   std::vector<std::byte>().swap(bytes_);
-  // Many small things take more where they are drawn than in the stream.
+  // Many small objects take more memory in the display than in the stream.
   count_bytes(part_.node_bytes());
   bytes_taken_ += part_.node_bytes();
   const bool paged = !part_.pages.empty();

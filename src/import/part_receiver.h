@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Collects the frames of each part of what is shown.
+/// Receiver of display parts.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,17 +14,17 @@
 
 namespace roam::reader {
 
-/// Takes the frames of one reader, hands each part on when it is whole, and sums them up in the report.
+/// Takes the frames of one reader, passes each complete part on, and adds it to the report.
 class PartReceiver : public StreamReceiver {
  public:
   /// `origin`: that of all parts, unset before the first. `part_bytes`: most bytes of parts that this reader may still
-  /// send; one that is more than half of what is left is refused, because for a moment its bytes and what is made of
-  /// them are there together. Throws Cancelled from `take` when `give` returns false.
+  /// send. A part of more than half the remaining bytes is refused, because its bytes and the part decoded from them
+  /// are in memory together for a moment. `take` throws Cancelled if `give` returns false.
   PartReceiver(DisplayReport& report, std::optional<Vec3>& origin, std::size_t ignore_patterns,
                std::uint64_t part_bytes, const std::function<bool(DisplayPart&&)>& give);
 
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
-  /// Of parts, as they were sent, and of their nodes.
+  /// Bytes of the parts received, and of their nodes.
   [[nodiscard]] std::uint64_t bytes_taken() const { return bytes_taken_; }
 
  private:
@@ -40,9 +40,9 @@ class PartReceiver : public StreamReceiver {
   std::uint64_t triangles_ = 0;
 
   DisplayPart part_;
-  std::vector<std::byte> bytes_;  ///< of part_, so far
+  std::vector<std::byte> bytes_;  ///< bytes of part_ so far
   std::uint64_t bytes_taken_ = 0;
-  std::uint64_t bytes_missing_ = 0;  ///< of part_
+  std::uint64_t bytes_missing_ = 0;  ///< bytes of part_ still to come
 };
 
 }  // namespace roam::reader

@@ -14,7 +14,7 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Corners) == 3 * sizeof(std::uint32_t));
 
-/// Appends the values of a payload, `limit` in all at most; returns where the new ones begin.
+/// Appends the values of a payload, up to `limit` values in all. Returns the index of the first new one.
 template <class T>
 std::size_t append(std::span<const std::byte> payload, std::size_t limit, std::vector<T>& values) {
   const std::size_t before = values.size();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The checks that a reader's pieces must pass on their way to whoever takes them.
+/// Checks of a reader's pieces on their way to a PieceSink.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace roam::reader {
 
-/// Takes the frames of one reader and hands each piece on when it is whole.
+/// Takes the frames of one reader and passes each complete piece on.
 class PieceReceiver : public StreamReceiver {
  public:
   PieceReceiver(ImportReport& report, std::size_t ignore_patterns, const PieceSink& sink);
@@ -28,7 +28,7 @@ class PieceReceiver : public StreamReceiver {
   const PieceSink& sink_;
   std::uint64_t vertices_ = 0, triangles_ = 0;
 
-  // The piece in the making; its memory is used again.
+  // The current piece; its memory is reused.
   bool in_piece_ = false;
   bool continues_ = false;
   Mesh piece_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t not_counted = std::numeric_limits<std::uint64_t>::max();
 
-/// Bytes that the process has read by system calls, files again and again included, or not_counted.
+/// Bytes that the process has read by system calls, repeated reads included; or not_counted.
 std::uint64_t bytes_read_by(int process) {
   std::ifstream counts("/proc/" + std::to_string(process) + "/io");
   std::string name;
@@ -24,7 +24,7 @@ std::uint64_t bytes_read_by(int process) {
   return not_counted;
 }
 
-/// Whether the file system says truly how much of a file is on the disk. Others say 0, or less than a file has.
+/// Whether the file system reports truly how much of a file is on the disk. Others report 0, or too little.
 bool counts_blocks(const std::filesystem::path& file) {
   struct statfs system {};
   if (statfs(file.c_str(), &system) != 0) return true;
@@ -49,14 +49,15 @@ void ProcessorBudget::add_file(const std::filesystem::path& file) {
   if (stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
   if (!files_.insert({status.st_dev, status.st_ino}).second) return;
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  // A hole in a file costs its author nothing. Some file systems compress what is there.
+  // A hole in a file costs its author nothing. Some file systems compress data.
   constexpr std::uint64_t block = 512, compression = 16;
   const auto on_disk = compression * block * static_cast<std::uint64_t>(status.st_blocks);
   file_bytes_ += counts_blocks(file) ? std::min(size, on_disk) : size;
 }
 
 std::uint64_t ProcessorBudget::bytes() const {
-  // A file may say that it is larger than what is on the disk, and may be read more than once.
+  // A sparse file may state a size that is not on the disk, and a file may be read more than once. The lesser number
+  // counts.
   const std::uint64_t read = bytes_read_by(process_);
   return std::min(file_bytes_, read == not_counted ? read : read - std::min(read, read_before_));
 }

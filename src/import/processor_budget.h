@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much processor time a reader may take.
+/// A limit on the processor time of a reader.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,32 +10,33 @@
 
 namespace roam::reader {
 
-/// Compares what a reader's process computes with what it reads of the scene's files, as the kernel counts both.
+/// Compares the processor time of a reader with the bytes of the scene's files that it reads, as the kernel counts
+/// both.
 class ProcessorBudget {
  public:
   static constexpr double least_seconds = 10.0;
   static constexpr double seconds_per_byte = 3e-6;
-  /// About as many as are indexed in least_seconds.
+  /// About as many triangles as can be indexed in least_seconds.
   static constexpr std::uint64_t least_triangles = 20'000'000;
   static constexpr std::uint64_t triangles_per_byte = 4;
 
-  /// Of all that a child computes and reads.
+  /// Counts from the start of the child.
   explicit ProcessorBudget(int process) : process_(process) {}
-  /// Of what a child computes and reads from now on.
+  /// Counts from now on.
   [[nodiscard]] static ProcessorBudget from_now_on(int process);
 
-  /// A file of the scene that the reader says it opened. Each counts once, by its bytes, as far as the disk has them.
+  /// Adds a file that the reader reports as opened. Each file counts once, by its bytes on the disk.
   void add_file(const std::filesystem::path& file);
 
-  /// Seconds that the process may have used by now.
+  /// Seconds that the process may have used so far.
   [[nodiscard]] double allowed() const;
-  /// Seconds that it has used; 0 where the system does not say.
+  /// Seconds that it has used; 0 if the system does not say.
   [[nodiscard]] double used() const;
-  /// Triangles that the reader may have sent by now: who takes them computes too.
+  /// Triangles that the reader may have sent so far. They are limited because the receiver's work takes time too.
   [[nodiscard]] std::uint64_t triangles() const;
-  /// Bytes of files that `allowed` is for.
+  /// Bytes of files for which `allowed` is computed.
   [[nodiscard]] std::uint64_t bytes() const;
-  /// Bytes of the files that were opened, whether they have been read or not.
+  /// Bytes of the opened files, whether read or not.
   [[nodiscard]] std::uint64_t file_bytes() const { return file_bytes_; }
 
  private:
@@ -43,7 +44,7 @@ class ProcessorBudget {
   double used_before_ = 0.0;
   std::uint64_t read_before_ = 0;
   std::uint64_t file_bytes_ = 0;
-  std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and number
+  std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and inode
 };
 
 }  // namespace roam::reader

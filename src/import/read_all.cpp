@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t least_memory_limit = 64ull << 20;
 
-/// Entries of a folder after which the progress callback is served.
+/// Entries of a folder between two calls of the progress function.
 constexpr std::uint64_t entries_in_between = 1000;
 
-/// The size of a file, or of all files in a folder; what cannot be seen counts as nothing. `look_up` is called now and
-/// then with the bytes so far: a folder may be a whole disk.
+/// The size of a file, or of all files in a folder. Inaccessible files count as 0. Calls `look_up` from time to time
+/// with the bytes so far, because a folder may be a whole disk.
 std::uint64_t bytes_in(const fs::path& path, const std::function<void(std::uint64_t)>& look_up) {
   std::error_code none;
   if (!fs::is_directory(path, none)) {
@@ -42,7 +42,7 @@ std::uint64_t bytes_in(const fs::path& path, const std::function<void(std::uint6
   return bytes;
 }
 
-/// Triangles that were left out so far, by reason.
+/// Numbers of triangles left out so far, by reason.
 struct LeftOut {
   std::uint64_t bad = 0;
   std::uint64_t ignored = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Path after path: what reading meshes and reading parts have in common.
+/// The loop over the paths of a scene, shared by reading meshes and reading parts.
 
 #include <filesystem>
 #include <functional>
@@ -17,19 +17,19 @@ namespace roam::reader {
 /// A path, or one tile of it.
 struct Source {
   std::filesystem::path path;
-  std::string tile{};                    ///< empty: all of the path
-  std::optional<Georeference> frame{};   ///< that the scene has before anything is read
+  std::string tile{};                    ///< empty: the whole path
+  std::optional<Georeference> frame{};   ///< the frame of the scene, if set before reading
   std::optional<std::uint64_t> bytes{};  ///< unset: not known yet
 };
-/// Whole paths.
+/// One source for each whole path.
 [[nodiscard]] std::vector<Source> sources(std::span<const std::filesystem::path> paths);
 
-/// Throws roam::Error for options or paths that nothing can be read with.
+/// Throws roam::Error for invalid options or paths.
 void check(std::span<const Source> sources, const ImportOptions& options);
 
-/// Checks sources and options, calls `read` once for each source, and finishes the report. `read` answers whether the
-/// source gave anything; where it did not, roam::Error says so, except of a tile, which need not be more than a hole
-/// in the ground. What matched no ignore pattern is not said of a tile either. Throws what import_scene throws.
+/// Checks sources and options, calls `read` once for each source, and finishes the report. `read` returns whether the
+/// source gave anything. If it did not, throws roam::Error, except for a tile, which may be a hole in the ground.
+/// Ignore patterns without a match are not reported for a tile either. Throws what import_scene throws.
 void read_all(std::span<const Source> sources, const ImportOptions& options, ImportReport& report,
               const std::function<bool(Reading& reading, std::vector<bool>& matched)>& read);
 

@@ -20,11 +20,11 @@
 namespace roam::reader {
 namespace {
 
-/// As much of the child's last words as a message can use.
+/// Bytes of the child's last output that a message can use.
 constexpr std::size_t complaint_limit = 8192;
-/// The remedy where neither the file nor the user is the cause.
+/// The remedy if neither the file nor the user is the cause.
 constexpr const char* try_again = "; open the scene again, with more memory free";
-/// Asked of the system for the stream, so that the child seldom waits for us; a smaller pipe works too.
+/// Requested size of the stream's pipe, so that the child seldom waits. A smaller pipe works too.
 [[maybe_unused]] constexpr int pipe_bytes = 1 << 20;
 
 using files::Descriptor;
@@ -38,7 +38,7 @@ struct Ends {
   Descriptor ours, theirs;
 };
 
-/// A pipe to read from, which never makes this process wait.
+/// A pipe whose reading end never blocks.
 Ends open_pipe() {
   int ends[2];
 #ifdef __linux__
@@ -51,14 +51,14 @@ Ends open_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// Two ends: to write to one whose other end is gone is an error, and no signal that kills.
+/// A pair of sockets. Writing to one whose other end is closed gives an error, not a signal.
 Ends open_sockets() {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse_pipe();
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// The absolute ones of a list of folders. Others would lie wherever the program was started.
+/// The absolute folders of a list. Relative ones would depend on the current folder.
 std::string absolute_folders(const std::string& list) {
   std::string kept;
   for (std::size_t begin = 0; begin <= list.size();) {
@@ -70,8 +70,8 @@ std::string absolute_folders(const std::string& list) {
   return kept;
 }
 
-/// "NAME=value" of what a reader needs of this process's environment. Variables also say which libraries and files are
-/// opened, so that no other is handed on.
+/// The environment of a reader, as "NAME=value": only what it needs of this process's. Other variables could make it
+/// open other libraries and files.
 std::vector<std::string> clean_environment() {
   std::vector<std::string> variables{"PATH=/usr/bin:/bin"};
   const auto value_of = [](const char* name) {
@@ -81,9 +81,9 @@ std::vector<std::string> clean_environment() {
   if (const std::string libraries = absolute_folders(value_of("LD_LIBRARY_PATH")); !libraries.empty()) {
     variables.push_back("LD_LIBRARY_PATH=" + libraries);
   }
-  // One folder, whose name may have a colon in it.
+  // A single folder; a colon may be part of its name.
   if (const std::string folder = value_of("TMPDIR"); folder.starts_with('/')) variables.push_back("TMPDIR=" + folder);
-  // Where the sanitizers that both are built with are told what to do.
+  // Options of the sanitizers that both processes may be built with.
   for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
     if (const char* value = std::getenv(name)) variables.push_back(std::string(name) + "=" + value);
   }
@@ -125,7 +125,7 @@ void ReaderProcess::request(std::string_view bytes) {
   const auto length = static_cast<std::uint32_t>(bytes.size());
   std::string message(reinterpret_cast<const char*>(&length), sizeof(length));
   message += bytes;
-  // One that does not take so little at once is not waiting for it.
+  // A reader that does not accept so few bytes at once is not waiting for a request.
   const ssize_t n = send(requests_.number(), message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n != static_cast<ssize_t>(message.size())) {
     throw Error(std::string("the scene reader takes no request: ") + std::strerror(n < 0 ? errno : EAGAIN) +
@@ -157,11 +157,11 @@ ReaderProcess::Arrival ReaderProcess::receive(std::span<std::byte> buffer, int m
 
 void ReaderProcess::drain_complaints() {
   std::array<char, 4096> chunk;
-  // Bounded, so that a child that never stops complaining does not keep us from its stream.
+  // Bounded, so that endless output of the child does not delay reading its stream.
   for (int i = 0; i < 16; ++i) {
     const ssize_t n = read(complaint_pipe_.number(), chunk.data(), chunk.size());
     if (n == 0) {
-      // It has closed both; a closed pipe would wake whoever waits again and again.
+      // The child has closed both outputs. An open descriptor here would wake poll() again and again.
       complaint_pipe_.close();
     }
     if (n <= 0) return;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A child process whose frames and complaints are read through pipes.
+/// A reader as a child process, with pipes for its frames and its messages.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,34 +17,34 @@ namespace roam::reader {
 
 using process::Ending;
 
-/// Owns one reader. Destruction kills it, collects it and closes the pipes.
+/// Owns one reader. The destructor kills and collects it, and closes the pipes.
 class ReaderProcess {
  public:
-  /// Starts `program` with `arguments` (without the program's own name) in the folder "/", so that paths among them
-  /// must be absolute, and with an environment that holds nothing but folders of libraries and temporary files.
-  /// `takes_requests`: what `request` sends is its standard input, else that is empty. Throws roam::Error when it
-  /// cannot run.
+  /// Starts `program` with `arguments` (without the program's own name) in the folder "/", so all paths must be
+  /// absolute. Its environment has only PATH, folders of libraries and temporary files, and options of sanitizers. If
+  /// `takes_requests`, its standard input receives the bytes of request(); otherwise that is empty. Throws roam::Error
+  /// if it cannot run.
   ReaderProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                 bool takes_requests = false);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
   ReaderProcess& operator=(const ReaderProcess&) = delete;
 
-  /// Sends a u32 length and so many bytes. Throws roam::Error when nobody takes them.
+  /// Sends a u32 length and the bytes. Throws roam::Error if the reader does not accept them.
   void request(std::string_view bytes);
-  /// Whether it has closed its stream, with nothing left in it.
+  /// Whether the reader has closed its stream, and all of it has been read.
   [[nodiscard]] bool has_ended() const;
 
   enum class Arrival { bytes, nothing, end };
-  /// Waits at most `milliseconds` for bytes of the stream and puts up to buffer.size() of them into `buffer`.
+  /// Waits at most `milliseconds` for bytes of the stream and stores up to buffer.size() of them in `buffer`.
   Arrival receive(std::span<std::byte> buffer, int milliseconds, std::size_t& received);
 
-  /// Waits at most `milliseconds` for the child to end by itself, kills it if it does not, and collects it.
+  /// Waits at most `milliseconds` for the child to end by itself, then kills it. Collects it.
   Ending finish(int milliseconds);
 
-  /// The child's number; -1 once it has been collected.
+  /// The process number; -1 once the child has been collected.
   [[nodiscard]] int id() const { return child_->id(); }
-  /// The end of what the child wrote to its standard output and error.
+  /// The last part of the child's standard output and error.
   [[nodiscard]] const std::string& complaints() const { return complaints_; }
 
  private:

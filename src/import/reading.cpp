@@ -20,19 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// How long to wait for bytes before the progress callback is served.
+/// Longest wait for bytes between two calls of the progress function.
 constexpr int wait_milliseconds = 100;
-/// A reader that has closed its stream is about to end; one that does not is killed.
+/// Time for a reader to end after it has closed its stream. Then it is killed.
 constexpr int ending_milliseconds = 2000;
-/// Processor time of a reader whose words are still in the pipe.
+/// Seconds of processor time that a reader may have used while its reports are still in the pipe.
 constexpr double unheard_seconds = 2.0;
-/// For a reader that reads nothing to start and say so.
+/// Time for a reader without a file to start and send its greeting.
 constexpr std::chrono::seconds greeting_time{30};
-/// A slow disk's rate: by so many bytes of file a silent reader is given one second more.
+/// The rate of a slow disk, bytes a second: a silent reader gets one second more for this many bytes of files.
 constexpr double silence_bytes_per_second = 4e6;
-/// A reader may speak and not get on: altogether it is waited for so many times as long as a silent one,
+/// A reader may send bytes and yet make no progress. In all it may take this many times the limit of silence,
 constexpr double silences = 5.0;
-/// and a second more for so many bytes that it has read: ten times the processor time that these are worth.
+/// plus one second for this many bytes that it has read, which is ten times the processor time allowed for them.
 constexpr double waiting_bytes_per_second = 0.1 / ProcessorBudget::seconds_per_byte;
 
 std::vector<std::string> arguments_of(const Reading& reading) {
@@ -58,7 +58,7 @@ std::vector<std::string> arguments_of(const Reading& reading) {
     arguments.insert(arguments.end(),
                      {"--origin", fmt::format("{}", o->x), fmt::format("{}", o->y), fmt::format("{}", o->z)});
   }
-  // A path that begins with a dash must not be taken for an option.
+  // A path may begin with a dash, which must not make it an option.
   arguments.insert(arguments.end(), {"--", scope.scene.string()});
   return arguments;
 }
@@ -71,7 +71,7 @@ std::string too_much_memory(const ImportOptions& options) {
       static_cast<double>(options.memory_limit) / static_cast<double>(1ull << 30));
 }
 
-/// The last line that the child wrote, for people who look further.
+/// The last line of the child's output, which helps to find the cause.
 std::string last_words(const std::string& complaints) {
   std::string text = complaints;
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
@@ -85,7 +85,7 @@ std::string without_slash(std::string path) {
   return path;
 }
 
-/// Why a reader ended before it was done.
+/// The reason why a reader ended early.
 std::string cause_of_death(const Ending& ending, const std::string& complaints, const ImportOptions& options) {
   if (mentions(complaints, "bad_alloc") || mentions(complaints, "out of memory")) return too_much_memory(options);
 #ifdef SIGSYS
@@ -113,7 +113,7 @@ std::string cause_of_death(const Ending& ending, const std::string& complaints, 
                      ending.exit_code, last_words(complaints));
 }
 
-/// Waits for the answer of a reader that is given nothing to read.
+/// Receives the greeting of a reader that has no file to read.
 class WallsReceiver : public StreamReceiver {
  public:
   explicit WallsReceiver(ImportReport& report) : StreamReceiver(report, 0, 0) {}
@@ -157,13 +157,13 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
 
   receiver.spell(reading.scope.scene.string(), without_slash(path));
   Clock::time_point reported = Clock::now();
-  double waited = 0.0, heard = 0.0;  // seconds: in all, and until it was heard last
+  double waited = 0.0, heard = 0.0;  // seconds: in all, and until the last bytes arrived
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
       const Clock::time_point begin = Clock::now();
       const auto arrival = process.receive(receiver.room(), wait_milliseconds, received);
-      // One that lasts longer was that of a program that was stopped.
+      // A longer wait means that this program was stopped.
       waited += std::min(std::chrono::duration<double>(Clock::now() - begin).count(), 1e-3 * 2 * wait_milliseconds);
       if (arrival == ReaderProcess::Arrival::end) {
         const Ending ending = process.finish(ending_milliseconds);
@@ -181,7 +181,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
               budget.triangles(), budget.bytes()));
         }
       }
-      // What is still in the pipe may say that more files were read.
+      // Unread bytes in the pipe may report more opened files.
       const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;
       if (const double used = budget.used(); used > ProcessorBudget::least_seconds) {
         if (const double allowed = budget.allowed(); used > allowed + grace) {
@@ -191,7 +191,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
               allowed, budget.bytes()));
         }
       }
-      // It may be reading all that it opened from a slow disk.
+      // The reader may be reading all its files from a slow disk.
       const double silence_limit =
           options.silence_limit +
           static_cast<double>(std::max(reading.path_bytes, budget.file_bytes())) / silence_bytes_per_second;
@@ -233,7 +233,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
 
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched) {
   const std::unique_ptr<ReaderProcess> process = start(reading);
-  // It may have read much already.
+  // The process may have read much already.
   receive(reading, *process, receiver, ProcessorBudget(process->id()));
   for (std::size_t i = 0; i < matched.size(); ++i) matched[i] = matched[i] || receiver.matched()[i];
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One path, one reader: from starting it to its last frame or its failure.
+/// Reading of one path by one reader, from its start to its last frame or its failure.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,35 +18,35 @@
 
 namespace roam::reader {
 
-/// What is to be read and how.
+/// A request to a reader.
 struct Reading {
   std::filesystem::path program;  ///< roam-reader
   std::filesystem::path path;     ///< existing file or folder
-  SceneScope scope{};             ///< of the path
-  std::uint64_t path_bytes = 0;   ///< its size
+  SceneScope scope{};             ///< the scope of `path`
+  std::uint64_t path_bytes = 0;   ///< size of `path`
   const ImportOptions* options = nullptr;
-  std::optional<Georeference> frame{};  ///< of the paths before, if there is one
-  /// What the reader is to send.
+  std::optional<Georeference> frame{};  ///< of the previous paths, if there is one
+  /// The kind of content that the reader sends.
   enum class Wanted { meshes, pieces, display, pages, list };
   Wanted wanted = Wanted::meshes;
-  std::string tile{};            ///< of a folder, the only one that is wanted; empty: all
-  std::optional<Vec3> origin{};  ///< of the parts of the paths before
-  /// Called about every tenth of a second with the bytes read and triangles received of this path.
+  std::string tile{};            ///< the only tile of a folder to read; empty: all
+  std::optional<Vec3> origin{};  ///< of the parts of the previous paths
+  /// Called about every tenth of a second with the bytes read and the triangles received for this path.
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };
 
-/// The walls around a reader, as one says that reads nothing. Throws roam::Error when it cannot be run.
+/// The walls of a reader that reads nothing, as it reports them. Throws roam::Error if it cannot run.
 [[nodiscard]] Confinement confinement_of(const std::filesystem::path& program);
 
-/// Starts the reader; of pages one that takes requests.
+/// Starts the reader. For pages it accepts requests.
 [[nodiscard]] std::unique_ptr<ReaderProcess> start(const Reading& reading);
 
-/// Gives what the reader says to `receiver`, until that has ended. `budget` is that of the process. Throws what
-/// read_one throws.
+/// Passes the frames of the reader to `receiver` until that has ended. `budget` is that of the process. Throws the
+/// errors of read_one.
 void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver, ProcessorBudget budget);
 
-/// Gives what the reader says of the path to `receiver`, and sets matched[i] where ignore pattern i matched. Throws
-/// roam::Error, and whatever report_progress and the receiver throw; the reader is gone either way.
+/// Reads the path: passes the frames of the reader to `receiver`, and sets matched[i] if ignore pattern i matched.
+/// Throws roam::Error, and exceptions of report_progress and the receiver. The reader is gone in all cases.
 void read_one(const Reading& reading, StreamReceiver& receiver, std::vector<bool>& matched);
 
 }  // namespace roam::reader

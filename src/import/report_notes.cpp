@@ -9,7 +9,7 @@
 namespace roam::reader {
 namespace {
 
-/// Names that a sentence lists before it says "and others".
+/// Number of names in a sentence before "and others".
 constexpr std::size_t listed_names = 3;
 
 std::string listed(const std::vector<LeftOutObject>& objects) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The counts of a report as sentences.
+/// Notes about the counts of a report.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace roam::reader {
 
-/// Puts before report.notes what the counts of the report and the patterns that matched nothing mean for the user.
+/// Inserts notes about the report's counts, and about patterns that matched nothing, before report.notes.
 void add_count_notes(ImportReport& report, const ImportOptions& options, const std::vector<bool>& matched);
 
-/// The first few names, separated by commas, and whether there are others.
+/// The first few names, separated by commas, with a hint if there are others.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 }  // namespace roam::reader

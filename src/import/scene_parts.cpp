@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tile as the reader lists it.
+/// A tile from the reader's list.
 struct Tile {
   fs::path root;
   bool present = false;
 };
 
-/// Takes the names of a folder's tiles, and of the files that a file is read from besides.
+/// Receives the tiles of a folder, or the files that a file names.
 class PartList : public reader::StreamReceiver {
  public:
   PartList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
@@ -32,7 +32,7 @@ class PartList : public reader::StreamReceiver {
   [[nodiscard]] const std::vector<fs::path>& files() const { return files_; }
 
  private:
-  /// Names of millions of tiles.
+  /// Enough for the names of millions of tiles.
   static constexpr std::uint64_t text_bytes = 1ull << 30;
 
   void take_content(reader::FrameKind kind, std::span<const std::byte> payload) override {
@@ -55,7 +55,7 @@ class PartList : public reader::StreamReceiver {
   std::vector<fs::path> files_;
 };
 
-/// Regular files below a folder, in their order. A link that leads out of the scene is not followed.
+/// Regular files below a folder, sorted. Links that lead out of the scene are not followed.
 std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope& scope) {
   std::vector<fs::path> files;
   std::error_code none;
@@ -68,7 +68,8 @@ std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope&
   return files;
 }
 
-/// Names of files may be any bytes, names of parts are text: what is no UTF-8 becomes %XX, as in addresses.
+/// A part's name from a file's. File names may have any bytes, but names of parts are text: invalid UTF-8 becomes %XX,
+/// as in addresses.
 std::string readable(std::string_view bytes) {
   std::string text;
   while (!bytes.empty()) {
@@ -80,7 +81,7 @@ std::string readable(std::string_view bytes) {
   return text;
 }
 
-/// Gives every part a name that no other has.
+/// Gives every part a unique name.
 class Names {
  public:
   std::string unique(const std::string& file_name) {
@@ -102,10 +103,10 @@ void count_bytes(ScenePart& part) {
   }
 }
 
-/// One part a tile; those that are missing too, so that reading it says so.
+/// Adds one part for each tile. Missing tiles are parts too, so that reading them reports it.
 void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
                const reader::SceneScope& scope, Names& names, std::vector<ScenePart>& parts) {
-  // As the reader finds it: see read_tiles.
+  // The folder as read_tiles finds it.
   fs::path folder = scope.scene;
   if (folder.filename() == "Data") folder = folder.parent_path();
   const fs::path metadata = folder / "metadata.xml";
@@ -117,7 +118,7 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
     part.frame = frame;
     if (tile.present && scope.resolve(tile.root)) {
       part.files = files_in(tile.root.parent_path(), scope);
-      // It says where the tile lies.
+      // This file has the position of the tile.
       if (!scope.find(metadata).empty() &&
           std::find(part.files.begin(), part.files.end(), metadata) == part.files.end()) {
         part.files.push_back(metadata);

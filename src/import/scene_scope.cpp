@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Links that lead to links: more is a circle. Linux stops at as many.
+/// Most links that are followed, as in Linux; more are a circle.
 constexpr int link_limit = 40;
 
 bool is_below(const fs::path& path, const fs::path& folder) {
@@ -25,7 +25,7 @@ fs::path without_links_above(const fs::path& path) {
   const fs::path whole = fs::absolute(path);
   std::error_code none;
   const bool folder = fs::is_directory(whole, none);
-  // A link is followed before "..", as the system does: text alone would name another file.
+  // Follow links before "..", as the system does. By text alone ".." may lead to another file.
   const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
   if (none) return whole.lexically_normal();
   return folder ? real : real / whole.filename();
@@ -40,7 +40,7 @@ std::optional<fs::path> SceneScope::resolve(const fs::path& path) const {
   fs::path whole = path.lexically_normal();
   for (int links = 0; links <= link_limit; ++links) {
     if (!whole.is_absolute() || !holds(whole)) return std::nullopt;
-    // Folders of the scene have no links in them: the first link lies inside.
+    // Folders of the scope have no links in their paths, so the first link lies inside.
     fs::path at;
     fs::path rest;
     bool found = false;
@@ -79,14 +79,14 @@ SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
   std::error_code none;
   if (fs::is_directory(path, none)) {
     scope.folders.push_back(path);
-    // It lies beside the folder of the tiles and says where they are.
+    // This file lies beside the folder of the tiles and has their position.
     if (path.filename() == "Data") {
       const fs::path metadata = path.parent_path() / "metadata.xml";
       if (fs::is_regular_file(fs::symlink_status(metadata, none))) scope.files.push_back(metadata);
     }
   } else {
     scope.folders.push_back(path.parent_path());
-    // The user named the file, wherever a link leads.
+    // The user named the file, so its target is allowed wherever a link leads.
     if (const fs::path real = fs::canonical(path, none); !none) scope.files.push_back(real);
   }
   for (const fs::path& folder : allowed) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which files belong to a scene.
+/// The files that belong to a scene.
 
 #include <filesystem>
 #include <optional>
@@ -10,27 +10,28 @@
 namespace roam::reader {
 
 /// The folders and files that a scene may be read from: the folder of the scene's file, or the folder that is the
-/// scene, and those that the user allowed. Both the program and its readers go by it.
+/// scene, and those that the user allowed. The program and its readers both use it.
 ///
-/// Nothing outside is looked at, not even for whether it is there: a path may lead to a network.
+/// No path outside is accessed, not even to test whether it exists, because it may lead to a network.
 struct SceneScope {
-  std::filesystem::path scene;                 ///< as its reader gets it: absolute, the folders above it without links
+  std::filesystem::path scene;                 ///< as its reader receives it: absolute, with no links in the folders
+                                               ///< above it
   std::vector<std::filesystem::path> folders;  ///< absolute, without links
   std::vector<std::filesystem::path> files;    ///< absolute, without links
 
-  /// Where a path leads, links followed; unset when it leads outside. The file itself need not be there.
+  /// The path with its links followed; unset if it leads outside. The file itself need not exist.
   [[nodiscard]] std::optional<std::filesystem::path> resolve(const std::filesystem::path& path) const;
-  /// The regular file at `path`, links followed; empty when there is none, or when it lies outside.
+  /// The regular file at `path`, links followed; empty if there is none, or if it lies outside.
   [[nodiscard]] std::filesystem::path find(const std::filesystem::path& path) const;
 
  private:
   [[nodiscard]] bool holds(const std::filesystem::path& path) const;
 };
 
-/// A path that the user named: absolute, and the folders above its last part without links.
+/// The absolute form of a path from the user, with no links in the folders above its last part.
 [[nodiscard]] std::filesystem::path without_links_above(const std::filesystem::path& path);
 
-/// The scope of a scene that the user names by `path`. Throws roam::Error for an allowed folder that is not there.
+/// The scope of a scene at `path`. Throws roam::Error for an allowed folder that does not exist.
 [[nodiscard]] SceneScope scope_of(const std::filesystem::path& path, std::span<const std::filesystem::path> allowed);
 
 }  // namespace roam::reader

@@ -1,37 +1,38 @@
 #pragma once
 /// \file
-/// What roam-reader says to the program that started it: frames on file descriptor stream_fd.
+/// The protocol from roam-reader to the program that started it: frames on file descriptor stream_fd.
 ///
-/// A frame is a FrameHeader and `bytes` bytes of payload, in the byte order of the machine (both ends are on it).
-/// Frames are numbered from 0 without a gap. Payloads are the fields below in this order; text is a 32-bit length and
-/// that many bytes.
+/// A frame is a FrameHeader followed by `bytes` bytes of payload, in the byte order of the machine, which both ends
+/// share. Frames are numbered from 0 without a gap. A payload is the fields below in this order. Text is a 32-bit
+/// length and that many bytes.
 ///
 ///     hello         Greeting                                                 first, once
-///     opened        text file                                                at any time, of each file once
+///     opened        text file                                                at any time; each file once
 ///     outside       text file                                                a reference that was left out
-///     file          text file                                                where files are only to be listed: one
-///                                                                            that the file names
+///     file          text file                                                in a list: a file that the scene's file
+///                                                                            names
 ///     progress      u64 bytes read so far                                    at any time
-///     georeference  f64 x, y, z; text srs                                    folders of tiles, at most once
-///     tile          text root file; u8 whether it is there                   of folders that are only to be listed
-///     object        text name; u8 continues                                  begins a mesh, or a piece of one: where
-///                   the program asked for pieces, one that continues goes on with the object of the piece before
-///     vertices      f64 x, y, z of each                                      belong to the mesh begun last
-///     triangles     u32 a, b, c of each                                      index the vertices of the mesh or piece
-///                                                                            that were sent so far
+///     georeference  f64 x, y, z; text srs                                    of a folder of tiles, at most once
+///     tile          text root file; u8 whether it exists                     in a list of a folder's tiles
+///     object        text name; u8 continues                                  begins a mesh or a piece; a piece that
+///                                                                            continues has the object of the one
+///                                                                            before
+///     vertices      f64 x, y, z of each                                      of the current mesh or piece
+///     triangles     u32 a, b, c of each                                      indices of the vertices sent so far of
+///                                                                            the current mesh or piece
 ///     left_out      u8 LeftOutReason; text name; u64 vertices; u64 triangles
 ///     part          f64 x, y, z of the origin, of the lower and of the upper corner; u64 triangles, bytes;
-///                   begins a part of what is shown (display.h); only where the program asked for that, and then
-///                   neither object, vertices nor triangles come
-///     part_bytes    bytes of the part begun last (part_format.h), until all are there
+///                   begins a display part (display.h); only on request, and then there is neither object, vertices
+///                   nor triangles
+///     part_bytes    bytes of the current part (part_format.h), until all are sent
 ///     missing_page  text file
 ///     missing_texture  text file
 ///     note          text sentence
 ///     failure       text sentence                                            last: the file cannot be read
-///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: all is said
+///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: reading is complete
 ///
-/// The receiver trusts nothing: it checks the numbering, sizes, that vertices are finite and within the limit, that
-/// indices are in range, and that the totals of `end` are those that arrived.
+/// The receiver trusts nothing. It checks the numbering and the sizes, that vertices are finite and within the limit,
+/// that indices are in range, and that the totals of `end` equal the contents received.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,9 +48,9 @@ namespace roam::reader {
 inline constexpr int stream_fd = 3;
 inline constexpr std::uint32_t stream_version = 5;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
-/// Largest payload; a sender splits vertices and triangles accordingly.
+/// Largest payload, in bytes; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
-/// Largest text; longer names are cut by the sender.
+/// Largest text, in bytes; the sender cuts longer names.
 inline constexpr std::uint32_t text_limit = 64u << 10;
 
 enum class FrameKind : std::uint16_t {
@@ -84,7 +85,7 @@ static_assert(sizeof(FrameHeader) == 16);
 
 enum class LeftOutReason : std::uint8_t { bad_vertices, ignored };
 
-/// Which version of this stream the sender speaks, and which walls stand around it: see Confinement.
+/// The sender's version of this protocol, and the walls around it: see Confinement.
 struct Greeting {
   std::uint32_t version = stream_version;
   std::int32_t landlock = 0;
@@ -97,7 +98,7 @@ struct Totals {
   std::uint64_t textures = 0, missing_textures = 0;
 };
 
-/// What begins a part; see display.h.
+/// The header of a part; see display.h.
 struct PartHeader {
   double origin[3];
   double lower[3], upper[3];
@@ -128,7 +129,7 @@ class PayloadWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Takes a payload apart. A field that is not there makes ok() false and reads as zero or empty.
+/// Reads a payload field by field. A missing field reads as zero or empty, and makes complete() false.
 class PayloadReader {
  public:
   explicit PayloadReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -155,7 +156,7 @@ class PayloadReader {
     rest_ = rest_.subspan(length);
     return text;
   }
-  /// Whether every field was there and nothing is left over.
+  /// Whether every field was present and nothing is left over.
   [[nodiscard]] bool complete() const { return ok_ && rest_.empty(); }
 
  private:

@@ -10,7 +10,7 @@
 namespace roam::reader {
 namespace {
 
-/// Adds to the entry of that name, or makes one while there is room.
+/// Adds to the entry of the same name, or adds an entry if there is room.
 void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
   for (LeftOutObject& known : objects) {
     if (known.name == object.name) {
@@ -22,12 +22,12 @@ void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
   if (objects.size() < ImportReport::name_limit) objects.push_back(std::move(object));
 }
 
-/// The least room: as much as a pipe holds.
+/// The least room for new bytes: the size of the pipe.
 constexpr std::size_t room_bytes = 1u << 20;
-/// A frame that is not whole, and room; what lies before it is seldom moved.
+/// An incomplete frame and room for more, so that bytes are seldom moved.
 constexpr std::size_t buffer_bytes = payload_limit + 2 * room_bytes;
 
-/// Most sentences that one reader may say.
+/// Most notes that one reader may send.
 constexpr std::size_t note_limit = 100;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The receiving end of a reader's frames: what all kinds of reading have in common.
+/// The receiving end of a reader's frames: the part that all kinds of reading share.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace roam::reader {
 
-/// Takes the frames of one reader and writes what they say into a report; what they bring is for derived classes.
+/// Takes the frames of one reader and records them in a report. Derived classes take the content.
 class StreamReceiver {
  public:
   /// `content_bytes`: most bytes of content that this reader may still send.
@@ -24,39 +24,40 @@ class StreamReceiver {
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;
 
-  /// From now on sentences that name the path as the reader knows it name it as the user does.
+  /// From now on replaces the reader's name of the path by the user's name in sentences.
   void spell(std::string readers_name, std::string users_name);
 
-  /// Where the next bytes of the stream are to be put.
+  /// The buffer for the next bytes of the stream.
   [[nodiscard]] std::span<std::byte> room();
-  /// Takes the first `count` bytes of the room. Throws StreamDamaged, ContentTooLarge, Failure, or what a taker throws.
+  /// Takes the first `count` bytes of room(). Throws StreamDamaged, ContentTooLarge, Failure, or exceptions of derived
+  /// classes.
   void take(std::size_t count);
 
-  /// Whether the reader has said that it is done; nothing may follow.
+  /// Whether the reader has sent its last frame. Nothing may follow.
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] std::uint64_t bytes_read() const { return bytes_read_; }
   /// The files that the reader has opened since the last call.
   [[nodiscard]] std::vector<std::string> take_opened() { return std::exchange(opened_, {}); }
-  /// For each pattern of ImportOptions::ignore whether an object's name matched it; known once ended.
+  /// For each pattern of ImportOptions::ignore, whether an object's name matched it. Valid once ended().
   [[nodiscard]] const std::vector<bool>& matched() const { return matched_; }
-  /// Triangles that arrived so far.
+  /// Triangles received so far.
   [[nodiscard]] virtual std::uint64_t triangles() const = 0;
 
-  /// The stream breaks its own rules: the reader is broken.
+  /// The stream violates the protocol, so the reader is broken.
   struct StreamDamaged {
     std::string how;
   };
   /// More than content_bytes arrived.
   struct ContentTooLarge {};
-  /// What the reader itself says is wrong with the file.
+  /// The reader's own message about what is wrong with the file.
   struct Failure {
     std::string sentence;
   };
 
  protected:
-  /// Takes a frame of content. Throws StreamDamaged for kinds that have no place in this reading.
+  /// Takes a frame of content. Throws StreamDamaged for kinds that do not belong to this reading.
   virtual void take_content(FrameKind kind, std::span<const std::byte> payload) = 0;
-  /// The content is complete: throws StreamDamaged unless the totals are those that arrived.
+  /// Called when the content is complete. Throws StreamDamaged unless the totals equal the contents received.
   virtual void finish_content(const Totals& totals) = 0;
 
   void count_bytes(std::size_t bytes);
@@ -71,7 +72,7 @@ class StreamReceiver {
 
   std::size_t ignore_patterns_;
   std::uint64_t content_bytes_left_;
-  // Bytes that arrived and are not taken yet; frames are taken from where they lie.
+  // Bytes that have arrived and are not taken yet. Frames are taken without a copy.
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   std::uint32_t next_number_ = 0;

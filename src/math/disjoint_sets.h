@@ -9,14 +9,15 @@
 
 namespace roam {
 
-/// Sets of consecutive numbers, each alone at first. The name of a set is its least number, whatever was united first.
+/// Disjoint sets of consecutive numbers, each alone at first. A set is named by its least number, whatever the order of
+/// unions.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size = 0) {
     for (std::size_t i = 0; i < size; ++i) add();
   }
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
-  /// One more number, alone.
+  /// Adds one number, alone in its set, and returns it.
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     return parent_.back();

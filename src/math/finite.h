@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether numbers are numbers.
+/// Tests for finite numbers.
 
 #include <cmath>
 

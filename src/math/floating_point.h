@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The floating-point environment that every result counts on: rounding to nearest, subnormal numbers kept, no
-/// exception trapped. A host may have set another one.
+/// The floating-point environment that every result relies on: rounding to nearest, subnormal numbers kept, no
+/// exception trapped. The host may have set another one.
 
 #include <cfenv>
 #if defined(__SSE2__)
@@ -12,9 +12,10 @@
 
 namespace roam {
 
-/// Sets the default environment for its life, and then the host's own again. The first statement of a public function
-/// that reckons: what the compiler inlines must not come before it. Where the host has the default one, it is read and
-/// not written, and the flags of exceptions grow as in any function of C; else the flags are as before, too.
+/// Sets the default environment and restores the host's at the end of its life. It must be the first statement of a
+/// public function that computes, because code that the compiler inlines must not come before it. If the host already
+/// has the default, the environment is only read, and exception flags accumulate as in any C function. Otherwise the
+/// flags are restored too.
 class DefaultFloatingPoint {
  public:
   DefaultFloatingPoint() {
@@ -28,9 +29,9 @@ class DefaultFloatingPoint {
 
  private:
 #if defined(__SSE2__)
-  // What is set by the functions of C is set here and in the x87 unit alike.
-  static constexpr unsigned flags = 0x3F;         ///< of MXCSR: which exceptions there were
-  static constexpr unsigned all_masked = 0x1F80;  ///< the rest of it, as a process begins
+  // The functions of <cfenv> set both this unit and the x87 unit.
+  static constexpr unsigned flags = 0x3F;         ///< the exception flags of MXCSR
+  static constexpr unsigned all_masked = 0x1F80;  ///< the rest of MXCSR when a process begins
 
   static bool differs() { return __builtin_expect((_mm_getcsr() & ~flags) != all_masked, 0) != 0; }
 #elif defined(__aarch64__)
@@ -47,12 +48,12 @@ class DefaultFloatingPoint {
     std::fegetenv(&host_);
     std::fesetenv(FE_DFL_ENV);
 #if defined(__SSE2__)
-    _mm_setcsr(all_masked);  // not every library of C keeps subnormal numbers again
+    _mm_setcsr(all_masked);  // some C libraries do not restore subnormal numbers
 #endif
   }
 
   const bool differs_ = differs();
-  std::fenv_t host_;  // only set, and only used, where it differs
+  std::fenv_t host_;  // set and used only if differs_
 };
 
 }  // namespace roam

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The size of a vector as error bounds count it.
+/// The maximum norm, which error bounds use.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace roam {
 
-/// The largest absolute component. Of a vector with a NaN it means nothing.
+/// The largest absolute component. Unspecified for a vector with a NaN.
 inline double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace roam

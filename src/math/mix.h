@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bits that look drawn, the same on every machine.
+/// Pseudorandom bits, the same on every machine.
 
 #include <cstdint>
 

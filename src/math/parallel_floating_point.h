@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// DefaultFloatingPoint for what runs on several threads.
+/// DefaultFloatingPoint for work on several threads.
 
 #include <tbb/task_arena.h>
 
@@ -8,9 +8,9 @@
 
 namespace roam {
 
-/// Runs `work` in the default floating-point environment, it and all tasks of TBB that it makes. A task has the
-/// environment of its arena, which is that of the thread that made the arena: the one that a thread gets by itself may
-/// have the host's, so this makes another.
+/// Runs `work` and all TBB tasks that it makes in the default floating-point environment. A task uses the environment
+/// of its arena, which is that of the thread that made the arena. The calling thread's implicit arena may have the
+/// host's environment, so this function makes another arena.
 template <class Work>
 auto in_default_floating_point(const Work& work) {
   const DefaultFloatingPoint guard;

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder of the plugins: beside the library itself. Empty where the system cannot say.
+/// The folder of the plugins: beside the library itself. Empty if the system cannot say.
 fs::path plugin_folder() {
   Dl_info library{};
-  // Any function of the library serves.
+  // Any function of the library will do.
   const auto function = &osgDB::Registry::instance;
   if (dladdr(reinterpret_cast<const void*>(function), &library) == 0 || library.dli_fname == nullptr) return {};
   std::error_code none;
@@ -29,8 +29,7 @@ fs::path plugin_folder() {
 class ClosedDoor : public osgDB::FindFileCallback {
  public:
   explicit ClosedDoor(FindFile find) : find_(std::move(find)) {}
-  /// A path at which there is no library. An empty answer would make OpenSceneGraph try the bare name in the current
-  /// folder.
+  /// Returns a path without a library. An empty path would make OpenSceneGraph try the bare name in the current folder.
   std::string findLibraryFile(const std::string&, const osgDB::Options*, osgDB::CaseSensitivity) override {
     return "/dev/null/no-library";
   }

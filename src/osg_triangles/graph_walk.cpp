@@ -28,7 +28,7 @@ osg::Node* shown_child(osg::Sequence& sequence) {
   return sequence.getChild(shown >= 0 && shown < count ? static_cast<unsigned>(shown) : 0);
 }
 
-/// Keeps the names of the nodes that the walk is in.
+/// Keeps the names of the nodes between the root and the present node.
 class GraphWalk::Entered {
  public:
   Entered(GraphWalk& walk, const osg::Object& object) : walk_(walk) {
@@ -59,7 +59,7 @@ void GraphWalk::apply(osg::Group& group) {
     return;
   }
   const Entered entered(*this, group);
-  // Nodes that choose among their children (Switch, MultiSwitch, ProxyNode) do so themselves in this mode.
+  // In this mode, nodes that choose among their children (Switch, MultiSwitch, ProxyNode) do so themselves.
   traverse(group);
 }
 

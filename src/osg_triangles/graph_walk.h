@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The walk through an OpenSceneGraph scene: what of it has a surface, and where that lies.
+/// Visitor of the surfaces in an OpenSceneGraph scene, with their transforms.
 
 #include <cstddef>
 #include <osg/Camera>
@@ -15,18 +15,19 @@
 
 namespace roam::osg_triangles {
 
-/// Whether a node or drawable has no place in the scene's space: text, particles, and what makes its surface only while
-/// it is drawn.
+/// Whether a node or drawable has no surface in the scene's space: text, particles, and drawables that make their
+/// surface only while they are drawn.
 [[nodiscard]] bool has_no_surface(const osg::Object& object);
 
-/// Whether a camera has a frame of its own: it draws a head-up display or a texture.
+/// Whether a camera has its own frame, because it draws a head-up display or a texture.
 [[nodiscard]] bool draws_elsewhere(const osg::Camera& camera);
 
-/// The child that a sequence shows; the first of one that has not started. Null when it has none.
+/// The child that a sequence shows: the first if it has not started, null if it has none.
 [[nodiscard]] osg::Node* shown_child(osg::Sequence& sequence);
 
-/// Meets the geometries of a graph: transforms multiplied in doubles, instances expanded, the visible child of
-/// switches. Left out are billboards, text, particles, lights, head-up displays, and what node masks hide.
+/// Visits the geometries of a graph. Transforms are multiplied in doubles, instances expanded, and only visible
+/// children of switches entered. It leaves out billboards, text, particles, lights, head-up displays, and nodes that
+/// node masks hide.
 class GraphWalk : public osg::NodeVisitor {
  public:
   void apply(osg::Node& node) override;
@@ -41,25 +42,26 @@ class GraphWalk : public osg::NodeVisitor {
   void apply(osg::PagedLOD& lod) override;
 
  protected:
-  /// Nodes inside nodes; more is a graph that contains itself, and would exhaust the stack.
+  /// Limit of nesting. A deeper graph contains itself, and would exhaust the stack.
   static constexpr std::size_t depth_limit = 2000;
 
   explicit GraphWalk(const osg::Matrixd& place = osg::Matrixd::identity())
       : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), to_world_(place) {}
 
-  /// A geometry in the frame to_world().
+  /// Called for each geometry; to_world() is its frame.
   virtual void meet(osg::Geometry& geometry) = 0;
-  /// A LOD node; `paged` is the same node when it is a PagedLOD. Calls accept() of the children that count.
+  /// Called for each LOD node; `paged` is the same node if it is a PagedLOD. Must call accept() on the children that
+  /// count.
   virtual void meet(osg::LOD& lod, osg::PagedLOD* paged) = 0;
-  /// Whether a finer sibling stands for the level of detail that continues it.
+  /// Whether a finer sibling replaces the level of detail that continues it.
   [[nodiscard]] virtual bool stands_for(const osg::LOD&) const { return true; }
-  /// A node or drawable that is left out though it may have a surface.
+  /// Called for a node or drawable that is left out although it may have a surface.
   virtual void leave_out(const osg::Object&) {}
-  /// Nodes are nested more than depth_limit deep. Throws.
+  /// Called when nodes are nested deeper than depth_limit. Throws.
   [[noreturn]] virtual void refuse_depth();
 
   [[nodiscard]] const osg::Matrixd& to_world() const { return to_world_; }
-  /// Of the nodes that the walk is in, outermost first.
+  /// Names of the nodes from the root to the present node, outermost first.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:

@@ -12,11 +12,11 @@ bool by_distance(const osg::LOD& lod) { return lod.getRangeMode() == osg::LOD::D
 }  // namespace
 
 std::vector<Level> levels(const osg::LOD& lod) {
-  // Between two neighbouring ends of ranges the same children are shown; who stands at the lower one sees them.
+  // Between two neighbouring ends of ranges the same children are shown. The lower end stands for the interval.
   const auto& ranges = lod.getRangeList();
   std::vector<float> ends;
   for (const auto& [first, second] : ranges) {
-    // A range that nothing can fall into hides its child; so does one that is not a number.
+    // An empty range, or one with a NaN, hides its child.
     if (first < second) ends.insert(ends.end(), {first, second});
   }
   std::sort(ends.begin(), ends.end());
@@ -36,7 +36,7 @@ Level loaded_level(const osg::LOD& lod, bool finest) {
   std::vector<Level> all = levels(lod);
   if (!finest) std::reverse(all.begin(), all.end());
   for (Level& level : all) {
-    // Numbers are ascending: the last one decides.
+    // Numbers are ascending, so the last one decides.
     if (level.back() < lod.getNumChildren()) return std::move(level);
   }
   return {};
@@ -51,7 +51,7 @@ bool continues_a_finer_sibling(const osg::LOD& lod, const osg::Group& parent) {
   };
   const float nearest = nearest_of(lod);
   if (!(nearest > 0.0f)) return false;
-  // Writers convert units, so that one level's end and the next one's beginning may differ in the last digits.
+  // Writers convert units: the end of one level and the beginning of the next may differ in the last digits.
   const float rounding = 1e-4f * nearest;
   for (unsigned i = 0; i < parent.getNumChildren(); ++i) {
     const osg::LOD* sibling = dynamic_cast<const osg::LOD*>(parent.getChild(i));

@@ -57,7 +57,7 @@ class Collector {
 }  // namespace
 
 bool is_usable(const Vec3& vertex) {
-  // Written so that a NaN is not usable.
+  // False for a NaN too.
   return std::abs(vertex.x) <= coordinate_limit && std::abs(vertex.y) <= coordinate_limit &&
          std::abs(vertex.z) <= coordinate_limit;
 }

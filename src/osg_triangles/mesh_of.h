@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A geometry as a mesh that World::build takes.
+/// Conversion of a geometry to a mesh for World::build.
 
 #include <cstdint>
 #include <osg/Geometry>
@@ -12,14 +12,14 @@
 
 namespace roam::osg_triangles {
 
-/// The triangles of `geometry`, vertices multiplied by `to_world`, without a name. Triangles with a vertex that
-/// World::build would refuse, or with an index beyond the vertices, are left out and added to `left_out`.
+/// The triangles of `geometry`, its vertices multiplied by `to_world`, without a name. A triangle is left out, and
+/// counted in `left_out`, if World::build would refuse one of its vertices or if an index is out of range.
 [[nodiscard]] Mesh mesh_of(const osg::Geometry& geometry, const osg::Matrixd& to_world, std::uint64_t& left_out);
 
-/// Whether World::build takes this vertex.
+/// Whether World::build accepts this vertex.
 [[nodiscard]] bool is_usable(const Vec3& vertex);
 
-/// The innermost of `names`, outermost first, that is not empty.
+/// The innermost name that is not empty; `names` are outermost first.
 [[nodiscard]] std::string innermost(const std::vector<std::string>& names);
 
 }  // namespace roam::osg_triangles

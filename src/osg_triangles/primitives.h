@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The triangles of a geometry's primitives, by the indices of their corners. OpenSceneGraph's own functors trust the
-/// indices of the file and do not tell which are meant to be shared.
+/// indices of the file, and do not say which vertices are shared.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +22,9 @@ class Vertices {
         at_([](const void* array, std::size_t i) { return point(static_cast<const Vertex*>(array)[i]); }) {}
 
   [[nodiscard]] std::size_t size() const { return count_; }
-  /// Whether a file could have said more.
+  /// True if the array is of floats: a file could have more digits.
   [[nodiscard]] bool is_float() const { return is_float_; }
-  /// `i` < size().
+  /// The vertex; `i` < size().
   [[nodiscard]] osg::Vec3d operator[](std::size_t i) const { return at_(array_, i); }
 
  private:
@@ -42,15 +42,15 @@ class Vertices {
   osg::Vec3d (*at_)(const void*, std::size_t) = nullptr;
 };
 
-/// The corners of one triangle. Nothing is checked: an index may lead beyond the vertices.
+/// The corners of one triangle. Unchecked: an index may be out of range.
 struct Corners {
   std::uint64_t a, b, c;
-  unsigned primitive;  ///< which primitive of the geometry: a point, line, triangle or quad is one
-  unsigned half;       ///< of a quad: 0 or 1
-  bool indexed;        ///< else triangles that share a corner have a vertex each
+  unsigned primitive;  ///< the number of the primitive in the geometry; points, lines, triangles and quads all count
+  unsigned half;       ///< which half of a quad: 0 or 1
+  bool indexed;        ///< false: triangles do not share vertices
 };
 
-/// Hands all triangles of a geometry to `Receiver`, which has
+/// Passes all triangles of a geometry to `Receiver`, which has
 ///     void begin(const auto* vertices, std::size_t count);   // before the triangles
 ///     void triangle(const Corners& corners);
 template <class Receiver>

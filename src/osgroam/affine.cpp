@@ -30,7 +30,7 @@ double greatestStretch(const osg::Matrixd& matrix) {
     const double cosine = std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0);
     greatest = mean + 2.0 * p * std::cos(std::acos(cosine) / 3.0);
   }
-  // Where eigenvalues are equal the formula loses half of the digits.
+  // With equal eigenvalues the formula loses half of the digits.
   constexpr double rounding = 1e-6;
   return std::sqrt(std::max(greatest, 0.0)) * (1.0 + rounding);
 }

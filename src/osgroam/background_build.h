@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A world that is built in a thread of its own.
+/// Construction of a world in a thread of its own.
 
 #include <atomic>
 #include <future>
@@ -14,14 +14,14 @@ namespace osgRoam {
 class BackgroundBuild {
  public:
   explicit BackgroundBuild(std::vector<roam::Mesh> meshes);
-  /// Cancels, and waits until that is noticed.
+  /// Cancels the construction and waits until it has stopped.
   ~BackgroundBuild();
   BackgroundBuild(const BackgroundBuild&) = delete;
   BackgroundBuild& operator=(const BackgroundBuild&) = delete;
 
   [[nodiscard]] double fraction() const { return fraction_; }
   [[nodiscard]] bool ready() const;
-  /// When ready, once. Throws what roam::World::build throws.
+  /// The world. Call it once, after ready() is true. Throws the exceptions of roam::World::build.
   [[nodiscard]] std::shared_ptr<const roam::World> take() { return world_.get(); }
 
  private:

@@ -14,15 +14,15 @@
 namespace osgRoam {
 namespace {
 
-/// A node that the visit is below and that BoxIntersector would reject by its sphere.
+/// A node above the visit whose sphere BoxIntersector tests.
 struct Bounded {
   osg::Vec3d centre;
   double radius;
-  osg::Matrixd to_bounded;  ///< from the frame of the visit to that of the sphere
-  double stretch;           ///< from that to the frame of the graph
+  osg::Matrixd to_bounded;  ///< from the present frame to that of the sphere
+  double stretch;           ///< greatest stretch from the sphere's frame to that of the graph
 };
 
-/// Keeps the farthest of a geometry's vertices, as far as triangles use them.
+/// Keeps the greatest distance by which a vertex in a triangle lies outside of the spheres above it.
 class Farthest {
  public:
   explicit Farthest(const std::vector<Bounded>& above) : above_(above) {}
@@ -71,7 +71,7 @@ class MarginVisitor : public osg::NodeVisitor {
     osg::Matrixd own;
     transform.computeLocalToWorldMatrix(own, this);
     transform.computeLocalToWorldMatrix(to_graph_, this);
-    // Nodes do not bound what has a frame of its own.
+    // The spheres above do not bound a child with an absolute frame.
     if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF) above_.clear();
     for (Bounded& node : above_) node.to_bounded.preMult(own);
     traverse(transform);
@@ -108,7 +108,7 @@ class MarginVisitor : public osg::NodeVisitor {
 double boundsMargin(osg::Node& node) {
   MarginVisitor visitor;
   node.accept(visitor);
-  // Measured in doubles, far from the origin perhaps.
+  // Relative error of distances in doubles, which may be far from the origin.
   constexpr double rounding = 1e-9;
   const osg::BoundingSphere& all = node.getBound();
   const double coordinates = osg::Vec3d(all.center()).length() + all.radius();

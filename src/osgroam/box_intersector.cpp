@@ -16,10 +16,10 @@
 namespace osgRoam {
 namespace {
 
-/// Of each coordinate: as sphereRounding, of a bounding box, which only takes over coordinates, for vertices in
-/// doubles.
+/// Rounding of a bounding box in floats, relative to each coordinate. A box only copies coordinates, so this covers the
+/// conversion of vertices in doubles.
 constexpr double boxRounding = 0x1p-23;
-/// The same of everything here, in doubles.
+/// Rounding of the computations here in doubles, relative to each coordinate.
 constexpr double ownRounding = 1e-12;
 
 double size(const osg::Vec3d& v) { return std::abs(v.x()) + std::abs(v.y()) + std::abs(v.z()); }
@@ -31,10 +31,10 @@ void check(osgUtil::Intersector::CoordinateFrame frame) {
       "the frame MODEL or VIEW.");
 }
 
-/// Whether what is below the last node of the path has no place in the scene's space.
+/// Whether the contents of the last node of the path lie outside of the scene's space.
 bool isElsewhere(const osg::NodePath& path) {
   if (!path.empty() && dynamic_cast<const osg::Billboard*>(path.back()) != nullptr) return true;
-  // Who starts at a camera wants what it sees.
+  // A camera at the start of the path is what the caller wants to query.
   for (std::size_t i = 1; i < path.size(); ++i) {
     const osg::Camera* camera = path[i]->asCamera();
     if (camera != nullptr && roam::osg_triangles::draws_elsewhere(*camera)) return true;
@@ -52,7 +52,7 @@ BoxIntersector::BoxIntersector(CoordinateFrame frame, const roam::Body& body, co
     : osgUtil::Intersector(frame, LIMIT_NEAREST), _body(body), _start(start), _end(end) {
   const roam::DefaultFloatingPoint guard;
   check(frame);
-  // A sweep past nothing checks what is passed.
+  // A sweep against a degenerate triangle checks the arguments.
   const roam::Vec3 from{start.x(), start.y(), start.z()};
   static_cast<void>(roam::sweep(body, from, roam::Vec3{end.x(), end.y(), end.z()} - from, {from, from, from}));
   shrinkTo(1.0);
@@ -103,7 +103,7 @@ bool BoxIntersector::beyond(const osg::Vec3d& centre, double radius) {
     squared += d * d;
   }
   const double reach = radius * _stretch + ownRounding * size(c);
-  // Written so that a NaN is not beyond.
+  // False for a NaN.
   return squared > reach * reach;
 }
 

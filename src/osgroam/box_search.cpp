@@ -22,7 +22,7 @@ float rounded_up(double x) { return -rounded_down(-x); }
 
 }  // namespace
 
-/// What osg::KdTree::intersect() calls.
+/// The functor for osg::KdTree::intersect().
 struct BoxIntersector::KdTreeSearch {
   Search& search;
 
@@ -60,7 +60,7 @@ void BoxIntersector::Search::bring_box() {
     }
     const osg::Vec3d centre = (lower + upper) * 0.5 * below_._inverse;
     osg::Vec3d half = turnedHalf((upper - lower) * 0.5, below_._inverse);
-    // The inverse is known to 1e-11 of local coordinates, and the differences of coordinates in front of it to 2^-51.
+    // The inverse is exact to 1e-11 of local coordinates, and the differences of coordinates before it to 2^-51.
     const osg::Vec3d shift = below_._matrix.getTrans();
     osg::Vec3d coordinates;
     for (int k = 0; k < 3; ++k) coordinates[k] = std::max({std::abs(lower[k]), std::abs(upper[k]), std::abs(shift[k])});
@@ -80,9 +80,9 @@ const osg::KdTree* BoxIntersector::Search::kd_tree(const osg::Geometry& geometry
   if (!visitor_.getUseKdTreeWhenAvailable()) return nullptr;
   const auto* tree = dynamic_cast<const osg::KdTree*>(geometry.getShape());
   if (tree == nullptr || tree->getNodes().empty() || tree->getVertices() != geometry.getVertexArray()) return nullptr;
-  // Primitives with two equal corners are not in it; but segments are walls, and quads may be triangles.
+  // The index omits primitives with two equal corners. But segments are walls, and such quads may be triangles.
   if (tree->_degenerateCount != 0) return nullptr;
-  // It takes the corners of quads in strips in the order of single quads.
+  // The index takes the corners of quad strips in the order of single quads.
   for (const auto& primitives : geometry.getPrimitiveSetList()) {
     if (primitives->getMode() == GL_QUAD_STRIP) return nullptr;
   }
@@ -129,7 +129,7 @@ void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corner
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {
   const roam::certified::LocalTriangle local = roam::certified::seen_from(from_, triangle);
-  // Settles most of what a box lets through.
+  // Rejects most triangles that pass the box test.
   if (roam::certified::plane_separates(below_._body, motion_, local)) return;
   const double end = below_._intersectionLimit == LIMIT_NEAREST && !root_._intersections.empty()
                          ? root_._intersections.begin()->time
@@ -178,7 +178,7 @@ void BoxIntersector::Search::keep(const roam::SweepResult& result, const roam::T
   } else {
     i.matrix = new osg::RefMatrix(below_._matrix);
     i.localIntersectionPoint = local_point(result.point, triangle, corners);
-    // Normals go the other way by the transposed matrix.
+    // Normals transform back by the transposed matrix.
     i.localIntersectionNormal = osg::Matrixd::transform3x3(below_._matrix, i.worldIntersectionNormal);
     i.localIntersectionNormal.normalize();
   }
@@ -189,7 +189,7 @@ void BoxIntersector::Search::keep(const roam::SweepResult& result, const roam::T
 osg::Vec3d BoxIntersector::Search::local_point(const roam::Vec3& point, const roam::Triangle& triangle,
                                                const Corners& corners) const {
   if (below_._invertible) return to_osg(point) * below_._inverse;
-  // Through a flattening there is no way back; but the triangle's corners are known on both sides of it.
+  // A matrix that flattens has no inverse. But the corners of the triangle are known in both frames.
   const osg::Vec3d a = vertices_[corners.a], e = vertices_[corners.b] - a, f = vertices_[corners.c] - a;
   const osg::Vec3d u = to_osg(triangle[1] - triangle[0]), v = to_osg(triangle[2] - triangle[0]);
   const osg::Vec3d p = to_osg(point - triangle[0]);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What BoxIntersector does with one drawable.
+/// The search of BoxIntersector in one drawable.
 
 #include <osg/Geometry>
 #include <osg/KdTree>
@@ -10,7 +10,7 @@
 
 namespace osgRoam {
 
-/// Rejects the triangles whose box is outside that of the swept body, brings the others into the intersector's frame,
+/// Rejects triangles whose box is outside that of the swept body, transforms the others into the intersector's frame,
 /// and sweeps or gathers them.
 class BoxIntersector::Search {
  public:
@@ -18,7 +18,7 @@ class BoxIntersector::Search {
 
   void run(const osg::Geometry& geometry);
 
-  // For osg_triangles::Primitives.
+  // Interface of osg_triangles::Primitives.
   template <class Vertex>
   void begin(const Vertex* vertices, std::size_t count) {
     vertices_ = roam::osg_triangles::Vertices(count, vertices);
@@ -30,7 +30,7 @@ class BoxIntersector::Search {
   }
   void triangle(const roam::osg_triangles::Corners& t) {
     if (t.a >= vertices_.size() || t.b >= vertices_.size() || t.c >= vertices_.size()) return;
-    // Vertices in floats, the usual case, are compared as they are.
+    // Float vertices, the usual case, are compared without conversion.
     if (floats_ != nullptr && outside(floats_[t.a], floats_[t.b], floats_[t.c])) return;
     offer(t);
   }
@@ -53,10 +53,10 @@ class BoxIntersector::Search {
     }
     return false;
   }
-  /// The box of the swept body in the drawable's frame, rounded outwards to floats; everything where there is no way
-  /// back into that frame.
+  /// Computes the box of the swept body in the drawable's frame, rounded outwards to floats. It is infinite if the
+  /// matrix has no inverse.
   void bring_box();
-  /// Whether OpenSceneGraph's index of this geometry can be relied on.
+  /// The k-d tree of this geometry; null if it is absent or unreliable.
   [[nodiscard]] const osg::KdTree* kd_tree(const osg::Geometry& geometry) const;
   void offer(const roam::osg_triangles::Corners& corners);
   void gather(const roam::Triangle& triangle, const roam::osg_triangles::Corners& corners);
@@ -75,7 +75,7 @@ class BoxIntersector::Search {
   roam::osg_triangles::Vertices vertices_;
   const osg::Vec3* floats_ = nullptr;
   bool gathered_ = false;         ///< the drawable is in the list of those with candidates
-  Intersections::iterator kept_;  ///< of this drawable, where only its earliest is wanted
+  Intersections::iterator kept_;  ///< of this drawable, if only its earliest is wanted
   bool has_kept_ = false;
 };
 

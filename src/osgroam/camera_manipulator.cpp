@@ -1,4 +1,4 @@
-// What osgGA asks of every manipulator of a camera.
+// The interface of osgGA for manipulators of a camera.
 #include <algorithm>
 #include <osg/Notify>
 #include <utility>
@@ -12,10 +12,10 @@ namespace {
 
 using Adapter = osgGA::GUIEventAdapter;
 
-/// Cosine of the angle to +z up to which a frame's up counts as roam's.
+/// Cosine of the greatest angle to +z at which the up vector of a frame counts as roam's.
 constexpr double upright = 0.999;
 
-/// Metres that leastEyeDistance() may be wrong by in what a space has stored.
+/// Metres: error of leastEyeDistance(), apart from that of the stored triangles.
 constexpr double certified_to = 1e-6;
 
 }  // namespace
@@ -41,7 +41,7 @@ void Manipulator::updateCamera(osg::Camera& camera) {
   camera.setViewMatrix(getInverseMatrix());
   if (!_state->limits_near_plane) return leave_near_plane(camera);
   const double least = leastEyeDistance();
-  // What is drawn may lie nearer than what the space has stored.
+  // Drawn triangles may lie nearer than those that the space has stored.
   const double error = (_state->space ? _state->space->largest_error() : 0.0) + certified_to;
   limit_near_plane(camera, std::max(least - error, 0.5 * least));
 }
@@ -78,7 +78,7 @@ void Manipulator::home(const Adapter& event, osgGA::GUIActionAdapter& viewer) {
 }
 
 void Manipulator::init(const Adapter& event, osgGA::GUIActionAdapter& viewer) {
-  // Keys that were let go while another manipulator had them were not seen.
+  // Events of keys released during another manipulator's turn have not arrived here.
   _state->keyboard.release_all(event.getTime());
   _state->pointer.let_go();
   _state->last_time.reset();

@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Looking steeper than this, cosine of the pitch, the direction says too little of the yaw: the up vector says it.
+/// Cosine of the pitch. Below it the view is so steep that the up vector determines the yaw better than the direction.
 constexpr double steep = 1e-5;
 
 }  // namespace
@@ -34,7 +34,7 @@ osg::Matrixd camera_matrix(const CameraPose& pose, const osg::Vec3d& origin) {
 CameraPose looking_at(const roam::Vec3& eye, const roam::Vec3& center, const roam::Vec3& up) {
   const roam::Vec3 way = center - eye;
   const double length = glm::length(way);
-  if (!(length > 0.0)) return {eye, 0.5 * pi, 0.0};  // as every manipulator of osgGA looks: along +y
+  if (!(length > 0.0)) return {eye, 0.5 * pi, 0.0};  // along +y, like every manipulator of osgGA
   const roam::Vec3 f = way / length;
   const double level = std::hypot(f.x, f.y);
   const roam::Vec3 ahead = level > steep ? f : (f.z < 0.0 ? up : -up);

@@ -15,7 +15,7 @@ struct NamedKey {
   int symbol;
 };
 
-/// Keys that are not called by their character. The first name of a key is the one that is printed.
+/// Keys that have names instead of a character. The first name of a key is the printed one.
 constexpr NamedKey named_keys[] = {
     {"Space", Adapter::KEY_Space},
     {"Comma", Adapter::KEY_Comma},
@@ -65,7 +65,7 @@ constexpr NamedKey named_keys[] = {
     {"F12", Adapter::KEY_F12},
 };
 
-/// Keys that do the same as another one: the right hand's, and the keypad's without Num Lock.
+/// Keys that count as another one: those of the right hand, and the keypad without Num Lock.
 constexpr std::array<int, 2> same_keys[] = {
     {Adapter::KEY_Shift_R, Adapter::KEY_Shift_L},
     {Adapter::KEY_Control_R, Adapter::KEY_Control_L},
@@ -83,7 +83,7 @@ constexpr std::array<int, 2> same_keys[] = {
     {Adapter::KEY_KP_Enter, Adapter::KEY_Return},
 };
 
-/// Latin-1, the characters that X11 and Windows number as Unicode does. Space has a name.
+/// Characters of Latin-1, which X11 and Windows number as Unicode does. Space is excluded, because it has a name.
 bool latin(int symbol) { return (symbol > 0x20 && symbol < 0x7F) || (symbol > 0xA0 && symbol <= 0xFF); }
 
 std::string utf8(int latin_symbol) {
@@ -125,7 +125,7 @@ std::vector<Controls::Key> parse_keys(std::string_view text) {
   return keys;
 }
 
-/// Throws when a key calls two commands.
+/// Throws if a key belongs to two commands.
 void demand_unambiguous(const std::vector<Controls::Command>& commands) {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     for (const Controls::Key& key : commands[i].keys) {
@@ -150,7 +150,7 @@ int Controls::canonical(int symbol) {
     if (symbol == other) return one;
   }
   if (symbol >= 'A' && symbol <= 'Z') return symbol - 'A' + 'a';
-  // The capitals of Latin-1, but for the sign of multiplication in their midst.
+  // The capitals of Latin-1, without the multiplication sign between them.
   if (symbol >= 0xC0 && symbol <= 0xDE && symbol != 0xD7) return symbol + 0x20;
   return symbol;
 }
@@ -224,7 +224,7 @@ void Controls::rebind(std::string_view lines) {
     if (command->kind == Kind::gesture) {
       refuse("\"" + std::string(name) + "\" is done with the mouse and can not be given a key");
     }
-    // In "zoom = =" the first one parts and the second is the key.
+    // In "zoom = =" the first sign is the separator and the second is the key.
     try {
       command->keys = parse_keys(content.substr(equals + 1));
     } catch (const roam::Error& error) {

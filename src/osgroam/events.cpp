@@ -1,4 +1,4 @@
-// What keys and mouse do.
+// Events of keys and mouse.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,10 +10,10 @@ namespace {
 
 using Adapter = osgGA::GUIEventAdapter;
 
-/// On the speed, for one notch of the wheel: three are twice as fast.
+/// Factor of the speed for one notch of the wheel; three notches double it.
 constexpr double notch = 1.25;
 
-/// Metres: no click goes farther.
+/// Metres: the limit of a click's distance.
 constexpr double click_limit = 1e5;
 
 int symbol(const Adapter& event) {
@@ -21,7 +21,7 @@ int symbol(const Adapter& event) {
   return Controls::canonical(unmodified > 0 ? unmodified : event.getKey());
 }
 
-/// Keys by which people leave a window, Meta, Alt, Super and Hyper: a window manager may keep to itself what is let go
+/// Meta, Alt, Super and Hyper, with which people leave a window. The window manager may keep the release events of keys
 /// then.
 bool leaves_window(int key) { return key >= Adapter::KEY_Meta_L && key <= Adapter::KEY_Hyper_R; }
 
@@ -86,7 +86,7 @@ bool Manipulator::State::scroll(const Adapter& event) {
 
 bool Manipulator::State::go_to_clicked(const Adapter& event) {
   if (!projection || !can_go()) return false;
-  const bool grabbed = pointer.grab_wanted();  // then the pointer is where the middle of the picture is
+  const bool grabbed = pointer.grab_wanted();  // then the pointer stands for the middle of the picture
   const double x = grabbed ? 0.0 : event.getXnormalized(), y = grabbed ? 0.0 : event.getYnormalized();
   const roam::Vec3 from = eye();
   const std::optional<roam::Vec3> direction = through_picture({from, pose.yaw, pose.pitch}, *projection, x, y);

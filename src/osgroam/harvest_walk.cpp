@@ -41,7 +41,7 @@ class HarvestWalk : public triangles::GraphWalk {
   }
 
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override {
-    // Inside a level that finer files replace, what is loaded does.
+    // Inside a level that finer files replace, take the loaded level.
     if (paged == nullptr || inside_level_) {
       for (const unsigned i : triangles::loaded_level(lod, true)) lod.getChild(i)->accept(*this);
       return;
@@ -60,7 +60,7 @@ class HarvestWalk : public triangles::GraphWalk {
       if (here != levels.end()) accept(lod, *here, {});
       return;
     }
-    // What all finer levels show as well is there for good.
+    // Children that are in all finer levels too stay for good.
     std::set<unsigned> for_good;
     if (here != levels.end()) for_good.insert(here->begin(), here->end());
     for (auto level = levels.begin(); level != here; ++level) {
@@ -82,7 +82,7 @@ class HarvestWalk : public triangles::GraphWalk {
     if (isFinite(named.to_scene)) {
       harvest_.named.push_back(std::move(named));
     } else {
-      // The triangles are left out one by one.
+      // Their triangles are not finite, and are left out one by one.
       for (const auto& level : named.levels)
         harvest_.nowhere.insert(harvest_.nowhere.end(), level.begin(), level.end());
     }
@@ -110,7 +110,7 @@ class HarvestWalk : public triangles::GraphWalk {
     }
   }
 
-  /// Copies children that are there only until, or together with, what files bring.
+  /// Copies children that exist only until files arrive, or only together with them.
   void copy(osg::LOD& lod, const std::vector<unsigned>& children, const std::set<unsigned>& except,
             std::vector<roam::Mesh>& target) {
     target_ = &target;

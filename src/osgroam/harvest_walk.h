@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What Harvester copies from one file: triangles, and where other files belong.
+/// Data that Harvester copies from one file: triangles, and the positions of other files.
 
 #include <cstdint>
 #include <osg/ProxyNode>
@@ -14,28 +14,28 @@
 
 namespace osgRoam {
 
-/// A PagedLOD or ProxyNode with files that have not been read.
+/// A PagedLOD or ProxyNode that names files which have not been read.
 struct NamedFiles {
   osg::Matrixd to_scene;  ///< from the frame of the files
-  roam::Box box;          ///< of the bounding sphere and of `coarse`, in the scene; empty when neither says anything
-  /// What is there without the files: the finest level that this file holds itself.
+  roam::Box box;          ///< of the bounding sphere and of `coarse`, in the scene; empty if neither has bounds
+  /// The geometry without the files: the finest level in this file.
   std::vector<roam::Mesh> coarse;
-  /// The files that make each finer level, coarse ones first. All of the last, finest level are there; of those between
-  /// only such as are a level by themselves, which a finer one can take the place of.
+  /// The files of each finer level, coarse ones first. The last level is the finest and has all its files. Between them
+  /// are only levels of a single file, which a finer level can replace.
   std::vector<std::vector<std::string>> levels;
-  /// What this file itself adds to the finest level.
+  /// Geometry of this file in the finest level.
   std::vector<roam::Mesh> finest;
 };
 
 struct Harvest {
-  std::vector<roam::Mesh> meshes;  ///< what stays as it is, whatever else is read
+  std::vector<roam::Mesh> meshes;  ///< geometry that stays, whatever files are read
   std::vector<NamedFiles> named;
-  std::vector<std::string> loaded;   ///< files that are named, but whose nodes are in the graph already
-  std::vector<std::string> nowhere;  ///< files that are named under a transform that is not finite
+  std::vector<std::string> loaded;   ///< files that are named, but whose nodes are already in the graph
+  std::vector<std::string> nowhere;  ///< files that are named below a transform that is not finite
   std::uint64_t triangles = 0, left_out = 0;
 };
 
-/// Copies all that a graph holds. `place` is the product of the transforms above it; nameless triangles are called
+/// Copies the triangles of a graph. `place` is the product of the transforms above it. Triangles without a name get
 /// `name`.
 [[nodiscard]] Harvest harvest(osg::Node& graph, const osg::Matrixd& place, const std::string& name);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t failed_names_limit = 100;
 
-/// The files that led to a file, itself first.
+/// The chain of files that led to a file, itself first.
 struct Trail {
   std::string file;
   std::shared_ptr<const Trail> from;
@@ -29,36 +29,38 @@ bool holds(const Trail* trail, const std::string& file) {
   return false;
 }
 
-/// Stands in for what does not come. Several files may share one; the first that fails brings it.
+/// Geometry to use if files fail. Several files may share one; the first failure delivers it.
 struct Substitute {
   std::vector<roam::Mesh> meshes;
   bool used = false;
 };
 
-/// A place where a file is named.
+/// A position at which a file is named.
 struct Place {
   enum class State { waiting, being_taken, taken, failed };
 
   std::shared_ptr<const Trail> trail;
   osg::Matrixd to_scene;
   roam::Box box;
-  roam::PatchId patch = roam::PatchId::none;    ///< what the file holds for good; none until a box is known
-  roam::PatchId refines = roam::PatchId::none;  ///< and takes the place of, with what it names
+  roam::PatchId patch = roam::PatchId::none;    ///< the geometry of the file that stays; none until a box is known
+  roam::PatchId refines = roam::PatchId::none;  ///< the patch that it replaces, together with the files it names
   std::shared_ptr<Substitute> substitute;
   State state = State::waiting;
 
-  // Of whoever takes it.
-  bool is_expected = false;          ///< all that the file holds and names is, whatever came of it
-  std::vector<roam::PatchId> parts;  ///< what the file holds, as Harvester::State::parts counts; none for what has come
+  // Only for the thread that has claimed the place.
+  bool is_expected = false;          ///< all patches of the file and of the files it names are expected, even if they
+                                     ///< failed
+  std::vector<roam::PatchId> parts;  ///< patches of the file, in the order of Harvester::State::parts; none for those
+                                     ///< delivered
 };
 
 roam::World build(const std::vector<roam::Mesh>& meshes) {
   roam::BuildOptions options;
-  options.threads = 1;  // there are as many readers as there should be
+  options.threads = 1;  // one thread, because there are enough readers
   return roam::World::build(meshes, options);
 }
 
-/// In a handler: what was caught, for people.
+/// In a handler: the message of the exception.
 std::string caught() {
   try {
     throw;
@@ -69,8 +71,8 @@ std::string caught() {
   }
 }
 
-/// A harvester that this thread is reading for. Takes no memory: in a pager's thread nobody would catch that there is
-/// none.
+/// Marks that this thread is reading for a harvester. Allocates nothing, because nothing would catch std::bad_alloc in
+/// a pager's thread.
 class Reading {
  public:
   explicit Reading(const void* who) : who_(who), outer_(innermost_) { innermost_ = this; }
@@ -101,21 +103,21 @@ struct Harvester::State {
   const Levels levels;
   const osg::Matrixd origin;
 
-  mutable std::mutex mutex;  ///< of all below, and of the state of places
+  mutable std::mutex mutex;  ///< protects all members below, and the state of places
   osg::ref_ptr<osgDB::ReadFileCallback> next;
   bool takes_unnamed = true;
   std::map<std::string, std::vector<std::shared_ptr<Place>>> named;
-  std::set<std::string> not_roots;  ///< files that were loaded before, or belong nowhere
+  std::set<std::string> not_roots;  ///< files that were loaded before, or have no finite transform
   Stats stats;
 
-  /// The places that a file which has been read is to be taken to; from now on nobody else takes it there.
+  /// Claims the places of a file that has been read. From now on no other thread claims them.
   std::vector<std::shared_ptr<Place>> claim(const std::string& file) {
     const Lock lock(mutex);
     if (takes_unnamed && !named.contains(file) && !not_roots.contains(file)) {
       const auto root = std::make_shared<Place>();
       root->trail = std::make_shared<Trail>(Trail{file, nullptr});
       root->to_scene = origin;
-      named.emplace(file, std::vector{root});  // all of it or nothing
+      named.emplace(file, std::vector{root});  // succeeds or changes nothing
       ++stats.expected;
     }
     std::vector<std::shared_ptr<Place>> claimed;
@@ -134,7 +136,7 @@ struct Harvester::State {
     return claimed;
   }
 
-  /// Ends what claim() began: from now on somebody else may claim the place.
+  /// Ends a claim. From now on another thread may claim the place.
   void settle(Place& place, Place::State state, bool is_failure) {
     const Lock lock(mutex);
     place.state = state;
@@ -142,7 +144,7 @@ struct Harvester::State {
     if (is_failure) note_failure(place.trail->file);
   }
 
-  /// In a pager's thread there is nobody to catch what is thrown.
+  /// Catches every exception, because nothing would catch it in a pager's thread.
   void take(osg::Node& node, const std::string& name, Place& place) {
     try {
       const Harvest harvested = harvest(node, place.to_scene, name);
@@ -154,7 +156,7 @@ struct Harvester::State {
     }
   }
 
-  /// In a handler. The place may be claimed again in any case.
+  /// In a handler. In all cases the place may be claimed again.
   void give_up(Place& place) {
     try {
       fail(place, caught());
@@ -163,7 +165,7 @@ struct Harvester::State {
     }
   }
 
-  /// What a file holds, part by part, each of which comes or fails by itself; first what stays for good.
+  /// The parts of a file, each of which is delivered or fails separately. The first is the geometry that stays.
   [[nodiscard]] std::vector<const std::vector<roam::Mesh>*> parts(const Harvest& harvest) const {
     std::vector<const std::vector<roam::Mesh>*> all{&harvest.meshes};
     for (const NamedFiles& files : harvest.named) {
@@ -173,8 +175,8 @@ struct Harvester::State {
     return all;
   }
 
-  /// Expects all that a file holds and names, before anything of it comes: what refines one patch takes its place
-  /// together. Once only, whatever fails later.
+  /// Expects all parts and named files of a file before any of it is delivered, because the patches that refine one
+  /// patch replace it together. Does so only once, even if delivery fails later.
   void promise(const Harvest& harvest, Place& place) {
     const Lock lock(mutex);
     if (!place.is_expected) {
@@ -197,7 +199,7 @@ struct Harvester::State {
     }
   }
 
-  /// Returns what was thrown first, where something was: the parts that it concerns have failed, the others have come.
+  /// Delivers all parts. Returns the first exception, if any; the parts without an exception have been delivered.
   std::exception_ptr bring(const Harvest& harvest, Place& place) {
     std::exception_ptr first;
     const auto all = parts(harvest);
@@ -219,11 +221,11 @@ struct Harvester::State {
     try {
       if (patch != roam::PatchId::none) space->fail(patch, reason);
     } catch (...) {
-      // There is no memory even for that: it stays unknown and solid, and its file counts as failed.
+      // There is no memory even for this. The patch stays unknown and solid, and its file counts as failed.
     }
   }
 
-  /// Under the lock.
+  /// Requires the lock.
   void expect(const NamedFiles& files, Place& from) {
     const roam::Box box = files.box.empty() ? from.box : files.box;
     roam::PatchId refines = from.refines;
@@ -249,7 +251,7 @@ struct Harvester::State {
     }
   }
 
-  /// Under the lock.
+  /// Requires the lock.
   roam::PatchId expect(const std::string& file, const osg::Matrixd& to_scene, const roam::Box& box,
                        roam::PatchId refines, const Place& from, const std::shared_ptr<Substitute>& substitute) {
     const auto place = std::make_shared<Place>();
@@ -267,7 +269,7 @@ struct Harvester::State {
     }
     named[file].push_back(place);
     if (box.empty()) {
-      // It holds no space until it comes.
+      // It has no space until it is delivered.
       place->state = Place::State::failed;
       note_failure(file);
     } else {
@@ -276,7 +278,7 @@ struct Harvester::State {
     return place->patch;
   }
 
-  /// Under the lock.
+  /// Requires the lock.
   void note_failure(const std::string& file) {
     ++stats.failed;
     auto& files = stats.failedFiles;
@@ -284,12 +286,12 @@ struct Harvester::State {
       try {
         files.push_back(file);
       } catch (const std::bad_alloc&) {
-        // The count says it.
+        // The count still includes it.
       }
     }
   }
 
-  /// The file of a place that has been claimed cannot be had.
+  /// Handles the failure of a claimed place's file.
   void fail(Place& place, const std::string& reason) {
     std::shared_ptr<Substitute> substitute;
     {
@@ -318,7 +320,7 @@ struct Harvester::State {
       const Lock lock(mutex);
       const auto places = named.find(file);
       if (places == named.end()) return;
-      // The pager asks again and again.
+      // The pager retries a failed file again and again.
       if (std::none_of(places->second.begin(), places->second.end(),
                        [](const auto& place) { return place->state == Place::State::waiting; })) {
         return;
@@ -384,7 +386,7 @@ osgDB::ReaderWriter::ReadResult Harvester::readNode(const std::string& file, con
       _state->fail_all(file, file + " cannot be read: " + result.statusMessage());
     }
   } catch (...) {
-    // There is no memory to begin: what is expected stays so, and solid, until the file is read again.
+    // There is no memory to begin. The expected patches stay unknown and solid until the file is read again.
   }
   return result;
 }

@@ -6,20 +6,20 @@
 namespace osgRoam {
 namespace {
 
-/// Seconds without getting on, after which the way is taken for blocked: long enough to jolt up a stair.
+/// Seconds without progress after which the path counts as blocked: long enough to climb a stair jerkily.
 constexpr double patience = 0.5;
 
-/// Part of what free motion brings that counts as getting on: sliding along a wall at less than this does not.
+/// Part of the free motion that counts as progress. Sliding along a wall at less than this does not.
 constexpr double least_progress = 0.05;
 
-/// Metres from the place that count as there, besides the skin that the body keeps.
+/// Metres from the target, besides the skin, within which the body has arrived.
 constexpr double there = 1e-3;
 
 }  // namespace
 
 void Journey::begin(const roam::Walker& walker, const roam::Vec3& point, const roam::Vec3& normal) {
   const roam::Body body = walker.body();
-  // The support of the upright body, so that it comes to rest beside the surface and not in it.
+  // The extent of the upright body along the normal, so that it stops beside the surface.
   const double away = body.radius + body.half_height * std::abs(normal.z) + 2.0 * walker.skin();
   target_ = point + normal * away;
   under_way_ = true;
@@ -29,7 +29,7 @@ void Journey::begin(const roam::Walker& walker, const roam::Vec3& point, const r
 
 roam::Vec3 Journey::way(const roam::Walker& walker) const {
   roam::Vec3 w = target_ - walker.position();
-  if (walker.mode() == roam::Mode::walk) w.z = 0.0;  // gravity and steps see to that
+  if (walker.mode() == roam::Mode::walk) w.z = 0.0;  // gravity and steps change z
   return w;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Going straight to a place that was pointed at, until there or blocked.
+/// Straight motion to a target until the body arrives or is blocked.
 
 #include <optional>
 
@@ -10,20 +10,21 @@ namespace osgRoam {
 
 class Journey {
  public:
-  /// `point` is on a surface with `normal` (unit; towards where one comes from): the body goes to beside it.
+  /// `point` is on a surface with the unit `normal` towards the viewer. The body goes beside that surface.
   void begin(const roam::Walker& walker, const roam::Vec3& point, const roam::Vec3& normal);
   void end() { under_way_ = false; }
   [[nodiscard]] bool under_way() const { return under_way_; }
-  /// The velocity, m/s, for a step of `seconds`: straight there, and no farther. Ends the journey when it is over.
+  /// The velocity, m/s, for a step of `seconds`: straight to the target, and no farther. Ends the journey on arrival or
+  /// when blocked.
   [[nodiscard]] roam::Vec3 velocity(const roam::Walker& walker, double speed, double seconds);
 
  private:
   [[nodiscard]] roam::Vec3 way(const roam::Walker& walker) const;
 
-  roam::Vec3 target_{0.0};  ///< of the centre
+  roam::Vec3 target_{0.0};  ///< of the body's centre
   bool under_way_ = false;
-  double best_ = 0.0;    ///< metres to go when the window of patience began
-  double waited_ = 0.0;  ///< seconds since
+  double best_ = 0.0;    ///< metres to go at the start of the present interval of patience
+  double waited_ = 0.0;  ///< seconds since then
 };
 
 }  // namespace osgRoam

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which keys are down, and what the commands that move the body were at every moment since the last frame.
+/// The keys that are down, and the changes of held commands since the last frame.
 
 #include <set>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace osgRoam {
 
-/// The manipulator's commands that work as long as a key is down.
+/// Commands of the manipulator that act as long as a key is down.
 struct HeldCommands {
   bool forward = false, back = false, left = false, right = false, up = false, down = false;
   bool fast = false, slow = false, crouch = false;
@@ -20,14 +20,14 @@ struct HeldCommands {
 
 class Keyboard {
  public:
-  /// What changed, and when; times are those of the events.
+  /// A change of the commands. Times are those of the events.
   struct Change {
     double time = 0.0;  ///< seconds
     HeldCommands held;  ///< from then on
-    bool jump = false;  ///< a jump was asked for
+    bool jump = false;  ///< a jump was requested
   };
 
-  /// Returns whether the key was up before: false for key repeat. `symbol` is canonical.
+  /// Returns whether the key was up before; false for a repeated key. `symbol` is canonical.
   bool press(const Controls& controls, int symbol, double time);
   void release(const Controls& controls, int symbol, double time);
   void release_all(double time);
@@ -36,7 +36,7 @@ class Keyboard {
   [[nodiscard]] bool is_down(int symbol) const { return down_.contains(symbol); }
   [[nodiscard]] bool is_down(const Controls& controls, std::string_view command) const;
   [[nodiscard]] bool ctrl() const;
-  /// Since the last call, in the order of their coming; times may be out of order.
+  /// The changes since the last call, in order of arrival. Their times may be out of order.
   [[nodiscard]] std::vector<Change> take_changes();
   [[nodiscard]] const HeldCommands& held() const { return held_; }
 

@@ -12,7 +12,7 @@
 namespace osgRoam {
 namespace {
 
-/// A normal of a graph's floats is of length 1 to within this.
+/// Greatest deviation of the length of a graph's float normal from 1.
 constexpr double unit_tolerance = 1e-3;
 
 void demand_finite(double sum, const char* what) {
@@ -59,7 +59,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
 
 Manipulator::~Manipulator() = default;
 
-// --- the body and what it moves in
+// --- the body and its space
 
 void Manipulator::setSpace(std::shared_ptr<const roam::Space> space) {
   _state->build.reset();
@@ -106,7 +106,7 @@ void Manipulator::setOrigin(const osg::Vec3d& origin) {
         "manipulator's constructor, or call setOrigin before buildSpace");
   }
   const osg::Vec3d moved = std::exchange(_state->origin, origin) - origin;
-  // The home position is told in the frame of the graph, which is another one from here on.
+  // The home position is in the frame of the graph, which has just changed.
   _homeEye += moved;
   _homeCenter += moved;
 }
@@ -200,7 +200,7 @@ void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
   setHomePosition(at, at + to_osg(forward(yaw, pitch)), up, false);
 }
 
-// --- going without keys
+// --- motion without keys
 
 void Manipulator::goTo(const roam::Vec3& point, const roam::Vec3& normal) {
   demand_finite(point.x + point.y + point.z, "the place to go to");
@@ -254,7 +254,7 @@ double Manipulator::lookSpeed() const { return _state->look_speed; }
 void Manipulator::setLookInverted(bool on) { _state->look_inverted = on; }
 bool Manipulator::lookInverted() const { return _state->look_inverted; }
 
-// --- watching
+// --- callbacks
 
 void Manipulator::setStepCallback(std::function<void(const roam::StepReport& report, double seconds)> callback) {
   _state->on_step = std::move(callback);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What an osgRoam::Manipulator is made of, and the frame in which all of it moves.
+/// The state of an osgRoam::Manipulator, and its update in each frame.
 
 #include <cstdint>
 #include <functional>
@@ -31,54 +31,54 @@ struct Manipulator::State {
   roam::Mode mode = roam::Mode::fly;
   roam::Mode before_ghost = roam::Mode::fly;
   std::shared_ptr<const roam::Space> space;
-  bool space_is_built = false;  ///< from the graph, with the origin as it is
+  bool space_is_built = false;  ///< built from the graph, at the present origin
   Update update;
   std::unique_ptr<roam::Walker> walker;
-  unsigned walkers = 0;  ///< that there were so far
+  unsigned walkers = 0;  ///< number of walkers so far
   std::unique_ptr<BackgroundBuild> build;
   std::string problem;
-  bool stuck = false;  ///< by the problem
+  bool stuck = false;  ///< because of the problem
 
   // The camera.
   osg::Vec3d origin;
-  CameraPose pose;  ///< the eye means something while there is no walker
+  CameraPose pose;  ///< the eye is valid only while there is no walker
   SoftEye soft;
-  std::optional<osg::Matrixd> projection;  ///< of the camera that was updated last
+  std::optional<osg::Matrixd> projection;  ///< of the camera at its last update
   bool limits_near_plane = true;
   osg::ref_ptr<osg::Node> node;
-  bool at_computed_home = false;  ///< and nobody has moved it from there
+  bool at_computed_home = false;  ///< and it has not moved since
 
-  // What moves it.
+  // Motion.
   Controls keys;
   Keyboard keyboard;
   Pointer pointer;
   Journey journey;
   Pilot pilot;
-  unsigned pilots = 0;     ///< that were set so far: one may follow itself with another
+  unsigned pilots = 0;     ///< number of pilots so far, because a pilot may set its successor
   double owed = 0.0;       ///< seconds that the pilot has not simulated yet
-  double jump_left = 0.0;  ///< seconds for which a jump that was asked for may still begin
+  double jump_left = 0.0;  ///< seconds for which a requested jump may still begin
   double look_speed = 0.0;
   bool look_inverted = false;
   std::optional<double> last_time;  ///< of the last frame, seconds
-  bool continuous = false;          ///< has asked the viewer for continuous update
+  bool continuous = false;          ///< continuous update has been requested from the viewer
   HeldCommands held_before;         ///< as of the last frame
 
-  // What is told.
+  // Reports.
   StepCallback on_step;
   std::function<void(const std::string&)> on_command;
   std::int64_t nanoseconds = 0;
-  std::int64_t own_ns = 0;  ///< of these, the thread's own
+  std::int64_t own_ns = 0;  ///< of these, the processor time of this thread
   int steps = 0;
   bool moved = false;  ///< in the last frame
 
   State();
 
   [[nodiscard]] roam::Vec3 eye() const;
-  /// The body's centre, for a standing body with its eye there.
+  /// The body's centre, for a standing body with that eye.
   [[nodiscard]] roam::Vec3 centre_under(const roam::Vec3& eye) const;
-  /// The same for a body that stands there.
+  /// The body's centre, for a body that stands at `feet`.
   [[nodiscard]] roam::Vec3 centre_above(const roam::Vec3& feet) const;
-  /// Runs what may throw; what it throws becomes the problem.
+  /// Runs `work`. An exception becomes the problem.
   template <class Work>
   void guarded(const Work& work) {
     try {
@@ -90,14 +90,14 @@ struct Manipulator::State {
     }
   }
   void fail(const std::string& what);
-  /// Calls a function of the caller's, if there is one. It may put another in its own place while it runs.
+  /// Calls a function of the caller, if there is one. It may replace itself while it runs.
   template <class Function, class... Arguments>
   static void call(const Function function, const Arguments&... arguments) {
     if (function) function(arguments...);
   }
 
   void change_space(std::shared_ptr<const roam::Space> to, Update update_of_it, bool is_built = false);
-  /// A new walker in the space, put to `centre`; none without a space.
+  /// Makes a new walker in the space at `centre`; none without a space.
   void make_walker(const roam::Vec3& centre);
   void put(const roam::Vec3& centre);
   void put_eye(const CameraPose& where);
@@ -105,28 +105,28 @@ struct Manipulator::State {
   void change_mode(roam::Mode to);
   void change_speed(double to);
 
-  /// Returns whether a world that was being built has become the space.
+  /// Returns whether a world that was under construction has become the space.
   bool take_build();
-  /// Moves by the time since the last frame.
+  /// Moves the body by the time since the last frame.
   void frame(double time);
   void run(double seconds, const HeldCommands& held);
   void step(double seconds, const HeldCommands& held);
-  /// Whether the body could go somewhere by itself.
+  /// Whether the body can go to a target by itself.
   [[nodiscard]] bool can_go() const { return walker && !stuck && !pilot; }
   void go(const roam::Vec3& point, const roam::Vec3& normal);
   void fly_pilot(double seconds);
   [[nodiscard]] roam::Vec3 wish(const HeldCommands& held) const;
-  /// Whether the next frame will differ from this one although nothing happens.
+  /// Whether the next frame will differ from this one without any event.
   [[nodiscard]] bool restless() const;
 
-  // Events; true when taken.
+  // Events. They return true if they handle the event.
   bool key_down(const osgGA::GUIEventAdapter& event);
   void key_up(const osgGA::GUIEventAdapter& event);
   bool press(const Controls::Command& command, double time);
   bool look(const osgGA::GUIEventAdapter& event);
   bool scroll(const osgGA::GUIEventAdapter& event);
   bool go_to_clicked(const osgGA::GUIEventAdapter& event);
-  bool home_wanted = false;  ///< by its key
+  bool home_wanted = false;  ///< its key has been pressed
 };
 
 }  // namespace osgRoam

@@ -1,4 +1,4 @@
-// How the body moves from frame to frame.
+// Motion of the body from frame to frame.
 #include <time.h>
 
 #include <algorithm>
@@ -15,22 +15,23 @@
 namespace osgRoam {
 namespace {
 
-/// Seconds: who asks for a jump just before coming to the ground means it.
+/// Seconds for which a jump requested before landing stays valid.
 constexpr double jump_patience = 0.2;
 
-/// Of a step: how much longer a frame may seem because times since a start long ago are rounded. One day at 60 Hz.
+/// Part of a step by which a frame may seem longer, because times since a distant start are rounded. Enough for a day
+/// at 60 Hz.
 constexpr double clock_rounding = 1e-9;
 
-/// Seconds that are not worth a step of a pilot: rounding.
+/// Seconds. A pilot's step below this is only rounding.
 constexpr double least_owed = 1e-6;
 
-/// Steps of a pilot in one frame, at most, however short its own are.
+/// Most steps of a pilot in one frame, however short they are.
 constexpr int pilot_limit = 256;
 
-/// A window at 60 Hz turns by a quarter for a hand's movement over its height.
+/// Radians for a mouse movement over the height of the window: a quarter turn.
 constexpr double default_look_speed = 0.5 * std::numbers::pi;
 
-/// What this thread itself has used since it began, nanoseconds.
+/// Processor time of this thread since its start, nanoseconds.
 std::int64_t own_nanoseconds() {
   timespec used{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
@@ -60,7 +61,7 @@ class StepTimer {
 }  // namespace
 
 Manipulator::State::State() : look_speed(default_look_speed) {
-  pose.yaw = 0.5 * std::numbers::pi;  // along +y, as every manipulator of osgGA
+  pose.yaw = 0.5 * std::numbers::pi;  // along +y, like every manipulator of osgGA
   using enum Controls::Kind;
   keys.add("forward", "W, Up", "walks or flies forward", held);
   keys.add("back", "S, Down", "goes back", held);
@@ -111,7 +112,7 @@ void Manipulator::State::tell_placed() {
 
 void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Update update_of_it, bool is_built) {
   const roam::Vec3 centre = walker ? centre_above(walker->feet()) : centre_under(pose.eye);
-  // A walker knows its space by address: the old one stays until the old walker is gone.
+  // A walker refers to its space by address, so the old space stays until the old walker is gone.
   const std::shared_ptr<const roam::Space> before = std::exchange(space, std::move(to));
   space_is_built = is_built;
   update = std::move(update_of_it);
@@ -129,11 +130,11 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
   if (!space) return;
   guarded([&] {
     call(update, roam::Body::capsule(settings.radius, settings.height), centre, roam::Vec3(0.0));
-    if (!space || walker) return;  // it has exchanged the space, and the body with it
+    if (!space || walker) return;  // the callback has exchanged the space, and the body with it
     walker = std::make_unique<roam::Walker>(*space, settings, mode, centre);
     if (!regions.empty()) {
       walker->set_regions(regions);
-      walker->place(centre);  // as large as it is there
+      walker->place(centre);  // with the size of the region there
     }
     if (walker->held()) place_safely(*walker, centre);
     tell_placed();
@@ -142,12 +143,12 @@ void Manipulator::State::make_walker(const roam::Vec3& centre) {
 
 void Manipulator::State::put(const roam::Vec3& centre) {
   if (!walker) {
-    if (space) make_walker(centre);  // what failed when it came may go well now
+    if (space) make_walker(centre);  // a walker that failed before may work here
     return;
   }
   guarded([&] {
     call(update, roam::Body::capsule(settings.radius, settings.height), centre, roam::Vec3(0.0));
-    if (!walker) return;  // it has taken the space away
+    if (!walker) return;  // the callback has removed the space
     place_safely(*walker, centre);
     tell_placed();
   });
@@ -197,7 +198,7 @@ void Manipulator::State::frame(double time) {
   last_time = time;
   guarded([&] {
     if (walker && !stuck) {
-      // A walker that is exchanged takes its own with it.
+      // The callback may replace the walker, so copy its values.
       const roam::Vec3 place = walker->position(), velocity = walker->velocity();
       call(update, walker->body(), place, velocity);
     }
@@ -262,7 +263,7 @@ void Manipulator::State::fly_pilot(double seconds) {
   for (int count = 0; count < pilot_limit && pilot && walker && owed > least_owed; ++count) {
     const double asked = std::min(owed, longest_step);
     const SoftEye::Before before = SoftEye::before(*walker);
-    const Pilot now = pilot;  // it may end itself while it runs, or be followed by another, or change the body
+    const Pilot now = pilot;  // it may end or replace itself while it runs, or change the body
     const unsigned number = pilots, flown = walkers;
     const roam::StepReport* report = [&] {
       const StepTimer timer(nanoseconds, own_ns);
@@ -272,7 +273,7 @@ void Manipulator::State::fly_pilot(double seconds) {
       if (number == pilots) pilot = nullptr;
       break;
     }
-    if (walkers != flown) {  // the report went with it
+    if (walkers != flown) {  // the report ended with the walker
       owed -= asked;
       continue;
     }

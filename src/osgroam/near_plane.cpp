@@ -9,9 +9,9 @@
 namespace osgRoam {
 namespace {
 
-/// OpenSceneGraph takes far * ratio for the least near plane: far is what this picture shows, so a ratio that is chosen
-/// for the whole scene would bring the plane much nearer than needed in most pictures, and depth is coarse then. Here
-/// the ratio is chosen for each picture.
+/// OpenSceneGraph uses far * ratio as the least near plane, where far is that of the present picture. A fixed ratio for
+/// the whole scene would put the plane much nearer than necessary in most pictures, and depth would be coarse. So this
+/// callback chooses the ratio for each picture.
 class NearLimit final : public osg::CullSettings::ClampProjectionMatrixCallback {
  public:
   explicit NearLimit(osg::Camera& camera) : camera_(&camera) {}
@@ -35,7 +35,7 @@ class NearLimit final : public osg::CullSettings::ClampProjectionMatrixCallback 
     osg::ref_ptr<osg::Camera> camera;
     if (camera_.lock(camera)) {
       double ratio = camera->getNearFarRatio();
-      // The pictures of another manipulator are its own affair.
+      // Another manipulator's view of the camera is not limited here.
       const bool ours = camera->getViewMatrix() == view_;
       if (ours && far > 0.0) ratio = std::min(ratio, farthest_near_plane(projection, distance_) / far);
       usual->setNearFarRatio(ratio);
@@ -43,7 +43,7 @@ class NearLimit final : public osg::CullSettings::ClampProjectionMatrixCallback 
     return usual->clampProjectionMatrixImplementation(projection, near, far);
   }
 
-  osg::observer_ptr<osg::Camera> camera_;  // the callback is in it, and in the slaves that inherit from it
+  osg::observer_ptr<osg::Camera> camera_;  // an observer, because the camera owns the callback; slaves inherit it
   osg::Matrixd view_;
   double distance_ = 0.0;
 };
@@ -55,7 +55,7 @@ double farthest_near_plane(const osg::Matrixd& projection, double distance) {
   if (!perspective || projection(0, 0) == 0.0 || projection(1, 1) == 0.0) {
     return std::numeric_limits<double>::infinity();
   }
-  // Of the corner of the picture that is farthest from where the camera looks.
+  // The slopes of the picture's corner that is farthest from the view axis.
   const double across = (1.0 + std::abs(projection(2, 0))) / projection(0, 0);
   const double above = (1.0 + std::abs(projection(2, 1))) / projection(1, 1);
   return distance / std::sqrt(1.0 + across * across + above * above);

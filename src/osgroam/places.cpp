@@ -11,17 +11,17 @@
 namespace osgRoam {
 namespace {
 
-/// Each shell of places to try is this much farther out than the one before: no opening as wide as a third of its
-/// distance is missed by much, and a mountain is left in some ten shells.
+/// Growth of the distance from one shell of candidates to the next. An opening as wide as a third of its distance is
+/// hardly missed, and about ten shells lead out of a mountain.
 constexpr double growth = 1.25;
 
-/// Directions that are tried in each shell: evenly spread on a sphere by the golden angle.
+/// Number of directions in each shell, spread evenly on a sphere by the golden angle.
 constexpr int directions = 64;
 
-/// Places along each side of the space that are tried for standing.
+/// Number of standing candidates along each side of the space.
 constexpr int columns = 15;
 
-/// No ray is longer: Space::sweep's own limit, metres.
+/// Metres: the limit of Space::sweep.
 constexpr double ray_limit = 1e6;
 
 roam::Vec3 direction(int i) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places for a body that is put somewhere from outside.
+/// Positions for a body that is placed from outside.
 
 #include <optional>
 
@@ -8,12 +8,12 @@
 
 namespace osgRoam {
 
-/// Puts the body to `centre`, by Walker::place; where that leaves it held, in what is known, to the nearest place found
-/// in any direction where it fits, through walls too. Held when there is none.
+/// Places the body at `centre`, by Walker::place. If it is held there in known space, searches all directions, through
+/// walls too, for a near position where it fits. If there is none, leaves it held at `centre`.
 void place_safely(roam::Walker& walker, const roam::Vec3& centre);
 
-/// The centre of a standing body on the topmost floor that is not too steep, as near to the middle of the space, seen
-/// from above, as one is found.
+/// The centre of a standing body on the topmost floor that is not too steep, at a sampled position as near as possible
+/// to the middle of the space in plan. Empty if there is none.
 [[nodiscard]] std::optional<roam::Vec3> standing_place(const roam::Space& space, const roam::WalkerSettings& settings);
 
 }  // namespace osgRoam

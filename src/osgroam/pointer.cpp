@@ -8,13 +8,14 @@
 namespace osgRoam {
 namespace {
 
-/// Heights of the window from its centre: farther out the pointer is brought back. Every frame would be traffic.
+/// Distance from the centre of the window, in its heights, beyond which the pointer is returned. Returning it in every
+/// frame would cause traffic.
 constexpr double leash = 0.25;
 
-/// Pixels: a warped pointer may land this far from the centre, because windows round.
+/// Pixels: distance from the centre at which a warped pointer may arrive, because windows round positions.
 constexpr double rounding = 2.0;
 
-/// Seconds and heights of the window between the two clicks of a double click, at most.
+/// The most seconds and heights of the window between the two clicks of a double click.
 constexpr double double_click_time = 0.4;
 constexpr double double_click_distance = 0.01;
 
@@ -70,7 +71,7 @@ Pointer::Movement Pointer::move(const osgGA::GUIEventAdapter& event) {
     return {};
   }
   if (grabbed_ && warped_) {
-    // Events from before the warp come still; the first one that is nearer to the centre is from after it.
+    // Events from before the warp still arrive. The first that is nearer to the centre is from after it.
     const double from_middle = std::hypot(now.x - middle_.x, now.y - middle_.y);
     if (from_middle < std::hypot(now.x - last_.x, now.y - last_.y)) {
       warped_ = false;
@@ -93,7 +94,7 @@ void Pointer::want_grab(bool on) {
 void Pointer::keep_grab(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer, const Controls& controls,
                         bool release_down) {
   if (!wanted_) {
-    // The viewer closes when the key goes up, and looks before its handlers do: so only then is it given back.
+    // The viewer closes on the key's release, and checks it before its handlers run. So return the key only after that.
     if (!release_down) give_back_key();
   } else if (!grabbed_) {
     start(event, viewer, controls);
@@ -138,7 +139,7 @@ void Pointer::show() {
 }
 
 void Pointer::give_back_key() {
-  // Not by a reference: many a viewer lives on the stack, and none can be had to it.
+  // An observer, because many viewers live on the stack, where no reference keeps them.
   osgViewer::ViewerBase* viewer = kept_open_.get();
   if (viewer && viewer->getKeyEventSetsDone() == 0) viewer->setKeyEventSetsDone(closing_key_);
   kept_open_ = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the mouse does to the eye: dragged with a button down, or grabbed, when it is hidden and kept in the window.
+/// The mouse's effect on the view: dragged with a button, or grabbed, which hides it and keeps it in the window.
 
 #include <osg/observer_ptr>
 #include <osgGA/GUIActionAdapter>
@@ -14,25 +14,25 @@ class Controls;
 
 class Pointer {
  public:
-  /// To the left and upwards, in heights of the window.
+  /// Left and up, in heights of the window.
   struct Movement {
     double left = 0.0, up = 0.0;
   };
 
   ~Pointer();
 
-  /// A button went down: the mouse drags from here on. Returns whether that was the second click of a double click,
-  /// which OpenSceneGraph's X11 windows do not tell.
+  /// A button went down; the mouse drags from here on. Returns whether this was the second click of a double click,
+  /// which OpenSceneGraph's X11 windows do not report.
   bool push(const osgGA::GUIEventAdapter& event);
   /// The last button went up.
   void let_go() { dragging_ = false; }
-  /// How far the mouse moved, as far as that looks.
+  /// The movement of the mouse that turns the view.
   [[nodiscard]] Movement move(const osgGA::GUIEventAdapter& event);
 
   void want_grab(bool on);
   [[nodiscard]] bool grab_wanted() const { return wanted_; }
-  /// Once a frame: hides and shows the pointer, brings it back to the centre of the window, and keeps the viewer from
-  /// taking the key that leaves the grab, `release_down` telling whether it is down, for the key that closes it.
+  /// Call it once a frame. It hides and shows the pointer and returns it to the centre of the window. It also prevents
+  /// the viewer from closing on the key that ends the grab; `release_down` is whether that key is down.
   void keep_grab(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer, const Controls& controls,
                  bool release_down);
 
@@ -47,14 +47,14 @@ class Pointer {
   void warp(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer);
 
   Place last_;
-  Place middle_;  ///< of the window, as the last event of the mouse has it: those of frames may know an older size
+  Place middle_;  ///< of the window in the last mouse event; frame events may have an older size
   Place clicked_;
   double click_time_ = 0.0;  ///< seconds
   bool clicked_once_ = false;
   bool dragging_ = false;
   bool wanted_ = false, grabbed_ = false;
-  bool warped_ = false;  ///< what the mouse did before it was warped may still be on its way
-  bool known_ = false;   ///< last_ is where the grabbed mouse was
+  bool warped_ = false;  ///< events from before the warp may still arrive
+  bool known_ = false;   ///< last_ is the position of the grabbed mouse
   osg::observer_ptr<osgViewer::GraphicsWindow> hidden_in_;
   osg::observer_ptr<osgViewer::ViewerBase> kept_open_;
   int closing_key_ = 0;  ///< of kept_open_

@@ -6,13 +6,13 @@
 namespace osgRoam {
 namespace {
 
-/// Seconds in which all but 1/e of a step's height is made up for: a stair at a walk is 0.2 s.
+/// Time constant in seconds of the eye's return after a step. A stair at walking speed takes 0.2 s.
 constexpr double softness = 0.08;
 
-/// Metres; less is not seen.
+/// Metres. Less is invisible.
 constexpr double least_lag = 1e-4;
 
-/// Part of the radius that the eye is inside the body's surface at least.
+/// Least depth of the eye inside the body's surface, as a part of the radius.
 constexpr double inside = 0.25;
 
 double half_axis(double radius, double body_height) { return 0.5 * body_height - radius; }
@@ -41,7 +41,7 @@ SoftEye::Before SoftEye::before(const roam::Walker& walker) {
 void SoftEye::follow(const roam::Walker& walker, const Before& before, double seconds) {
   const Before after = SoftEye::before(walker);
   const bool on_foot = walker.mode() == roam::Mode::walk && before.grounded && after.grounded;
-  // In the air the eye goes with the body, which jumps and falls smoothly by itself.
+  // In the air the eye moves with the body, which jumps and falls smoothly.
   if (on_foot || before.height != after.height) lag_ += before.z - after.z;
   lag_ = std::clamp(lag_ * std::exp(-seconds / softness), -after.height, after.height);
   if (std::abs(lag_) < least_lag) reset();
@@ -52,7 +52,7 @@ void SoftEye::keep_free(const roam::Walker& walker) {
   const roam::Body body = walker.body();
   const double belongs = eye_height(walker.settings(), body.height());
   if (lag_ < 0.0) {
-    // Down to the lower end of the axis every place is as free as the body.
+    // Down to the lower end of the axis, each point is as free as the body.
     lag_ = std::max(lag_, std::min(0.0, -body.half_height - belongs));
   } else if (walker.mode() != roam::Mode::ghost && !walker.held()) {
     const roam::Vec3 from = walker.position() + roam::Vec3(0.0, 0.0, belongs);

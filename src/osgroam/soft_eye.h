@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// The eye of a body that climbs stairs: it follows the body's steps softly, and stays where the body keeps walls away.
+/// The eye of a body that climbs stairs. It follows the steps smoothly, and stays where the body keeps walls away.
 
 #include "roam/walker.h"
 
 namespace osgRoam {
 
-/// Height of the eye above the body's centre, metres: as the settings say, but at least a quarter of the radius inside
+/// Height of the eye above the body's centre, metres: that of the settings, but at least a quarter of the radius inside
 /// the body's surface.
 [[nodiscard]] double eye_height(const roam::WalkerSettings& settings, double body_height);
 
-/// The distance, metres, that no triangle comes nearer to the eye at eye_height() than, standing or crouched.
+/// The least distance, metres, of any triangle from the eye at eye_height(), standing or crouched.
 [[nodiscard]] double least_eye_distance(const roam::WalkerSettings& settings);
 
 class SoftEye {
  public:
-  /// The eye as it is before a step.
+  /// The body before a step.
   struct Before {
     double z = 0.0;
     double height = 0.0;  ///< of the body
@@ -24,15 +24,15 @@ class SoftEye {
 
   void reset() { lag_ = 0.0; }
   [[nodiscard]] static Before before(const roam::Walker& walker);
-  /// After each step, of `seconds`.
+  /// Call it after each step of `seconds`.
   void follow(const roam::Walker& walker, const Before& before, double seconds);
-  /// After the steps of a frame: keeps the eye where least_eye_distance() holds.
+  /// Call it after the steps of a frame. It keeps the eye where least_eye_distance() holds.
   void keep_free(const roam::Walker& walker);
   [[nodiscard]] roam::Vec3 eye(const roam::Walker& walker) const;
   [[nodiscard]] bool moving() const { return lag_ != 0.0; }
 
  private:
-  double lag_ = 0.0;  ///< metres that the eye is above where it belongs
+  double lag_ = 0.0;  ///< metres that the eye is above its regular position
 };
 
 }  // namespace osgRoam

@@ -21,7 +21,7 @@ roam::Box boxOf(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix) {
   if (!(sphere.radius() > 0.0f) || !std::isfinite(size) || !isFinite(matrix)) return {};
   const roam::Vec3 centre = to_roam(local * matrix);
   const double stretch = greatestStretch(matrix);
-  // The second is of the arithmetic here, in doubles: a dozen roundings of all that is added.
+  // The second term is the error of the computations here in doubles: a dozen roundings of all terms.
   const double rounding = sphereRounding * stretch * size + 0x1p-48 * (stretch * size + matrix.getTrans().length());
   const double radius = sphere.radius() * stretch + rounding;
   constexpr double limit = roam::coordinate_limit;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bounding spheres, which are floats, as boxes that hold what the sphere was made of.
+/// Boxes that contain the contents of bounding spheres, which are rounded to floats.
 
 #include <osg/BoundingSphere>
 #include <osg/Matrixd>
@@ -9,16 +9,15 @@
 
 namespace osgRoam {
 
-/// Of each coordinate, and of the radius: roundings of a bounding sphere, in floats, that eight nested transforms make
-/// with four each.
+/// Rounding of a bounding sphere in floats, relative to each coordinate and to the radius: eight nested transforms with
+/// four roundings each.
 inline constexpr double sphereRounding = 32.0 * 0x1p-24;
 
-/// Whether a matrix leads anywhere.
+/// Whether all elements of a matrix are finite.
 [[nodiscard]] bool isFinite(const osg::Matrixd& matrix);
 
-/// The box of a sphere brought into the frame that `matrix` leads to, as far as it lies within
-/// roam::coordinate_limit. Empty for a sphere without a size, where it is nowhere within the limit, and where
-/// sphere or matrix are not finite.
+/// The box of a sphere in the frame that `matrix` leads to, clipped to roam::coordinate_limit. Empty if the sphere is
+/// empty, lies beyond the limit, or if sphere or matrix are not finite.
 [[nodiscard]] roam::Box boxOf(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix);
 
 /// Throws roam::Error for a margin of bounding volumes that is negative or not finite.

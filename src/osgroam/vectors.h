@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points as OpenSceneGraph and as roam write them: both in doubles, so nothing is rounded.
+/// Conversion between the points of OpenSceneGraph and roam. Both are doubles, so nothing is rounded.
 
 #include <osg/Vec3d>
 

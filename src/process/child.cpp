@@ -26,16 +26,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using files::Descriptor;
 
-/// Above every number that a child's descriptor may have.
+/// Greater than every descriptor number in a child.
 constexpr int first_free_descriptor = 16;
 
-/// The children that run, or have ended and are not collected: their numbers belong to no other process.
+/// Children that run, or have ended and are not collected. The system gives their process numbers to no other process.
 struct Registry {
   std::mutex mutex;
-  std::map<pid_t, pid_t> children;  ///< and their parents: a process that was forked has a copy of its parent's
+  std::map<pid_t, pid_t> children;  ///< child to parent; a forked process inherits a copy of this registry
 };
 
-/// Never destroyed: threads may end after it would be.
+/// Never destroyed, because threads may outlive static objects.
 Registry& registry() {
   static Registry& it = *new Registry;
   return it;
@@ -48,7 +48,7 @@ std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// A file in memory, which the system frees with its last descriptor.
+/// A file in memory. The system frees it with its last descriptor.
 Descriptor file_in_memory() {
 #ifdef __linux__
   return Descriptor(::memfd_create("last words", MFD_CLOEXEC));
@@ -57,7 +57,7 @@ Descriptor file_in_memory() {
 #endif
 }
 
-/// Whether a child has ended, which is then still to be collected, or is gone.
+/// Whether a child is gone, or has ended and is still to be collected.
 bool has_ended(pid_t child) {
   siginfo_t found{};
   return ::waitid(P_PID, static_cast<id_t>(child), &found, WEXITED | WNOHANG | WNOWAIT) != 0 || found.si_pid == child;
@@ -79,7 +79,7 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
     std::erase_if(wanted, [&](const Inheritance& other) { return other.theirs == i.theirs; });
     wanted.push_back(i);
   }
-  // Out of the way of the numbers that are about to be replaced.
+  // Moves them above the numbers that are about to be replaced.
   std::vector<Descriptor> moved;
   for (Inheritance& i : wanted) {
     moved.emplace_back(::fcntl(i.ours, F_DUPFD_CLOEXEC, first_free_descriptor));
@@ -99,7 +99,7 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   plan.own_session = settings.own_session;
   plan.dies_with_parent = settings.orphan == Orphan::dies;
   Registry& all = registry();
-  // Locked before, so that end_children() ends this one, too.
+  // Locked before the start, so that end_children() also ends this child.
   const std::lock_guard lock(all.mutex);
   const pid_t child = spawn(plan);
   if (child < 0) refuse(-child);
@@ -147,7 +147,7 @@ void Child::end(std::chrono::milliseconds grace) {
     if (wait(grace)) return;
   }
   signal(SIGKILL);
-  // It ends soon, but for one that waits for a disk.
+  // SIGKILL ends it soon, unless it waits for a disk.
   while (!wait(std::chrono::hours(1))) {
   }
   ending_ = {};

@@ -24,7 +24,7 @@ fs::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    // Others would lie wherever the program was started, in a folder of a stranger perhaps.
+    // A relative folder would depend on the current folder, which may belong to a stranger.
     if (!folder.starts_with('/')) continue;
     const fs::path program = fs::path(folder) / name;
     if (can_run(program)) return program;

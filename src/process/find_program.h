@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// Where programs lie.
+/// Paths of programs.
 
 #include <filesystem>
 #include <string>
 
 namespace roam::process {
 
-/// Whether it is a file that this user may run.
+/// Whether the path is a file that this user may run.
 [[nodiscard]] bool can_run(const std::filesystem::path& program);
-/// The program of that name in the folders of PATH, or an empty path.
+/// The first program of that name in the absolute folders of PATH, or an empty path.
 [[nodiscard]] std::filesystem::path find_program(const std::string& name);
-/// The folder of the running program; empty when the system does not tell.
+/// The folder of the running program; empty if the system cannot say.
 [[nodiscard]] std::filesystem::path own_folder();
 
 }  // namespace roam::process

@@ -22,9 +22,9 @@ namespace {
 
 constexpr int exec_failed = 127;
 
-/// In the child: becomes the program, or returns.
+/// In the child: runs the program, or returns on failure.
 void become(const Plan& plan, [[maybe_unused]] pid_t parent) {
-  // All signals are blocked until no handler of the parent is left.
+  // All signals stay blocked until every handler of the parent is replaced.
   struct sigaction usual = {};
   usual.sa_handler = SIG_DFL;
   for (int s = 1; s < NSIG; ++s) ::sigaction(s, &usual, nullptr);
@@ -45,9 +45,9 @@ void become(const Plan& plan, [[maybe_unused]] pid_t parent) {
   ::execve(plan.program, plan.arguments, plan.environment);
 }
 
-/// A child that shares this process's memory, while this thread waits, copies no page of a large process.
+/// Uses vfork: the child shares this process's memory while this thread waits, so no page of a large process is copied.
 [[gnu::noinline]] pid_t start(const Plan& plan) {
-  static volatile int failure;  // of the one thread that starts children, and of the child
+  static volatile int failure;  // shared by the one thread that starts children and by the child
   static pid_t parent;
   failure = 0;
   parent = ::getpid();
@@ -73,11 +73,11 @@ int niceness() {
 #endif
 }
 
-/// The thread that starts children. Never ends and is never destroyed.
+/// The thread that starts children. It never ends and is never destroyed.
 class Spawner {
  public:
   Spawner() : process_(::getpid()) {
-    // Signals go to the threads of the host.
+    // Block all signals in this thread: they belong to the host's threads.
     sigset_t all, before;
     sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -90,14 +90,14 @@ class Spawner {
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
 
-  /// That of this process: one that was forked has none of its parent's threads.
+  /// The spawner of this process. A forked process has none of its parent's threads and makes its own.
   static Spawner& ours() {
     static std::atomic<Spawner*> current{nullptr};
     Spawner* found = current;
     while (found == nullptr || found->process_ != ::getpid()) {
       auto* made = new Spawner;
       if (current.compare_exchange_strong(found, made)) return *made;
-      // Another thread was quicker, and this one waits for ever for work.
+      // Another thread was quicker. The new thread waits for work for ever.
     }
     return *found;
   }

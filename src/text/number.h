@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers in sentences, the same in every locale of the host.
+/// Text of numbers that does not depend on the host's locale.
 
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// The shortest decimal number that is this double: "0.3", "-1", "1e+30", "nan".
+/// The shortest decimal text that reads back as the same double: "0.3", "-1", "1e+30", "nan".
 [[nodiscard]] inline std::string number_text(double value) {
   std::array<char, 32> digits;
   const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);

@@ -19,7 +19,7 @@ bool turns_text(char32_t c) {
 
 struct Piece {
   std::string_view shown;
-  std::size_t bytes = 1;  ///< of the text
+  std::size_t bytes = 1;  ///< of the text that `shown` stands for
 };
 
 Piece first_piece(std::string_view text) {
@@ -58,8 +58,8 @@ Character first_character(std::string_view text) {
 std::string printable(std::string_view text, std::size_t most) {
   const std::size_t count = characters_of(text);
   const bool whole = count <= most;
-  const std::size_t begin = whole ? count : most / 2;                  // shown before the ellipsis
-  const std::size_t end = whole ? count : count - (most - begin - 1);  // shown from there on
+  const std::size_t begin = whole ? count : most / 2;                  // characters shown before the ellipsis
+  const std::size_t end = whole ? count : count - (most - begin - 1);  // the first character shown after it
   std::string line;
   for (std::size_t i = 0; !text.empty(); ++i) {
     const Piece piece = first_piece(text);

@@ -21,10 +21,10 @@
 namespace roam::reader {
 namespace {
 
-/// Nodes inside nodes; more is a damaged file, and would exhaust the stack.
+/// Limit of nesting. A deeper file is damaged, and would exhaust the stack.
 constexpr std::size_t depth_limit = 2000;
 
-/// A 4x4 matrix in doubles: assimp's own are floats, and lose more with each multiplication.
+/// A 4x4 matrix in doubles. assimp's matrices are floats and lose precision with each multiplication.
 struct Matrix {
   double m[3][4];
 
@@ -57,7 +57,7 @@ struct Matrix {
   }
 };
 
-/// The node's name in the file; assimp calls roots that have none "<GLTFRoot>" and the like.
+/// The node's name in the file. assimp names unnamed roots "<GLTFRoot>" and the like.
 std::string name_of(const aiNode& node) {
   std::string name = node.mName.C_Str();
   return name.starts_with('<') && name.ends_with('>') ? std::string() : name;
@@ -65,13 +65,13 @@ std::string name_of(const aiNode& node) {
 
 class AssimpWalk {
  public:
-  /// `looks`: null when nobody asks how surfaces look.
+  /// `looks`: null unless looks are requested.
   AssimpWalk(const aiScene& scene, std::string path, std::string stem, AssimpLooks* looks, MeshSink& sink)
       : scene_(scene), path_(std::move(path)), stem_(std::move(stem)), looks_(looks), sink_(sink) {}
 
   void walk(const aiNode& node, const Matrix& parent) { walk_in(node, parent * Matrix::of(node.mTransformation)); }
 
-  /// Walks a node as if `to_world` were its and its ancestors' transform.
+  /// Walks a node with `to_world` in place of its own and its ancestors' transforms.
   void walk_in(const aiNode& node, const Matrix& to_world) {
     if (names_.size() >= depth_limit) {
       throw Error(fmt::format("{}: its nodes are nested more than {} deep; the file is damaged.", path_, depth_limit));
@@ -86,16 +86,16 @@ class AssimpWalk {
 
  private:
   void add_mesh(const aiMesh& mesh, const Matrix& to_world) {
-    // The node is the object that people name; its mesh may be shared by many.
+    // People name the node; several nodes may share its mesh.
     names_.insert(names_.end() - 1, mesh.mName.C_Str());
     sink_.begin_object(names_, stem_);
     index_.clear();
     if (looks_ != nullptr) looks_->begin_mesh(mesh, to_world.linear());
     const unsigned count = mesh.mVertices == nullptr ? 0 : mesh.mNumVertices;
-    // Most of assimp's readers give every face corners of its own.
+    // Most of assimp's readers give each face its own corners.
     for (unsigned i = 0; i < count; ++i) {
       const Vec3 v = to_world * mesh.mVertices[i];
-      // assimp's vertices and transforms alike are floats.
+      // assimp's vertices and transforms are both floats.
       for (int k = 0; k < 3; ++k) sink_.note_rounded(v[k]);
       index_.push_back(sink_.add_shared_vertex(v, looks_ == nullptr ? VertexLook{} : looks_->of(i)));
     }
@@ -115,10 +115,10 @@ class AssimpWalk {
   AssimpLooks* looks_;
   MeshSink& sink_;
   std::vector<std::string> names_;
-  std::vector<std::uint32_t> index_;  ///< in the sink's object, of each vertex of the mesh
+  std::vector<std::uint32_t> index_;  ///< of each vertex of the mesh, in the sink's object
 };
 
-/// Opens the scene's files for assimp, and no others. assimp writes nothing here.
+/// Lets assimp open only the scene's files, and write none.
 class AssimpFiles : public Assimp::DefaultIOSystem {
  public:
   explicit AssimpFiles(SceneFiles& files) : files_(files) {}
@@ -134,7 +134,7 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   SceneFiles& files_;
 };
 
-/// Whether a list of words separated by blanks has that word.
+/// Whether `word` is one of the words, separated by blanks.
 bool lists(std::string_view words, std::string_view word) {
   while (!words.empty()) {
     const auto end = std::min(words.find(' '), words.size());
@@ -144,7 +144,7 @@ bool lists(std::string_view words, std::string_view word) {
   return false;
 }
 
-/// Leaves assimp the readers of this format alone. It would else guess a format from what is in the file.
+/// Leaves only assimp's readers of this format. Otherwise assimp would guess a format from the contents.
 void keep_format(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     if (lists(importer.GetImporterInfo(i)->mFileExtensions, extension)) continue;
@@ -154,7 +154,7 @@ void keep_format(Assimp::Importer& importer, const std::string& extension) {
   }
 }
 
-/// The integer or real number that the file's metadata has under `key`.
+/// The integer or real number of `key` in the file's metadata.
 std::optional<double> stated_number(const aiScene& scene, const char* key) {
   if (scene.mMetaData == nullptr) return std::nullopt;
   for (unsigned i = 0; i < scene.mMetaData->mNumProperties; ++i) {
@@ -167,15 +167,15 @@ std::optional<double> stated_number(const aiScene& scene, const char* key) {
   return std::nullopt;
 }
 
-/// Collada: assimp turns the file's own up axis to y and its unit to metres by the root's transform, and the root, the
-/// visual_scene, has none of its own.
+/// Collada: assimp converts the file's up axis to y and its unit to metres by the transform of the root. The root (the
+/// visual_scene) has no transform of its own.
 void compare_collada(const aiMatrix4x4& root, const std::string& file, MeshSink& sink) {
   const double unit = std::hypot(root.a1, root.b1, root.c1);
   const UpAxis up = root.b3 != 0.0f ? UpAxis::z : root.b1 != 0.0f ? UpAxis::x : UpAxis::y;
   sink.compare_with_stated(up, unit, file);
 }
 
-/// FBX: assimp keeps the file's numbers and hands on what it states; its unit is given in centimetres.
+/// FBX: assimp keeps the file's numbers and passes its metadata on. Its unit is in centimetres.
 void compare_fbx(const aiScene& scene, const std::string& file, MeshSink& sink) {
   std::optional<UpAxis> up;
   if (const auto axis = stated_number(scene, "UpAxis"); axis && *axis >= 0 && *axis <= 2) {
@@ -197,9 +197,9 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
   Assimp::Importer importer;
   keep_format(importer, extension);
   importer.SetIOHandler(new AssimpFiles(files));
-  // Else Collada's nodes are called by their ids.
+  // Otherwise assimp names Collada's nodes by their ids.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-  // IFC's faces are concave as often as not; in other formats polygons are fanned as everywhere in roam.
+  // Faces of IFC are often concave. In other formats polygons are fanned, as everywhere in roam.
   const unsigned triangulate = ifc ? static_cast<unsigned>(aiProcess_Triangulate) : 0u;
   const bool shown = sink.parts() != nullptr;
   const unsigned coordinates = shown ? static_cast<unsigned>(aiProcess_TransformUVCoords) : 0u;
@@ -220,11 +220,11 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
     walk.walk_in(*scene->mRootNode, Matrix::identity());
   } else {
     if (extension == "fbx") compare_fbx(*scene, file, sink);
-    // assimp turns IFC, whose z axis is up, to y up; this turns it back: (x, y, z) -> (x, -z, y).
+    // assimp turns the z axis of IFC to y. This matrix turns it back: (x, y, z) -> (x, -z, y).
     const Matrix upright{{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
     walk.walk(*scene->mRootNode, ifc ? upright : Matrix::identity());
   }
-  // Images inside the file go with it.
+  // Send now: images embedded in the file are freed with it.
   sink.send_parts();
 }
 

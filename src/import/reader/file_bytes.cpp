@@ -45,7 +45,7 @@ std::string_view FileBytes::refill(std::size_t wanted) {
     begin_ = 0;
   }
   if (wanted > buffer_.size()) buffer_.resize(std::max(wanted, std::min(2 * buffer_.size(), window_limit)));
-  // Not all the room but what is wanted must be filled: a short read is no reason to wait for more.
+  // Stop at `wanted` bytes even if the buffer has room: a short read is no reason to wait for more.
   while (!at_end_ && end_ < wanted) {
     const ssize_t n = read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
     if (n < 0 && errno == EINTR) continue;

@@ -15,28 +15,28 @@ namespace roam::reader {
 /// Reads a file from its beginning to its end through one buffer.
 class FileBytes {
  public:
-  /// `progress` is called with the bytes read so far whenever the buffer is filled. Throws roam::Error when the file
-  /// cannot be opened.
+  /// Calls `progress` with the bytes read so far whenever the buffer is filled. Throws roam::Error if the file cannot
+  /// be opened.
   FileBytes(const std::filesystem::path& path, std::function<void(std::uint64_t)> progress);
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
 
-  /// The bytes from offset() on: at least `wanted` of them, fewer only at the end of the file. Valid until the next
-  /// call of window. Asking for more than window_limit throws roam::Error.
+  /// The bytes from offset() on: at least `wanted`, fewer only at the end of the file. Valid until the next call of
+  /// window. Throws roam::Error if `wanted` exceeds window_limit.
   std::string_view window(std::size_t wanted) {
     return end_ - begin_ >= wanted ? std::string_view(buffer_.data() + begin_, end_ - begin_) : refill(wanted);
   }
-  /// Moves on by `count` bytes of the window.
+  /// Moves the window on by `count` bytes.
   void skip(std::size_t count) { begin_ += count; }
 
-  /// Where the window begins in the file.
+  /// The position of the window in the file.
   [[nodiscard]] std::uint64_t offset() const { return read_ - (end_ - begin_); }
   /// The size of the file when it was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// No line, token or record of a file that means well is longer.
+  /// Upper bound, in bytes, of a line, token or record in a valid file.
   static constexpr std::size_t window_limit = 256u << 20;
 
  private:
@@ -51,14 +51,14 @@ class FileBytes {
   std::size_t begin_ = 0, end_ = 0;
 };
 
-/// The lines of a text file: they end with LF, CR LF, or (in a file whose first line ends so) a lone CR.
+/// The lines of a text file. They end with LF or CR LF; or with CR alone, if the first line does.
 class Lines {
  public:
   explicit Lines(FileBytes& bytes);
 
-  /// The next line without its end, valid until the next call; false at the end of the file.
+  /// Sets `line` to the next line without its end, valid until the next call. False at the end of the file.
   bool next(std::string_view& line);
-  /// The number of the line that next gave last, from 1.
+  /// The number of the last line from next(), counted from 1.
   [[nodiscard]] std::uint64_t number() const { return number_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What names of files say: the format, and other spellings.
+/// Formats from file names, and unescaped names.
 
 #include <cctype>
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace roam::reader {
 
-/// In lower case and without the dot.
+/// The extension in lower case, without the dot.
 [[nodiscard]] inline std::string extension_of(const std::filesystem::path& path) {
   const std::string extension = files::lower_extension(path);
   return extension.empty() ? extension : extension.substr(1);
 }
 
-/// A name in which % and two hexadecimal digits stand for a byte, as in addresses: "a%20room.bin" -> "a room.bin".
+/// A name with each % and two hexadecimal digits replaced by a byte, as in addresses: "a%20room.bin" -> "a room.bin".
 [[nodiscard]] inline std::string unescaped(const std::string& name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The formats that roam reads, each with the library that reads it.
+/// The formats that roam reads, and the library for each.
 
 #include <array>
 #include <string_view>
@@ -12,11 +12,11 @@ enum class Family { obj, stl, ply, osg, assimp };
 struct Format {
   std::string_view extension;  ///< lower case, without the dot
   Family family;
-  std::string_view plugin = {};  ///< OpenSceneGraph's, osgdb_NAME; "osg" reads four formats
+  std::string_view plugin = {};  ///< name of OpenSceneGraph's plugin osgdb_NAME; "osg" reads four formats
 };
 
-/// Where both libraries know a format, the one that reads more of the files that are about: OpenSceneGraph refuses some
-/// exporters' Collada, and assimp knows no 3DS hierarchy.
+/// If both libraries know a format, the table has the one that reads more files in practice. OpenSceneGraph refuses
+/// Collada of some exporters, and assimp has no hierarchy in 3DS.
 inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {"stl", Family::stl},
                                                  {"ply", Family::ply},         {"ive", Family::osg, "ive"},
                                                  {"osg", Family::osg, "osg"},  {"osgb", Family::osg, "osg"},
@@ -30,11 +30,11 @@ inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {
                                                  {"off", Family::assimp},      {"3mf", Family::assimp},
                                                  {"blend", Family::assimp}}};
 
-/// A kind of image, that other files name or hold. One may have several entries.
+/// A kind of image that other files may name or contain. It may have several entries.
 struct ImageFormat {
   std::string_view extension;    ///< lower case, without the dot
-  std::string_view plugin = {};  ///< OpenSceneGraph's, osgdb_NAME; empty: it is never decoded
-  std::string_view start = {};   ///< of every such file; empty: files do not say what they are, and are known by name
+  std::string_view plugin = {};  ///< name of OpenSceneGraph's plugin osgdb_NAME; empty: never decoded
+  std::string_view start = {};   ///< first bytes of every such file; empty: known only by the extension
 };
 
 inline constexpr std::array<ImageFormat, 27> image_formats{{{"jpg", "jpeg", "\xff\xd8\xff"},

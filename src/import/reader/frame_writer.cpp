@@ -11,7 +11,7 @@
 namespace roam::reader {
 namespace {
 
-/// Small frames are gathered up to this many bytes; payloads that are not small go out from where they lie.
+/// Small frames are gathered up to this many bytes. Larger payloads are written directly.
 constexpr std::size_t gather_bytes = 1u << 16;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sends frames of stream.h, gathered into large writes.
+/// Writer of the frames of stream.h, gathered into large writes.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace roam::reader {
 
 class FrameWriter {
  public:
-  /// Writes to an open descriptor, which it does not close.
+  /// Writes to an open descriptor, and does not close it.
   explicit FrameWriter(int descriptor) : descriptor_(descriptor) {}
 
   void send(FrameKind kind, std::span<const std::byte> payload);
   void send(FrameKind kind, const PayloadWriter& payload) { send(kind, payload.bytes()); }
-  /// The next frame is the first of another stream.
+  /// Begins another stream: the next frame has number 0.
   void begin_stream() { number_ = 0; }
-  /// Writes out what is gathered. Ends the process when nobody listens any more.
+  /// Writes the gathered frames. Ends the process if the reading end is closed.
   void flush();
 
  private:
-  /// Writes what is gathered, and then the payload.
+  /// Writes the gathered frames, then the payload.
   void write(std::span<const std::byte> payload);
 
   int descriptor_;

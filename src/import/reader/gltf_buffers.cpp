@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes buffers[i].uri as the text goes by. Nothing else is kept, so that neither size nor depth of the text matters.
+/// Collects buffers[i].uri while the text is parsed. Keeps nothing else, so size and depth of the text do not matter.
 class BufferNames : public nlohmann::json_sax<nlohmann::json> {
  public:
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -39,7 +39,7 @@ class BufferNames : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
 
  private:
-  /// { "buffers": [ { "uri": ...
+  /// Depth of the key in { "buffers": [ { "uri": ...
   static constexpr long depth_of_uri = 3;
 
   long depth_ = 0;
@@ -53,7 +53,7 @@ class BufferNames : public nlohmann::json_sax<nlohmann::json> {
 void list_gltf_buffers(const fs::path& path, SceneFiles& files, MeshSink& sink) {
   std::ifstream in(files.open(path), std::ios::binary);
   BufferNames buffers;
-  // A text that is damaged further on is refused when it is read.
+  // Damage further on in the text is reported when the file is read.
   nlohmann::json::sax_parse(in, &buffers);
   std::set<fs::path> found;
   for (const std::string& name : buffers.names()) {

@@ -36,18 +36,18 @@
 namespace roam::reader {
 namespace {
 
-/// Address space that the program's own code, its libraries and their plugins take before a file is opened.
+/// Address space of the program's own code, its libraries and their plugins, before a file is opened.
 constexpr std::uint64_t own_address_space = std::uint64_t{1} << 30;
 
-/// More than any machine has.
+/// More memory than any machine has.
 constexpr std::uint64_t any_memory = std::uint64_t{1} << 56;
 
-/// Of the memory for reading in pieces, what is not data of this process: its code and that of its libraries, and the
-/// receiver's window and piece.
+/// The part of the memory limit for reading in pieces that is not data of this process: code of the program and its
+/// libraries, and the window and piece of the receiver.
 constexpr std::uint64_t memory_beside_data = 28u << 20;
 
-/// Bytes that vertices may take outside the memory. The shortest vertex of a file has three bytes, and is kept as three
-/// doubles; foreign readers pack more tightly, but hold in memory what they read, in floats at least.
+/// Most bytes of vertices in the temporary file. The shortest vertex of a file has three bytes and is stored as three
+/// doubles. Foreign readers may pack more tightly, but keep their data in memory, at least as floats.
 std::uint64_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
   std::error_code none;
   const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
@@ -60,9 +60,9 @@ struct Request {
   bool pieces = false;
   bool pages = false;
   std::optional<Vec3> origin;
-  SceneScope scope;  ///< that may be read
+  SceneScope scope;  ///< the files that may be read
   int highest_landlock = any_landlock;
-  bool only_walls = false;  ///< nothing is read: which walls hold is all that is wanted
+  bool only_walls = false;  ///< read nothing; only report which walls hold
 };
 
 double number(const std::string& word) {
@@ -71,7 +71,7 @@ double number(const std::string& word) {
   return value;
 }
 
-/// The arguments are written by the library; a wrong one is a mix of versions, or a person.
+/// Parses the arguments, which the library writes. Invalid ones mean mixed versions, or a person's command.
 bool parse_arguments(const std::vector<std::string>& arguments, Request& request) {
   ReadingSettings& settings = request.settings;
   std::size_t i = 0;
@@ -149,7 +149,7 @@ int run(const std::vector<std::string>& arguments) {
   rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
   rights.file_size = request.pieces ? temporary_bytes(path, memory) : 0;
-  // A list of files needs no library.
+  // Listing files needs no library.
   const bool reads = !request.only_walls && !request.settings.only_list;
   FrameWriter frames(stream_fd);
   std::optional<PieceCutter> pieces;
@@ -164,7 +164,7 @@ int run(const std::vector<std::string>& arguments) {
     return serve_pages(frames, request.settings, request.origin, request.scope, [&] { greet(frames, walls); });
   }
   greet(frames, walls);
-  // At once, so that a reader that computes long is not taken for one that did not start.
+  // Flush at once, so that a reader with a long computation does not seem to have failed to start.
   frames.flush();
   if (request.only_walls) return EXIT_SUCCESS;
   const auto fail = [&](std::string sentence) {
@@ -189,7 +189,7 @@ int run(const std::vector<std::string>& arguments) {
   } catch (const Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {
-    // The program words this one: it knows the limit. See cause_of_death.
+    // The program makes the message, because it knows the limit. See cause_of_death.
     std::fputs("out of memory\n", stderr);
     return EXIT_FAILURE;
   } catch (const std::exception& error) {
@@ -202,14 +202,14 @@ int run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
 #ifdef __linux__
-  // Programs of old ways, and whoever they start, may run whatever memory they can read. That ends with a new start.
+  // Old personalities let this process and its children execute any readable memory. A new start ends that.
   const int ways = personality(0xFFFFFFFF);
   if (ways >= 0 && (ways & READ_IMPLIES_EXEC) != 0 && personality(ways & ~READ_IMPLIES_EXEC) >= 0) {
     execv("/proc/self/exe", argv);
   }
 #endif
   const int status = roam::reader::run(std::vector<std::string>(argv + 1, argv + argc));
-  // Everything is said: plugins of foreign libraries need not be unloaded, and some crash when they are.
+  // All output is written. Plugins of foreign libraries need not be unloaded, and some crash when they are.
   std::fflush(stderr);
   _exit(status);
 }

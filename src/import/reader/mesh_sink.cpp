@@ -14,26 +14,26 @@
 namespace roam::reader {
 namespace {
 
-/// Frames of 1.5 MB: small beside a scene, large beside the cost of a frame.
+/// Frames of 1.5 MB: small compared with a scene, large compared with the cost of a frame.
 constexpr std::size_t vertices_per_frame = 1u << 16;
 constexpr std::size_t triangles_per_frame = 1u << 17;
 static_assert(vertices_per_frame * sizeof(Vec3) <= payload_limit);
 static_assert(triangles_per_frame * 3 * sizeof(std::uint32_t) <= payload_limit);
 
-/// Entries of the memory for shared vertices: 2.6 MB, and as far back as neighbours in a file usually are.
+/// log2 of the entries of the cache of shared vertices: 3.7 MB, enough for the usual distance of neighbours in a file.
 constexpr unsigned remembered_bits = 16;
 
 constexpr auto progress_interval = std::chrono::milliseconds(100);
-/// Sentences that report_note_once keeps apart.
+/// Most different sentences that report_note_once remembers.
 constexpr std::size_t said_limit = 100;
 
 bool same_unit(double stated, double metres) {
-  // Files round what they state: inches are 0.02539999969 m in some.
+  // Files round the unit that they state: in some, an inch is 0.02539999969 m.
   constexpr double stated_rounding = 1e-6;
   return std::abs(stated - metres) <= stated_rounding * metres;
 }
 
-/// What the command line calls a unit of so many metres; empty where it has no name for it.
+/// The command line's name of a unit of this length; empty if it has none.
 std::string_view unit_of(double metres) {
   constexpr std::pair<std::string_view, double> units[] = {
       {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}};
@@ -49,7 +49,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
   return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) && bits_of(a.z) == bits_of(b.z);
 }
 
-/// Looks are compared by their numbers, so that one with a NaN is never the same.
+/// Compares by value, so that a look with a NaN equals none.
 bool same(const VertexLook& a, const VertexLook& b) {
   return a.normal == b.normal && a.texture == b.texture && a.colour == b.colour;
 }
@@ -64,7 +64,7 @@ std::size_t slot_of(const Vec3& v) {
 }
 
 bool good(const Vec3& v) {
-  // Written so that a NaN is not good.
+  // False for a NaN.
   return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
 }
 
@@ -158,7 +158,7 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
 void MeshSink::set_look(const Look& wanted) {
   if (parts_ == nullptr) return;
   Look look = wanted;
-  // Nothing cuts holes where there is no image; and looks are sorted, so that none may be a NaN.
+  // Without an image there is nothing to cut. Looks are sorted, so none may have a NaN.
   if (look.texture == no_texture && look.transparency != Transparency::blend) look = {};
   if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) look.cutoff = Look{}.cutoff;
   if (look == look_) return;
@@ -171,7 +171,7 @@ void MeshSink::set_group(std::uint32_t group) {
   parts_->set_group(group);
 }
 
-/// Gives the vertex the next index. False where it is not kept: it is bad, or nobody wants it.
+/// Gives the vertex the next index. False if the vertex is not kept, because it is bad or in an ignored object.
 bool MeshSink::count_vertex(const Vec3& vertex, Vec3& place) {
   if (vertex_count_ == std::numeric_limits<std::uint32_t>::max()) {
     throw Error(fmt::format("object '{}' has more than 2^32 vertices; split it.", name_));
@@ -234,7 +234,7 @@ void MeshSink::add_polygon(std::span<const Vec3> corners) {
     for (std::size_t i = 2; i < corners_.size(); ++i) add_triangle(corners_[0], corners_[i - 1], corners_[i]);
     return;
   }
-  // Its places are at hand, so that none need be kept for later.
+  // The corners are available here, so no vertex is stored.
   for (const Vec3& corner : corners) {
     Remembered& memory = memory_of(corner);
     if (!holds(memory, corner, {})) {
@@ -288,7 +288,7 @@ void MeshSink::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 void MeshSink::send_vertices() {
-  // Parts are made of vertices and triangles together.
+  // Parts contain vertices and triangles together.
   if (vertices_.empty() || parts_ != nullptr) return;
   if (!announced_) {
     frames_.send(FrameKind::object, PayloadWriter().add_text(name_).add(std::uint8_t{0}));
@@ -314,7 +314,7 @@ void MeshSink::send_left_out(LeftOutReason reason, std::uint64_t vertices, std::
 }
 
 void MeshSink::finish_object() {
-  // Vertices that no triangle used are worth nothing unless they were sent already.
+  // Vertices that no triangle used are dropped, unless they have been sent.
   if (!triangles_.empty()) {
     send_vertices();
     send_triangles();
@@ -368,7 +368,7 @@ void MeshSink::report_progress(std::uint64_t bytes_read) {
 void MeshSink::say_what_was_rounded() {
   const double largest = largest_rounded_ * settings_.metres_per_unit;
   if (!(largest <= coordinate_limit)) return;
-  // Neighbouring floats at x are up to x * 2^-23 apart; a millimetre of that is worth a word.
+  // Neighbouring floats at x are up to x * 2^-23 apart. A spacing of a millimetre deserves a note.
   const double spacing = std::ldexp(largest, -std::numeric_limits<float>::digits + 1);
   constexpr double worth_telling = 1e-3;
   if (spacing < worth_telling) return;

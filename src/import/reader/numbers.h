@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Words and numbers of text formats. Digits go through fast_float: the double nearest to what is written, whatever
-/// the locale.
+/// Words and numbers of text formats. fast_float parses numbers to the nearest double, in every locale.
 
 #include <fast_float/fast_float.h>
 
@@ -24,7 +23,7 @@ inline void skip_blanks(std::string_view& rest) {
   rest.remove_prefix(n);
 }
 
-/// Takes the next word off a line; empty at its end.
+/// Removes the next word from a line and returns it; empty at the end of the line.
 inline std::string_view take_word(std::string_view& rest) {
   skip_blanks(rest);
   std::size_t n = 0;
@@ -40,14 +39,14 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// A word of a file as a message may show it: short and printable.
+/// A word of a file, made short and printable for a message.
 inline std::string shown(std::string_view word) {
   constexpr std::size_t length_limit = 40;
   return printable(word, length_limit);
 }
 
-/// The number that all of `word` is. "nan" and "inf" are numbers; what is too large for a double is infinite, what is
-/// too small is zero.
+/// Parses a word that is one number; false if it is not. Accepts "nan" and "inf". Numbers too large for a double become
+/// infinite, and too small ones zero.
 inline bool parse(std::string_view word, double& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = fast_float::from_chars(word.data(), word.data() + word.size(), value);
@@ -55,7 +54,7 @@ inline bool parse(std::string_view word, double& value) {
          !word.empty();
 }
 
-/// The integer that all of `word` is.
+/// Parses a word that is one integer; false if it is not.
 inline bool parse(std::string_view word, std::int64_t& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);

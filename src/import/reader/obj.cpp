@@ -33,7 +33,7 @@ class ObjReader {
     std::string_view line;
     while (lines_.next(line)) {
       number_ = lines_.number();
-      // Every line but a rare one is used where it lies.
+      // Most lines are parsed without a copy.
       if (line.ends_with('\\')) line = continued(line);
       take_line(line);
     }
@@ -91,7 +91,7 @@ class ObjReader {
     begun_ = false;
   }
 
-  /// The vertex that a corner such as 7, -1, 7/2, 7//3 or 7/2/3 names.
+  /// The index of the vertex of a corner such as 7, -1, 7/2, 7//3 or 7/2/3.
   std::uint64_t vertex_of(std::string_view corner) const {
     const std::string_view number = corner.substr(0, corner.find('/'));
     std::int64_t index = 0;
@@ -106,7 +106,7 @@ class ObjReader {
   std::uint32_t corner_of(std::string_view corner) {
     const std::uint64_t vertex = vertex_of(corner);
     if (sink_.in_pieces()) return sink_.use_vertex(static_cast<std::uint32_t>(vertex));
-    // A vertex that looks different in two faces is two vertices.
+    // A vertex with different looks in two faces becomes two vertices.
     if (looks_) return sink_.add_shared_vertex(vertices_[vertex], looks_->of(vertex, corner));
     return vertices_.index_in_object(vertex, [this](const Vec3& v) { return sink_.add_vertex(v); });
   }
@@ -125,7 +125,7 @@ class ObjReader {
   }
 
   void begin_object() {
-    // A material names an object only where nothing else does.
+    // A material names an object only if nothing else does.
     const bool named = !object_.empty() || !group_.empty();
     const std::array<std::string, 2> names{named ? object_ : material_, group_};
     if (sink_.begin_object(names, stem_)) vertices_.begin_object();

@@ -22,11 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 using Result = osgDB::ReaderWriter::ReadResult;
 
-/// Files that name files that name files.
+/// Limit of files that name files.
 constexpr std::size_t nesting_limit = 64;
 
-/// Answers for every kind of image inside other files before osgDB loads a decoder for it: what is walked on has no
-/// colour, and image files are a favourite of attackers.
+/// Claims all formats of images and finds no image, so that osgDB loads no decoder for an image inside another file.
+/// Collision needs no colours, and image decoders are a common target of attacks.
 class NoImages : public osgDB::ReaderWriter {
  public:
   NoImages() {
@@ -37,10 +37,10 @@ class NoImages : public osgDB::ReaderWriter {
   Result readImage(std::istream&, const osgDB::Options*) const override { return Result::FILE_NOT_FOUND; }
 };
 
-/// Formats whose files may name files of any of these formats. The others name images alone.
+/// Formats whose files may name files of all these formats. Files of other formats name only images.
 constexpr std::array<std::string_view, 5> naming{"ive", "osg", "osgb", "osgt", "osgx"};
 
-/// Classes that a file of the plugin "osg" may name, by the library that they belong to.
+/// Libraries whose classes a file of the plugin "osg" may name.
 constexpr std::array<std::string_view, 10> class_libraries{"osg",          "osgsim",    "osgtext",    "osgfx",
                                                            "osgparticle",  "osgshadow", "osgterrain", "osgvolume",
                                                            "osganimation", "osgutil"};
@@ -49,8 +49,9 @@ bool names_files(std::string_view extension) {
   return std::find(naming.begin(), naming.end(), extension) != naming.end();
 }
 
-/// Where a name leads that another file has: as it stands, or by its last part alone, in the folders of the files that
-/// name it. The first that is there; else a place outside of the scene, if it names one; else where it would lie.
+/// The path of a file that another file names. An absolute name is returned as it is. Otherwise tries the name, then
+/// its last part, in the folders of the files that name it. Returns the first that exists, else a path outside of the
+/// scene if the name leads there, else the path where the file would be.
 fs::path place_of(const std::string& name, const osgDB::Options* options, const SceneFiles& files) {
   std::string spelling = name;
   std::replace(spelling.begin(), spelling.end(), '\\', '/');
@@ -83,7 +84,7 @@ class GuardedReading : public osgDB::ReadFileCallback {
     osgDB::ReaderWriter* reader = reader_for(place);
     if (reader == nullptr) return missing(name);
     const fs::path file = files_.open(place);
-    // A file that is named while it is read is a circle.
+    // A file that names a file still being read makes a circle.
     const bool circle = std::find(reading_.begin(), reading_.end(), file) != reading_.end();
     if (file.empty() || circle || reading_.size() >= nesting_limit) return missing(name);
     reading_.push_back(file);
@@ -114,7 +115,7 @@ class GuardedReading : public osgDB::ReadFileCallback {
   Result readShader(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
   Result readScript(const std::string&, const osgDB::Options*) override { return Result::FILE_NOT_FOUND; }
 
-  /// A file that a plugin opens by itself.
+  /// Finds a file for a plugin that opens it by itself.
   std::string find(const std::string& name, const osgDB::Options* options) {
     const fs::path place = place_of(name, options, files_);
     if (!place.empty() && !files_.resolve(place)) files_.leave_out(place);
@@ -140,13 +141,13 @@ class GuardedReading : public osgDB::ReadFileCallback {
 
   MeshSink& sink_;
   SceneFiles& files_;
-  std::vector<fs::path> reading_;  ///< the files that are being read, each named by the one before
+  std::vector<fs::path> reading_;  ///< the files being read, each named by the one before
   bool next_is_main_ = false;
   bool images_ = false;
   bool quiet_ = false;
 };
 
-/// Keeps the last complaint for the message of a failure, and passes all on to the standard error.
+/// Keeps the last message of osgDB for the report of a failure. Passes all messages on to the standard error.
 class Complaints : public osg::NotifyHandler {
  public:
   void notify(osg::NotifySeverity, const char* message) override {
@@ -175,7 +176,7 @@ void set_images(bool wanted) {
 void load_osg_plugins(const std::string& extension) {
   const bool all = extension.empty() || names_files(extension);
   for (const Format& format : formats) {
-    // Inventor's library is large, and no other format names its files.
+    // The library of Inventor is large, and no other format names its files.
     const bool wanted = format.extension == extension || (all && format.extension != "iv");
     if (format.family == Family::osg && wanted) osg_plugins::load(format.plugin);
   }
@@ -207,7 +208,7 @@ void prepare_osg(MeshSink& sink, SceneFiles& files, bool images) {
   guard = new GuardedReading(sink, files);
   registry->setReadFileCallback(guard);
   set_images(images);
-  // Readers of other formats optimise with it; it would reorder triangles.
+  // Readers of other formats would build kd-trees, which reorder triangles.
   registry->setBuildKdTreesHint(osgDB::Options::DO_NOT_BUILD_KDTREES);
 }
 

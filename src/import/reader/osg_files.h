@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// OpenSceneGraph's file reading, kept to the formats that roam reads and to the files of the scene.
+/// File reading of OpenSceneGraph, restricted to the formats of roam and the files of the scene.
 
 #include <filesystem>
 #include <osg/Node>
@@ -12,29 +12,29 @@
 
 namespace roam::reader {
 
-/// Loads the plugins that a file with this extension may need, and the classes that it may name. An empty extension
-/// stands for photogrammetry tiles.
+/// Loads the plugins and classes that a file with this extension may need. An empty extension means photogrammetry
+/// tiles.
 void load_osg_plugins(const std::string& extension);
 
 /// Loads the plugins that decode images.
 void load_image_plugins();
 
-/// Lets OpenSceneGraph load nothing more, and find no file but those of the scene. Call it before a file is read.
+/// From now on OpenSceneGraph loads no library and finds only the scene's files. Call it before reading a file.
 void close_osg_door();
 
-/// Prepares reading: no images unless they are wanted, no file outside of the scene, no files that read each other
-/// without end; each file that is read or missing is reported to `sink`. Call once, before read_osg_file; `sink` and
-/// `files` must outlive all reading, and `sink` have parts where images are wanted, because these know where to look.
+/// Prepares reading: reads no images unless `images`, no files outside of the scene, and no circles of files. Reports
+/// each file that is read or missing to `sink`. Call it once before read_osg_file. `sink` and `files` must outlive all
+/// reading. With `images`, `sink` must have parts, which find the images.
 void prepare_osg(MeshSink& sink, SceneFiles& files, bool images);
 
-/// Reads one file; null when it is absent or unreadable. An absent one counts as a missing page unless it is
-/// the `main` one.
+/// Reads one file; null if it is absent or unreadable. An absent file counts as a missing page unless it is the `main`
+/// one.
 [[nodiscard]] osg::ref_ptr<osg::Node> read_osg_file(const std::filesystem::path& path, bool main);
 
-/// Reads a file that was read before, this time with its images, and reports nothing again. They stay wanted.
+/// Reads a file for the second time, with its images, without reporting anything again. Later files have images too.
 [[nodiscard]] osg::ref_ptr<osg::Node> read_again_with_images(const std::filesystem::path& path);
 
-/// The last thing that osgDB complained about; empty when it did not.
+/// The last message of osgDB about a failure; empty if there was none.
 [[nodiscard]] std::string last_osg_complaint();
 
 }  // namespace roam::reader

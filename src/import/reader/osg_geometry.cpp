@@ -11,16 +11,16 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Puts triangles into the sink.
+/// Adds triangles to the sink.
 class TriangleCollector {
  public:
   TriangleCollector(const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink)
       : to_world_(to_world), looks_(looks), sink_(sink) {}
 
-  /// Tells which of the geometry's primitive sets comes next.
+  /// Sets the number of the primitive set whose triangles follow.
   void begin_set(unsigned number) { set_ = number; }
 
-  // For osg_triangles::Primitives.
+  // Interface of osg_triangles::Primitives.
   template <class Vertex>
   void begin(const Vertex* vertices, std::size_t count) {
     vertices_ = osg_triangles::Vertices(count, vertices);
@@ -64,8 +64,8 @@ void add_geometry(const osg::Geometry& geometry, const osg::Matrixd& to_world, c
   TriangleCollector collector(to_world, looks, sink);
   osg_triangles::Primitives<TriangleCollector> primitives(collector);
   if (looks == nullptr || !looks->by_set()) return geometry.accept(primitives);
-  // The functor is not told which primitive set it is given, so that each comes alone; a vertex of two sets that look
-  // different is two vertices.
+  // The functor does not receive the number of the primitive set, so each set is visited alone. A vertex with different
+  // looks in two sets becomes two vertices.
   for (unsigned i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
     const osg::ref_ptr<osg::Geometry> one = new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY);
     one->setPrimitiveSetList({const_cast<osg::PrimitiveSet*>(geometry.getPrimitiveSet(i))});

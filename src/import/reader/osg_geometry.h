@@ -10,7 +10,7 @@
 
 namespace roam::reader {
 
-/// Adds the triangles of `geometry`, its vertices multiplied by `to_world`, to the sink's current object, with looks
+/// Adds the triangles of `geometry` to the sink's current object, its vertices multiplied by `to_world`, with looks
 /// unless `looks` is null. Vertices that only lines or points use are not added.
 void add_geometry(const osg::Geometry& geometry, const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink);
 

@@ -22,10 +22,10 @@
 namespace roam::reader {
 namespace {
 
-/// Pages within pages; more is a scene without end.
+/// Limit of nested pages. Deeper scenes have no end.
 constexpr std::size_t nesting_limit = 64;
 
-/// False when nobody asks any more.
+/// Reads `size` bytes. False at the end of the input.
 bool take(void* to, std::size_t size) {
   auto* at = static_cast<char*>(to);
   while (size > 0) {

@@ -6,7 +6,7 @@
 namespace roam::reader {
 namespace {
 
-/// A triangle's corners lie in three blocks, and the last block stays.
+/// The corners of a triangle lie in up to three blocks, and the last block always stays in memory.
 constexpr std::uint64_t least_slots = 16;
 
 }  // namespace
@@ -37,8 +37,8 @@ std::uint32_t PagedVertices::free_slot() {
     if (filled_slots_ == slots_.size()) slots_.push_back({std::make_unique_for_overwrite<Block>()});
     return static_cast<std::uint32_t>(filled_slots_++);
   }
-  // The clock of Corbato (1968): what was used since the hand passed gets one round more. The last block is still
-  // being filled; there are others.
+  // The clock algorithm (Corbato 1968): a block used since the hand passed it stays for one more round. The last block
+  // is still being filled. There are always other blocks.
   const std::uint64_t last = slot_of_.size() - 1;
   while (slots_[hand_].used || (slots_[hand_].block == last && size_ % block_size != 0)) {
     slots_[hand_].used = false;

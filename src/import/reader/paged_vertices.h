@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Vertices by number, in bounded memory.
+/// A list of vertices in bounded memory.
 
 #include <array>
 #include <cstdint>
@@ -13,22 +13,22 @@
 
 namespace roam::reader {
 
-/// A list of vertices that keeps some blocks of it in memory and the others in an unnamed file in the folder for
-/// temporary files (TMPDIR, else /tmp). The file is made at once: the sandbox allows none later.
+/// Keeps some blocks of vertices in memory and the others in an unnamed file in the folder for temporary files (TMPDIR,
+/// else /tmp). The constructor makes the file, because the sandbox prevents it later.
 class PagedVertices {
  public:
-  /// `memory`: most bytes of vertices to hold; no less than a few blocks are.
+  /// `memory`: most bytes of vertices in memory. A few blocks always stay.
   explicit PagedVertices(std::uint64_t memory);
   PagedVertices(const PagedVertices&) = delete;
   PagedVertices& operator=(const PagedVertices&) = delete;
 
-  /// Throws roam::Error when the temporary file cannot be written.
+  /// Throws roam::Error if the temporary file cannot be written.
   void add(const Vec3& vertex) {
     if (size_ % block_size == 0) begin_block();
     (*last_)[size_ % block_size] = vertex;
     ++size_;
   }
-  /// Vertex i < size(). Throws roam::Error when the temporary file cannot be read.
+  /// Vertex i; i < size(). Throws roam::Error if the temporary file cannot be read.
   [[nodiscard]] Vec3 operator[](std::uint64_t i) {
     const std::uint64_t block = i / block_size;
     std::uint32_t slot = slot_of_[block];
@@ -37,20 +37,20 @@ class PagedVertices {
     return (*slots_[slot].vertices)[i % block_size];
   }
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Forgets all vertices and keeps the memory.
+  /// Removes all vertices and keeps the memory.
   void clear();
 
-  /// Vertices of a block: few enough that a scattered list does not read much that it has no use for.
+  /// Vertices of a block. Small, so that scattered reads fetch few unused vertices.
   static constexpr std::uint64_t block_size = 1024;
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   using Block = std::array<Vec3, block_size>;
-  /// Memory for a block.
+  /// Memory for one block.
   struct Slot {
     std::unique_ptr<Block> vertices;
     std::uint64_t block = 0;
-    bool used = false;  ///< since the hand passed it last
+    bool used = false;  ///< since the hand passed it
   };
 
   void begin_block();
@@ -60,11 +60,11 @@ class PagedVertices {
 
   std::size_t slot_limit_;
   std::uint64_t size_ = 0;
-  std::vector<std::uint32_t> slot_of_;  ///< of each block; none: it is in the file
-  std::vector<bool> written_;           ///< of each block: the file has it
+  std::vector<std::uint32_t> slot_of_;  ///< for each block: its slot, or none if it is in the file
+  std::vector<bool> written_;           ///< for each block: whether the file has it
   std::vector<Slot> slots_;
   std::size_t filled_slots_ = 0;
-  std::size_t hand_ = 0;  ///< of the clock that finds the slot to use again
+  std::size_t hand_ = 0;  ///< of the clock that finds the slot to reuse
   Block* last_ = nullptr;
   files::UnnamedFile file_;
 };

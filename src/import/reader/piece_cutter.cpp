@@ -8,10 +8,10 @@
 namespace roam::reader {
 namespace {
 
-/// What both processes take besides vertices: their code, the libraries of foreign readers, the window of the file, the
-/// piece in the making here and there, and the frames on their way.
+/// Memory of both processes besides vertices: code, the libraries of foreign readers, the window of the file, the
+/// current piece on each side, and frames in transit.
 constexpr std::uint64_t own_memory = 52u << 20;
-/// What keeping count of them takes is far less than this share of the vertices.
+/// The tables of vertices take far less than this share of the memory.
 constexpr std::uint64_t share_for_tables = 64;
 
 std::uint64_t vertex_memory(std::uint64_t memory_limit) {

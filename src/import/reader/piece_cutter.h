@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Objects in pieces, so that neither end of the stream needs to hold a whole one.
+/// Division of objects into pieces, so that neither end of the stream needs to hold a whole object.
 
 #include <array>
 #include <cstdint>
@@ -15,19 +15,19 @@
 
 namespace roam::reader {
 
-/// Gathers triangles, which name their vertices by numbers of the object, into pieces with vertices of their own, and
-/// sends each piece when it is full. Where a piece ends depends on nothing but the triangles.
+/// Gathers triangles with vertex numbers of the object into pieces with vertices of their own. Sends each full piece.
+/// The division depends only on the triangles.
 class PieceCutter {
  public:
-  /// `memory_limit`: what this process and the receiver may take together, in bytes.
+  /// `memory_limit`: bytes that this process and the receiver may use together.
   PieceCutter(FrameWriter& frames, std::uint64_t memory_limit);
 
-  /// The vertices that triangles name, for readers that cannot tell when one is used last.
+  /// The vertices of the file, for readers that do not know the last use of a vertex.
   [[nodiscard]] PagedVertices& vertices() { return vertices_; }
 
   void begin_object(std::string_view name);
-  /// Adds a triangle of the current object; vertex_of(k) is the place of its corner k, asked when the piece does not
-  /// have it yet.
+  /// Adds a triangle of the current object. vertex_of(k) returns the position of corner k; called only for vertices
+  /// that are new in the piece.
   template <class VertexOf>
   void add_triangle(const std::array<std::uint32_t, 3>& corners, VertexOf&& vertex_of) {
     std::array<std::uint32_t, 3> in_piece;
@@ -43,7 +43,7 @@ class PieceCutter {
     piece_triangles_.push_back(in_piece);
     if (piece_triangles_.size() == piece_limit) send();
   }
-  /// Sends what is left of the current object.
+  /// Sends the rest of the current object.
   void finish_object();
 
   [[nodiscard]] std::uint64_t vertices_sent() const { return vertices_sent_; }
@@ -52,7 +52,7 @@ class PieceCutter {
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t piece_limit = 1u << 16;
-  /// More than twice the vertices that a piece can have.
+  /// More than twice the vertices of a piece.
   static constexpr unsigned entry_bits = 19;
 
   /// A vertex of the object and its number in the piece.
@@ -61,8 +61,8 @@ class PieceCutter {
     std::uint32_t in_piece = none;
   };
 
-  /// The entry of that vertex, or the free one where it belongs. Vertices that follow each other lie side by side, as
-  /// most triangles use neighbours.
+  /// The entry of a vertex, or the free entry for it. Consecutive vertices have neighbouring entries, because most
+  /// triangles use neighbouring vertices.
   Entry& entry_of(std::uint32_t vertex) {
     constexpr std::uint32_t golden = 0x9e3779b1u;
     constexpr std::uint32_t mask = (1u << entry_bits) - 1;
@@ -76,9 +76,9 @@ class PieceCutter {
   PagedVertices vertices_;
   std::uint64_t vertices_sent_ = 0, triangles_sent_ = 0;
   std::string name_;
-  bool continues_ = false;  ///< a piece of the object is sent
+  bool continues_ = false;  ///< true: a piece of the object has been sent
   std::vector<Vec3> piece_vertices_;
-  std::vector<std::uint32_t> piece_entries_;  ///< of piece_vertices_
+  std::vector<std::uint32_t> piece_entries_;  ///< the entry of each of piece_vertices_
   std::vector<std::array<std::uint32_t, 3>> piece_triangles_;
   std::vector<Entry> entries_;
 };

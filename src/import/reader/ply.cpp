@@ -20,7 +20,7 @@
 namespace roam::reader {
 namespace {
 
-/// Takes the values of a binary file one after the other.
+/// Reads the values of a binary file in sequence.
 class BinaryValues {
  public:
   BinaryValues(FileBytes& bytes, bool swap) : bytes_(bytes), swap_(swap) {}
@@ -56,11 +56,11 @@ class BinaryValues {
     bytes_.skip(bytes_of(type));
   }
   [[nodiscard]] std::string where() const { return fmt::format("{}: byte {}", bytes_.path(), bytes_.offset()); }
-  /// Bytes that the shortest spelling of a value takes.
+  /// Least bytes of an element.
   static std::size_t least_bytes(const PlyElement& element) { return element.least_bytes(); }
 
-  /// Gives records of `bytes` each, as many as lie in memory and `most` at most, to `take` until it answers false.
-  /// Returns how many it took.
+  /// Passes records of `bytes` each to `take` until it returns false: as many as lie in memory, `most` at most. Returns
+  /// how many `take` accepted.
   template <class Take>
   std::uint64_t records(std::size_t bytes, std::uint64_t most, Take&& take) {
     const std::string_view window = bytes_.window(bytes);
@@ -70,7 +70,7 @@ class BinaryValues {
     bytes_.skip(taken * bytes);
     return taken;
   }
-  /// The value that lies there.
+  /// The value at this address.
   template <class T>
   [[nodiscard]] T value(const char* at) const {
     std::array<char, sizeof(T)> bytes;
@@ -97,7 +97,7 @@ class BinaryValues {
   bool swap_;
 };
 
-/// Takes the values of a text file one after the other, wherever its lines end.
+/// Reads the values of a text file in sequence, regardless of line ends.
 class AsciiValues {
  public:
   AsciiValues(FileBytes& bytes, Lines& lines) : bytes_(bytes), lines_(lines) {}
@@ -116,7 +116,7 @@ class AsciiValues {
   }
   void skip(PlyType) { next_word(); }
   [[nodiscard]] std::string where() const { return fmt::format("{}:{}", bytes_.path(), lines_.number()); }
-  /// A digit and a blank for each.
+  /// A digit and a blank for each value.
   static std::size_t least_bytes(const PlyElement& element) { return 2 * element.properties.size(); }
   static constexpr bool in_records = false;
 
@@ -161,7 +161,7 @@ class PlyBody {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}.", values_.where(), what)); }
 
-  /// A header that promises more than the file can hold is told before the reading, not after.
+  /// Refuses a header that promises more elements than the file can hold, before they are read.
   void check_size(const PlyElement& element) const {
     const std::uint64_t left = bytes_.size() - std::min(bytes_.size(), bytes_.offset()) + 1;
     const std::size_t least = Values::least_bytes(element);
@@ -171,7 +171,7 @@ class PlyBody {
     }
   }
 
-  /// The property that lists a face's or strip's vertices, or -1.
+  /// The index of the property that lists the vertices of a face or strip, or -1.
   static int index_list(const PlyElement& element) {
     if (element.name != "face" && element.name != "tristrips") return -1;
     int found = -1;
@@ -212,7 +212,7 @@ class PlyBody {
     }
   }
 
-  /// Takes vertices whose coordinates are all floats or all doubles, without a list beside them, from where they lie.
+  /// Reads vertices directly from the buffer, if the coordinates are all floats or all doubles and there is no list.
   std::uint64_t take_plain_vertices(const PlyElement& element, const std::array<int, 3>& at, std::uint64_t most) {
     if (element.has_list()) return 0;
     std::array<std::size_t, 3> offset{};
@@ -232,8 +232,8 @@ class PlyBody {
     return type == PlyType::float32 ? as(float{}) : as(double{});
   }
 
-  /// Takes triangles of nothing but a byte for their 3 and four bytes for each corner from where they lie, up to the
-  /// first face that is anything else.
+  /// Reads triangles directly from the buffer, if a face is only the byte 3 and four bytes for each corner. Stops
+  /// before the first other face.
   std::uint64_t take_plain_triangles(const PlyElement& element, std::uint64_t most) {
     const PlyProperty& corners = element.properties.front();
     const bool plain = element.properties.size() == 1 && bytes_of(corners.count_type) == 1 &&
@@ -244,7 +244,7 @@ class PlyBody {
       const auto a = values_.template value<std::uint32_t>(face + 1);
       const auto b = values_.template value<std::uint32_t>(face + 5);
       const auto c = values_.template value<std::uint32_t>(face + 9);
-      // Whoever reads this face alone says what is wrong with it.
+      // The ordinary way of reading this face reports what is wrong with it.
       if (*face != 3 || std::max({a, b, c}) >= count) return false;
       sink_.add_triangle(a, b, c);
       return true;
@@ -277,7 +277,7 @@ class PlyBody {
     }
   }
 
-  /// A face whose corners have places in an image. Their list may come before or after that of the vertices.
+  /// Reads a face whose corners have texture coordinates. Their list may come before or after that of the vertices.
   void read_wedges(const PlyElement& element, std::size_t list_at) {
     corners_.clear();
     coordinates_.clear();
@@ -326,7 +326,7 @@ class PlyBody {
     }
   }
 
-  /// Strips follow each other in one list, with -1 between them.
+  /// Reads the list of all strips, which are separated by -1.
   void read_strip(const PlyProperty& property) {
     const std::int64_t length = length_of_list(property);
     std::array<std::uint32_t, 2> before{};

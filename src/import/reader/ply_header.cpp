@@ -34,7 +34,7 @@ constexpr std::array<NamedType, 16> types{{{"char", PlyType::int8},
                                            {"float32", PlyType::float32},
                                            {"float64", PlyType::float64}}};
 
-/// A header has a few dozen lines; a file with more is none.
+/// A header has a few dozen lines; a file with more than this has no header.
 constexpr std::uint64_t line_limit = 10000;
 
 class HeaderParser {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The header of a PLY file: which elements follow, and of what their properties are made.
+/// Parser of the header of a PLY file: its elements and their properties.
 
 #include <cstdint>
 #include <string>
@@ -29,20 +29,20 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  /// Bytes of one element when it has no list, else the least that one can have.
+  /// Bytes of one element; if it has a list, the least number.
   [[nodiscard]] std::size_t least_bytes() const;
   [[nodiscard]] bool has_list() const;
-  /// The position of the property of that name, or -1.
+  /// The index of the property with this name, or -1.
   [[nodiscard]] int find(std::string_view property) const;
 };
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> texture_files;  ///< of comments that MeshLab and others write
+  std::vector<std::string> texture_files;  ///< from comments that MeshLab and others write
 };
 
-/// Takes the header, up to and with the end of its last line. Throws roam::Error with the line that is wrong.
+/// Reads the header up to and including the end of its last line. Throws roam::Error with the line at fault.
 [[nodiscard]] PlyHeader read_ply_header(FileBytes& bytes, Lines& lines);
 
 }  // namespace roam::reader

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Formats that people will try, and what to do instead.
+/// A format that users may try, with advice.
 struct Unsupported {
   std::string_view extension;
   std::string_view advice;
@@ -44,7 +44,7 @@ std::string known_extensions() {
   return list;
 }
 
-/// Files that no format's reader needs to see.
+/// Refuses stand-ins for files, such as pointers of Git LFS, which no reader needs to see.
 void refuse_stand_ins(const fs::path& path) {
   FileBytes bytes(path, [](std::uint64_t) {});
   constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which format a path is of.
+/// Choice of the reader for a path.
 
 #include <string>
 
@@ -9,12 +9,12 @@
 
 namespace roam::reader {
 
-/// Loads the libraries that reading the path may need, those of images where they are wanted. Nothing can be loaded
-/// once the sandbox is entered.
+/// Loads the libraries that reading the path may need, and those of images if `images`. The sandbox prevents loading
+/// later.
 void load_libraries(const std::string& path, bool images);
 
-/// Reads a file by its extension, or a folder of tiles, as far as the settings ask for it. Throws roam::Error for a
-/// path that no reader knows.
+/// Reads a file by its extension, or a folder of tiles, as the settings request. Throws roam::Error for a path that no
+/// reader knows.
 void read_path(const std::string& path, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings);
 
 }  // namespace roam::reader

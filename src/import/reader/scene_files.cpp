@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// References that are remembered, so that each is reported once.
+/// Most references that are remembered, so that each is reported once.
 constexpr std::size_t remembered = 4'000'000;
 
 }  // namespace
@@ -19,7 +19,7 @@ fs::path SceneFiles::open(const fs::path& path) {
   fs::path file = find(path);
   if (!file.empty() && opened_.size() < remembered && opened_.insert(fs::hash_value(file)).second) {
     frames_.send(FrameKind::opened, PayloadWriter().add_text(file.string()));
-    // At once: what the reader computes next is allowed by it.
+    // Flush at once: the next computation is allowed because of this file.
     frames_.flush();
   }
   return file;

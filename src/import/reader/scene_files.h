@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which files of a scene may be opened.
+/// The files of a scene that may be opened.
 
 #include <filesystem>
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace roam::reader {
 
-/// The files of a scene's scope. Every file that a reader opens is looked up here first; the sandbox enforces the same
+/// The files of a scene's scope. A reader looks up every file here before it opens it. The sandbox enforces the same
 /// for code that does not.
 class SceneFiles {
  public:
-  /// `frames`: where is reported what is opened and left out.
+  /// `frames`: receives reports of files that were opened or left out.
   SceneFiles(SceneScope scope, FrameWriter& frames);
 
   /// See SceneScope.
@@ -25,15 +25,15 @@ class SceneFiles {
   }
   [[nodiscard]] std::filesystem::path find(const std::filesystem::path& path) const { return scope_.find(path); }
 
-  /// The same as find, for a file that is opened now, which is reported. Call it once for every file that is read.
+  /// The same as find(), and reports the file as opened. Call it once for every file that is read.
   std::filesystem::path open(const std::filesystem::path& path);
 
-  /// Reports a reference that leads outside, once.
+  /// Reports a reference that leads outside; each path once.
   void leave_out(const std::filesystem::path& path);
 
   /// Whether any reference led outside.
   [[nodiscard]] bool left_any_out() const { return !left_out_.empty(); }
-  /// The first of them.
+  /// The first such reference.
   [[nodiscard]] const std::string& first_left_out() const { return first_left_out_; }
 
  private:

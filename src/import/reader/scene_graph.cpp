@@ -48,7 +48,7 @@ void SceneGraphWalk::meet(osg::Geometry& geometry) {
 fs::path SceneGraphWalk::page_file(const osg::PagedLOD& lod, unsigned i) const {
   const fs::path named_from =
       lod.getDatabasePath().empty() ? files_.back().parent_path() : fs::path(lod.getDatabasePath());
-  // Normal, so that a circle is known by its name.
+  // Normal form, so that circles are recognised by name.
   return (named_from / lod.getFileName(i)).lexically_normal();
 }
 
@@ -75,7 +75,7 @@ void SceneGraphWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
       absent.insert(i);
       children.pop_back();
     }
-    // A level that is not whole would leave holes: the next coarser one stands in for all of it.
+    // An incomplete level would leave holes. The next coarser level replaces all of it.
     if (children.size() < level.size()) continue;
     for (Child& shown : children) {
       if (shown.file.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The walk through an OpenSceneGraph scene, down to its finest level, pages included.
+/// Visitor of an OpenSceneGraph scene at its finest level of detail, pages included.
 
 #include <filesystem>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace roam::reader {
 
-/// Puts the triangles that the walk meets into a sink: at the finest level of detail, pages read as they are met and
-/// freed when they are walked.
+/// Adds the triangles of a scene to a sink, at the finest level of detail. Pages are read when they are visited and
+/// freed afterwards.
 class SceneGraphWalk : public osg_triangles::GraphWalk {
  public:
   explicit SceneGraphWalk(MeshSink& sink);
@@ -21,7 +21,7 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
 
  protected:
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
-  /// The file that a page is in.
+  /// The file of page `i`.
   [[nodiscard]] std::filesystem::path page_file(const osg::PagedLOD& lod, unsigned i) const;
 
  private:
@@ -29,7 +29,7 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
   void leave_out(const osg::Object& object) override;
   [[noreturn]] void refuse_depth() override;
 
-  /// A child of a level of detail, and the file that it was read from; that is empty for one in the same file.
+  /// A child of a level of detail, and the file that it was read from; empty if that is the parent's file.
   struct Child {
     osg::ref_ptr<osg::Node> node;
     std::filesystem::path file;

@@ -32,7 +32,8 @@ T little_endian(const char* bytes) {
   return value;
 }
 
-/// Binary files may begin with "solid" too; their length tells them apart, and else whether it reads like text.
+/// Whether the file is binary. Such files may begin with "solid" too. The length decides; failing that, whether the
+/// file reads as text.
 bool is_binary(FileBytes& bytes) {
   const std::string_view start = bytes.window(header_bytes + count_bytes);
   if (start.size() >= header_bytes + count_bytes) {
@@ -88,7 +89,7 @@ class AsciiStl {
   void read() {
     std::string_view line;
     while (lines_.next(line)) {
-      // Usually one statement a line, but nothing forbids more.
+      // Usually a line has one statement, but more are allowed.
       for (std::string_view rest = line; !(skip_blanks(rest), rest.empty());) take_statement(rest);
     }
     if (inside_ != Inside::nothing) fail("the file ends inside a solid; it is cut short");
@@ -119,7 +120,7 @@ class AsciiStl {
     }
     if (same(word, "facet")) {
       step(Inside::solid, Inside::facet, word);
-      // The normal says nothing that the corners do not, and is often wrong.
+      // The normal follows from the corners, and is often wrong.
       for (int words = 0; words < 4; ++words) take_word(rest);
     } else if (same(word, "outer")) {
       step(Inside::facet, Inside::loop, word);

@@ -16,7 +16,7 @@
 #include "import/reader/scene_graph.h"
 #include "roam/error.h"
 
-// The layout that ContextCapture, and after it most photogrammetry programs, export:
+// The layout of ContextCapture, which most photogrammetry programs export:
 // metadata.xml and Data/Tile_*/Tile_*.osgb, each the root of a tree of pages in its own folder.
 
 namespace roam::reader {
@@ -57,7 +57,7 @@ std::optional<Georeference> georeference_in(const fs::path& file, SceneFiles& fi
   return std::nullopt;
 }
 
-/// Whether a folder of the scene is there. A link that leads outside is reported, and not followed.
+/// Whether the folder exists in the scene. A link that leads outside is reported, and not followed.
 bool is_folder(const fs::path& path, SceneFiles& files) {
   const std::optional<fs::path> place = files.resolve(path);
   if (!place) files.leave_out(path);
@@ -83,7 +83,7 @@ std::vector<fs::path> tile_roots(const fs::path& folder, SceneFiles& files, std:
   return roots;
 }
 
-/// Drops all roots but that of one tile, which is missing when there is none any more.
+/// Removes all roots except that of one tile, which counts as missing if it has disappeared.
 void keep_only(const std::string& tile, std::vector<fs::path>& roots, std::size_t& missing) {
   const auto wanted =
       std::find_if(roots.begin(), roots.end(), [&](const fs::path& root) { return root.stem() == tile; });
@@ -93,7 +93,7 @@ void keep_only(const std::string& tile, std::vector<fs::path>& roots, std::size_
   missing = present ? 0 : 1;
 }
 
-/// Moves the sink to where this folder lies in the frame of the scene.
+/// Sets the sink's offset to the position of this folder in the frame of the scene.
 void place(const Georeference& georeference, const std::string& folder, const ReadingSettings& settings,
            MeshSink& sink) {
   const std::string origin =
@@ -148,7 +148,7 @@ void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const R
   if (!settings.tile.empty()) keep_only(settings.tile, roots, missing);
   for (std::size_t i = 0; i < missing; ++i) sink.report_missing_page(roots[i].string());
   roots.erase(roots.begin(), roots.begin() + static_cast<std::ptrdiff_t>(missing));
-  // A tile that is paged is not opened here but for its place, which needs no image.
+  // A paged tile is opened here only for its bounds, which need no image.
   prepare_osg(sink, files, false);
   Pages pages(sink);
   for (const fs::path& root : roots) {

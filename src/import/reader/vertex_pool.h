@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The vertices of a file whose objects share one list of them.
+/// The vertices of a file whose objects share one list of vertices.
 
 #include <array>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace roam::reader {
 
-/// All vertices of the file so far, and which of them the current object has. At most 29 bytes a vertex; grows by
-/// blocks, so that no growth copies or doubles what is there.
+/// All vertices of the file so far, and which of them the current object uses. At most 29 bytes a vertex. Grows by
+/// blocks, so that growth neither copies nor doubles the memory.
 class VertexPool {
  public:
   void add(const Vec3& vertex) {
@@ -29,7 +29,7 @@ class VertexPool {
   }
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Forgets which vertices the object before had.
+  /// Forgets the indices of the previous object.
   void begin_object() {
     if (forget_all_) {
       for (auto& block : blocks_) block->index.fill(none);
@@ -39,14 +39,14 @@ class VertexPool {
     forget_all_ = false;
     used_.clear();
   }
-  /// The index in the current object of vertex i; where it has none yet, the one that `add_to_object` gives it.
+  /// The index of vertex i in the current object. If it has none yet, calls `add_to_object`, which returns one.
   template <class AddToObject>
   std::uint32_t index_in_object(std::uint64_t i, AddToObject&& add_to_object) {
     Block& block = *blocks_[i / block_size];
     std::uint32_t& index = block.index[i % block_size];
     if (index == none) {
       index = add_to_object(block.vertex[i % block_size]);
-      // Beyond an eighth of all, forgetting all costs no more than remembering which.
+      // Beyond an eighth of all vertices, forgetting all is no slower than remembering which to forget.
       if (used_.size() < least_used + size_ / 8) {
         used_.push_back(i);
       } else {

@@ -12,9 +12,9 @@
 namespace roam::store {
 namespace {
 
-/// The fastest ordinary level. Six, which takes three times as long, saves 1 % of a tile.
+/// The fastest ordinary level. Level six takes three times as long and saves 1 % of a tile.
 constexpr int compression_level = 1;
-/// What flushing a stream may add to the bound for all of them together.
+/// Bytes that the flush after one stream may add to ZSTD_compressBound of all streams together.
 constexpr std::size_t flush_bytes = 64;
 
 std::size_t checked(std::size_t result) {
@@ -41,7 +41,7 @@ bool read_number(std::span<const std::byte>& coded, int bits, std::uint64_t& num
 }
 
 void append_frame(std::vector<std::byte>& coded, std::span<const std::vector<std::byte>> streams) {
-  // A new context each time: what an old one remembers must not get into the bytes.
+  // A new context each time: state from an earlier tile must not affect the bytes.
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd(ZSTD_createCCtx(), ZSTD_freeCCtx);
   if (zstd == nullptr) throw std::bad_alloc();
   std::size_t total = 0;
@@ -52,7 +52,7 @@ void append_frame(std::vector<std::byte>& coded, std::span<const std::vector<std
   coded.resize(begin + ZSTD_compressBound(total) + flush_bytes * streams.size());
   ZSTD_outBuffer out{coded.data() + begin, coded.size() - begin, 0};
   for (const auto& stream : streams) {
-    // Flushing ends a block, and blocks have codes of their own.
+    // Flushing ends a block, and each block has its own codes.
     ZSTD_inBuffer in{stream.data(), stream.size(), 0};
     const ZSTD_EndDirective end = &stream == &streams.back() ? ZSTD_e_end : ZSTD_e_flush;
     if (checked(ZSTD_compressStream2(zstd.get(), &out, &in, end)) != 0) {
@@ -63,7 +63,7 @@ void append_frame(std::vector<std::byte>& coded, std::span<const std::vector<std
 }
 
 bool is_one_frame(std::span<const std::byte> coded) {
-  // The library would allocate for frames of older formats, and go on to a second frame.
+  // ZSTD_decompress would allocate for frames of older formats, and would continue with a second frame.
   static constexpr unsigned char magic[] = {0x28, 0xb5, 0x2f, 0xfd};
   return coded.size() > sizeof(magic) && std::memcmp(coded.data(), magic, sizeof(magic)) == 0 &&
          ZSTD_findFrameCompressedSize(coded.data(), coded.size()) == coded.size();

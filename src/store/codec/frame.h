@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Streams of letters as one Zstandard frame, and numbers of variable length before it.
+/// Streams of letters as one Zstandard frame, and the numbers of variable length before it.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace roam::store {
 
-/// Appends a number, seven bits a byte, the lowest first, the eighth bit where more follow.
+/// Appends a number: seven bits a byte, lowest first. The eighth bit is set where more bytes follow.
 void append_number(std::vector<std::byte>& coded, std::uint64_t number);
 
-/// Takes a number of at most `bits` bits from the front; false where there is none.
+/// Reads a number of at most `bits` bits and removes it from the front. False if there is no such number.
 [[nodiscard]] bool read_number(std::span<const std::byte>& coded, int bits, std::uint64_t& number);
 
-/// Appends a frame that holds the streams one after the other, each with a code of its own. Any thread.
+/// Appends a frame of the streams in order, each with codes of its own. Any thread.
 void append_frame(std::vector<std::byte>& coded, std::span<const std::vector<std::byte>> streams);
 
-/// Whether these bytes are one whole frame of the format that the library decodes without allocating.
+/// Whether these bytes are one whole frame in the format that the library decodes without allocating.
 [[nodiscard]] bool is_one_frame(std::span<const std::byte> coded);
 
 }  // namespace roam::store

@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// The front: the border between the triangles of a tile that are known and those still to come. Encoder and decoder
-/// move it in the same way, and name the vertices of the next triangle by where they lie on it (the idea of Rossignac,
-/// "Edgebreaker", 1999). On surfaces that are no manifolds it only names fewer vertices; nothing depends on its being
-/// a closed line.
+/// The front: the border between the known triangles of a tile and those still to come. Encoder and decoder move it in
+/// the same way, and name the vertices of the next triangle by their position on it. The idea is from Rossignac,
+/// "Edgebreaker", 1999. On non-manifold surfaces it names fewer vertices; nothing requires that it is a closed line.
 
 #include <array>
 #include <cstdint>
@@ -15,27 +14,27 @@ namespace roam::store {
 
 inline constexpr std::uint16_t no_vertex = UINT16_MAX;
 
-/// A vertex of a tile, numbered by first use. 24 bytes, so that those of a tile stay in the second cache.
+/// A vertex of a tile, numbered by first use. 24 bytes, so that the vertices of a tile stay in the second-level cache.
 ///
-/// A front that meets itself at a vertex passes it twice: once from `previous` to `after`, once from `before` to
-/// `next`. Where it passes once, `after` and `before` are no_vertex.
+/// A front that touches itself at a vertex passes it twice: once from `previous` to `after`, once from `before` to
+/// `next`. If it passes once, `after` and `before` are no_vertex.
 struct FrontVertex {
-  std::array<std::uint32_t, 3> at;  ///< on the tile's grid; of fine tiles on the fine one, from -fine_steps / 2
-  std::uint16_t next;               ///< the front goes from here to there: a known triangle lies at its left
+  std::array<std::uint32_t, 3> at;  ///< on the tile's grid; in fine tiles on the fine grid, from -fine_steps / 2
+  std::uint16_t next;               ///< the next vertex of the front; a known triangle lies to the left of the edge
   std::uint16_t previous;
   std::uint16_t after;
   std::uint16_t before;
   std::uint16_t across;  ///< the third corner of the triangle at the edge to `next`
-  std::uint16_t place;   ///< 16 * leaf + slot in the last leaf that has the vertex
+  std::uint16_t place;   ///< 16 * leaf + slot in the last leaf that contains the vertex
 
-  /// Where the front that came from `previous` goes.
+  /// The successor on the pass that came from `previous`.
   [[nodiscard]] std::uint16_t onward() const { return after != no_vertex ? after : next; }
-  /// Where the front that goes to `next` came from.
+  /// The predecessor on the pass that goes to `next`.
   [[nodiscard]] std::uint16_t backward() const { return before != no_vertex ? before : previous; }
 };
 
-/// An edge of the front, from one vertex to its next, both in the leaf that grows. A triangle beyond it has the corners
-/// `to`, `from` and another.
+/// An edge of the front from a vertex to its next, both in the growing leaf. A triangle beyond it has the corners `to`,
+/// `from` and a third.
 struct Gate {
   std::uint16_t from, to;
   std::uint8_t from_slot, to_slot;
@@ -45,26 +44,26 @@ struct Gate {
 enum class Apex : std::uint8_t {
   none,      ///< no triangle of this leaf lies beyond
   fresh,     ///< a vertex not seen before
-  next,      ///< the next on the front after the gate
-  previous,  ///< the one before the gate
+  next,      ///< the next vertex on the front after the gate
+  previous,  ///< the vertex before the gate
   other,     ///< named by slot or age
 };
 inline constexpr unsigned apex_stream = 5;
 
-/// What adding a triangle has come to.
+/// The result of adding a triangle.
 enum class Step : std::uint8_t {
-  full,    ///< nothing: the leaf has no room, or there is no such vertex
-  open,    ///< the gate is now the next one to look beyond
-  closed,  ///< the triangle has no gate that is newer than those on the stack
+  full,    ///< nothing was added: the leaf is full, or the vertex does not exist
+  open,    ///< the gate is now the next gate to visit
+  closed,  ///< the triangle has no gate newer than those on the stack
 };
 
-/// One leaf as it grows, triangle by triangle, and the front with it.
+/// One growing leaf and the front.
 template <bool fine>
 class Growth {
  public:
   explicit Growth(FrontVertex* vertices) : vertices_(vertices) {}
 
-  /// All of the leaf is written, but for its ids.
+  /// Starts a leaf. Every field of it will be written except its ids.
   void begin(std::uint32_t leaf_number, index::Leaf& leaf, index::FineLeaf* low) {
     first_place_ = leaf_number * index::node_width;
     leaf_ = &leaf;
@@ -77,13 +76,13 @@ class Growth {
   [[nodiscard]] unsigned slots() const { return slots_; }
   [[nodiscard]] std::uint16_t in_slot(unsigned slot) const { return in_slot_[slot]; }
 
-  /// The vertex's slot in the leaf; node_width for none.
+  /// The vertex's slot in the leaf; node_width if it has none.
   [[nodiscard]] unsigned slot_of(std::uint16_t v) const {
     const unsigned slot = vertices_[v].place - first_place_;
     return slot < index::node_width ? slot : index::node_width;
   }
 
-  /// The newest gate of the leaf that is still on the front; false when there is none.
+  /// The newest gate of the leaf that is still on the front. False if there is none.
   bool pop(Gate& gate) {
     while (gates_ > 0) {
       const std::uint8_t slots = open_[--gates_];
@@ -96,7 +95,7 @@ class Growth {
     return false;
   }
 
-  /// The gate that begins at a vertex, of whichever leaf. False where there is none, or when the leaf has no room.
+  /// The gate that begins at a vertex, in any leaf. False if there is none or the leaf is full.
   bool enter(std::uint16_t from, Gate& gate) {
     gate.from = from;
     gate.to = vertices_[from].next;
@@ -129,7 +128,7 @@ class Growth {
         return Step::open;
       case Apex::previous:
         leave_backward(from);
-        if (v.after == gate.from) {  // the pass that changes is the one with `next`
+        if (v.after == gate.from) {  // the pass with `next` is the one that changes
           v.after = v.next;
           std::swap(v.previous, v.before);
         }
@@ -172,7 +171,7 @@ class Growth {
     return Step::closed;
   }
 
-  /// Fills what the leaf has no triangles and no vertices for.
+  /// Fills the unused triangles and vertices of the leaf.
   void finish() {
     for (int k = 0; k < 3; ++k) {
       std::uint64_t c = corners_[k];
@@ -189,7 +188,7 @@ class Growth {
   }
 
  private:
-  /// The vertex's slot in the leaf, a new one if it has none.
+  /// The vertex's slot in the leaf. Assigns a new one if it has none. False if the leaf is full.
   bool place(std::uint16_t v, std::uint8_t& slot) {
     const unsigned known = slot_of(v);
     slot = static_cast<std::uint8_t>(known);
@@ -215,13 +214,13 @@ class Growth {
     corners_[2] |= c << shift;
   }
 
-  /// The pass from `previous` ends here.
+  /// Ends the pass from `previous`.
   static void leave_onward(FrontVertex& v) {
     if (v.after == no_vertex) v.next = no_vertex;
     v.previous = v.before;
     v.after = v.before = no_vertex;
   }
-  /// The pass to `next` ends here.
+  /// Ends the pass to `next`.
   static void leave_backward(FrontVertex& v) {
     if (v.before == no_vertex) v.previous = no_vertex;
     v.next = v.after;
@@ -240,7 +239,7 @@ class Growth {
   FrontVertex* vertices_;
   index::Leaf* leaf_ = nullptr;
   index::FineLeaf* low_ = nullptr;
-  unsigned first_place_ = 0;  ///< that of the leaf's slot 0
+  unsigned first_place_ = 0;  ///< the place of the leaf's slot 0
   unsigned slots_ = 0, triangles_ = 0, gates_ = 0;
   std::array<std::uint64_t, 3> corners_{};
   std::array<std::uint16_t, index::node_width> in_slot_{};

@@ -11,7 +11,7 @@
 namespace roam::store {
 namespace {
 
-/// Units of the hash: the low bits of the finest grid.
+/// Exponent of the unit of the hash: 2^-16 of a step of the finest grid, 2^-35 m.
 constexpr int unit_exponent = index::finest_exponent - 16;
 
 using Corner = std::array<std::uint64_t, 3>;

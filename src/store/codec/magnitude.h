@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whole numbers as a class, which an entropy coder can take for a letter, and bits that no coder would shorten.
+/// Whole numbers as a class, which an entropy coder takes as a letter, and bits that no coder would shorten.
 
 #include <bit>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace roam::store {
 
-/// Numbers below own_class are classes of their own. Above, each power of two is divided into four classes, and the
-/// rest of the number follows as it is: within a class all numbers are about equally frequent.
+/// Numbers below own_class are classes of their own. Each power of two above is divided into four classes, and the
+/// remaining bits follow uncoded: within a class all numbers are about equally frequent.
 inline constexpr std::uint32_t own_class = 8;
 inline constexpr std::uint32_t class_count = own_class + (32 - 3) * 4;
 
@@ -20,14 +20,14 @@ inline constexpr std::uint32_t class_count = own_class + (32 - 3) * 4;
   const auto top = static_cast<std::uint32_t>(std::bit_width(number)) - 1;
   return own_class + (top - 3) * 4 + (number >> (top - 2) & 3U);
 }
-/// How many bits follow.
+/// The number of bits that follow a class.
 [[nodiscard]] constexpr std::uint32_t bits_of(std::uint32_t c) { return c < own_class ? 0 : (c - own_class) / 4 + 1; }
 /// The least number of a class.
 [[nodiscard]] constexpr std::uint32_t base_of(std::uint32_t c) {
   return c < own_class ? c : (4 + (c & 3U)) << ((c - own_class) / 4 + 1);
 }
 
-/// Differences, small of either sign, as small numbers. Differences of 16 bits are extended to 32 first.
+/// Signed differences of small magnitude as small numbers. Extend differences of 16 bits to 32 first.
 [[nodiscard]] inline std::uint32_t zigzag(std::uint32_t difference) {
   return difference << 1U ^ (0U - (difference >> 31U));
 }
@@ -51,11 +51,12 @@ class BitWriter {
   std::uint32_t count_ = 0;
 };
 
-/// Reads them back. Does not look for the end: whoever reads leaves room behind it and asks within() in time.
+/// Reads the bits back. It does not check for the end: the caller leaves room behind the bytes and calls within() in
+/// time.
 class BitReader {
  public:
   BitReader(const std::byte* bytes, std::size_t size) : bytes_(bytes), end_(8 * size) {}
-  /// The next 57 bits or more, the first lowest.
+  /// At least the next 57 bits, the first one lowest.
   [[nodiscard]] std::uint64_t peek() const {
     std::uint64_t word;
     std::memcpy(&word, bytes_ + at_ / 8, sizeof(word));
@@ -63,7 +64,7 @@ class BitReader {
   }
   void skip(std::uint32_t bits) { at_ += bits; }
   [[nodiscard]] bool within() const { return at_ <= end_; }
-  /// At the end but for the bits that fill the last byte.
+  /// Whether nothing is left except the bits that fill the last byte.
   [[nodiscard]] bool finished() const { return (at_ + 7) / 8 == end_ / 8; }
 
  private:

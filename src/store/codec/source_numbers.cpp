@@ -11,7 +11,7 @@
 namespace roam::store {
 namespace {
 
-/// The letter of a number that is said in full: the part is another, or the difference takes more than 32 bits.
+/// The letter of a number that is stored in full: its part is another, or the difference needs more than 32 bits.
 constexpr std::uint32_t jump = 255;
 
 enum Stream : std::uint8_t { part_stream, letter_count, jump_stream, bit_stream, stream_count };
@@ -58,7 +58,7 @@ std::vector<SourceNumber> decode_numbers(std::span<const std::byte> coded, std::
   for (std::uint64_t* n : {&part_bytes, &jump_bytes, &bit_bytes}) {
     if (!read_number(coded, 28, *n)) refuse();
   }
-  // No tile's numbers take more; so nobody makes this allocate without measure.
+  // An upper bound for any tile's numbers, so that hostile bytes cannot make this allocate without limit.
   const std::uint64_t most = most_number_bytes(triangles);
   const std::uint64_t size = part_bytes + triangles + jump_bytes + bit_bytes;
   if (size > most || part_bytes % bytes_of_part != 0 || !is_one_frame(coded)) refuse();

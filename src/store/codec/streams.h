@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the bytes of a tile hold: numbers of variable length, then one Zstandard frame of streams.
+/// The layout of a tile's bytes: numbers of variable length, then one Zstandard frame of streams.
 
 #include <array>
 #include <cstddef>
@@ -11,26 +11,27 @@
 
 namespace roam::store {
 
-/// The streams, of letters of a byte each but for the last three, in their order in the frame.
+/// The streams in the order of the frame. All consist of letters of one byte, except the last three.
 enum Stream : std::uint8_t {
-  tree_stream,    ///< a letter a node: its counts
-  count_stream,  ///< a letter a leaf: triangles - 1
-  gate_stream,   ///< three Apex a letter
-  seed_stream,   ///< a letter for each triangle without a gate in its leaf: how it is named
-  name_stream,   ///< of vertices that are named by slot or age
+  tree_stream,    ///< one letter for each node: its counts
+  count_stream,  ///< one letter for each leaf: triangles - 1
+  gate_stream,   ///< three Apex in each letter
+  seed_stream,   ///< one letter for each triangle without a gate in its leaf: how it is named
+  name_stream,   ///< vertices that are named by slot or age
   gate_x,   ///< classes of differences between a vertex and its prediction beyond a gate
   gate_y,
   gate_z,
-  free_x,  ///< the same from the vertex named before
+  free_x,  ///< classes of differences from the vertex named before
   free_y,
   free_z,
-  name_bit_stream,  ///< what follows the classes of ages
-  gate_bit_stream,  ///< what follows the classes of a vertex beyond a gate: x, y, z
+  name_bit_stream,  ///< the bits that follow the classes of ages
+  gate_bit_stream,  ///< the bits that follow the classes of a vertex beyond a gate: x, y, z
   free_bit_stream,
   stream_count
 };
 
-/// How many letters there are, in the order of the numbers before the frame. Those of tree and leaves are known.
+/// The numbers of letters, in the order in which they precede the frame. Those of tree and leaves follow from the
+/// shape.
 struct StreamSizes {
   std::uint32_t gates = 0;  ///< letters, not Apex
   std::uint32_t seeds = 0;
@@ -42,15 +43,16 @@ struct StreamSizes {
   std::uint32_t free_bits = 0;
 };
 
-/// Letters of seed_stream: a triangle beyond a gate of an earlier leaf, by its Apex - 1; from free_seed the corners of a
-/// triangle one by one, plus 1, 2, 4 for those not seen before.
+/// Letters of seed_stream. Below free_seed: a triangle beyond a gate of an earlier leaf, as its Apex - 1. From
+/// free_seed on: a triangle named corner by corner, plus 1, 2, 4 for the corners that are new.
 inline constexpr std::uint8_t free_seed = apex_stream - 1;
 inline constexpr std::uint8_t seed_letters = free_seed + 8;
 
-/// Letters of name_stream below node_width: the slot in the leaf. Above: the class of the age, 0 for the newest vertex.
+/// Letters of name_stream. Below node_width: the slot in the leaf. From there on: the class of the age, 0 for the
+/// newest vertex.
 inline constexpr std::uint8_t age_name = index::node_width;
 
-/// A tile's vertices are counted in 15 bits, its leaves' slots too.
+/// Upper bound of a tile's vertices, and of its leaves' slots. Both fit into 15 bits.
 inline constexpr std::size_t tile_vertices = tile_blocks * index::node_width;
 
 }  // namespace roam::store

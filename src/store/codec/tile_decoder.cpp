@@ -12,12 +12,12 @@
 namespace roam::store {
 namespace {
 
-/// More than the streams of any tile: three classes and three times 30 bits a vertex, and what else there is.
+/// More than the streams of any tile: three classes and three times 30 bits for each vertex, and the other streams.
 constexpr std::size_t most_bytes = tile_vertices * 15 + tile_bytes;
-/// How far a leaf that does not end in time reads beyond its streams.
+/// Bytes beyond the streams that may be read for a leaf that does not end in time.
 constexpr std::size_t overrun = 1024;
 
-/// Letters, one after the other. Beyond the end of the stream all are zero.
+/// A sequence of letters. All letters beyond the end of the stream are zero.
 class Letters {
  public:
   Letters() = default;
@@ -35,7 +35,7 @@ class Letters {
   const std::byte *at_ = nullptr, *end_ = nullptr;
 };
 
-/// What a class stands for, in a table. Letters that are no class are as good as zero.
+/// The base and number of bits of a class, in a table. Letters that are no class count as zero.
 struct Magnitude {
   std::uint32_t base, bits;
   [[nodiscard]] std::uint32_t with(std::uint64_t word) const {
@@ -63,14 +63,15 @@ constexpr std::array<std::uint16_t, 256> apexes_of_letter = apexes();
 
 using Place = std::array<std::uint32_t, 3>;
 
-/// The differences of vertices that are predicted alike, from their classes and bits. Taken apart from the rest of the
-/// decoding, because nothing here waits for a decision. False when there are too few bits.
+/// Reads the differences of vertices that share a kind of prediction, from their classes and bits. This loop is
+/// separate from the rest of the decoding because no value in it depends on a branch. False if there are too few
+/// bits.
 template <bool fine>
 bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader bits, std::span<Place> differences) {
   for (std::size_t i = 0; i < differences.size(); ++i) {
     std::uint64_t word = bits.peek();
     for (int k = 0; k < 3; ++k) {
-      if (fine && k > 0) word = bits.peek();  // three numbers of 16 bits are in one word, of 32 bits not
+      if (fine && k > 0) word = bits.peek();  // one word holds three numbers of 16 bits, but not of 32
       const Magnitude m = magnitude_tables[std::to_integer<std::size_t>(letters[k][i])];
       differences[i][k] = unzigzag(m.with(word));
       word >>= m.bits;
@@ -154,7 +155,7 @@ class LeafDecoder {
     }
   }
 
-  /// A triangle that no gate of the leaf leads to.
+  /// Adds a triangle that no gate of the leaf reaches.
   Step seed(Gate& gate) {
     std::uint8_t letter = 0;
     if (!seeds_.next(letter) || letter >= seed_letters) return Step::full;
@@ -172,7 +173,7 @@ class LeafDecoder {
     return growth_.add(corners);
   }
 
-  /// A vertex by slot or age.
+  /// Reads a vertex by slot or age.
   std::uint16_t named() {
     std::uint8_t letter = 0;
     if (!names_.next(letter)) return no_vertex;
@@ -202,7 +203,7 @@ class LeafDecoder {
   std::size_t count_ = 0;  ///< of vertices
   Growth<fine> growth_;
   Place last_{};
-  std::uint32_t apexes_ = 1;  ///< those of the letter that are left, and a one above
+  std::uint32_t apexes_ = 1;  ///< the remaining ones of the letter, and a one above
 };
 
 }  // namespace

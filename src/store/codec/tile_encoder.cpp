@@ -13,12 +13,12 @@ namespace {
 using index::node_width;
 using Place = std::array<std::uint32_t, 3>;
 
-/// The numbers of the vertices seen so far, by place.
+/// The numbers of the vertices seen so far, by grid position.
 class VertexTable {
  public:
   explicit VertexTable(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices), no_vertex) {}
 
-  /// Where the number of this place is, or is to be written.
+  /// The slot that holds the number of this position, or will hold it.
   std::uint16_t& find(const Place& at, const FrontVertex* vertices) {
     std::uint64_t h = (at[0] * 0x9e3779b97f4a7c15U) ^ (at[1] * 0xc2b2ae3d27d4eb4fU) ^ (at[2] * 0x165667b19e3779f9U);
     for (h ^= h >> 29U;; ++h) {
@@ -31,17 +31,17 @@ class VertexTable {
   std::vector<std::uint16_t> slots_;
 };
 
-/// A leaf of the builder, to be put in another order.
+/// A leaf of the builder, still to be reordered.
 struct Source {
   int triangles = 0;
   std::uint32_t undone = 0;                                 ///< a bit a triangle
   std::array<std::array<std::uint8_t, 3>, node_width> corners;  ///< slots
   std::array<Place, node_width> places;
   std::array<std::uint16_t, node_width> numbers;  ///< of the vertices, no_vertex for those not seen before
-  std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< the triangle with an edge from .. to, node_width: none
+  std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< triangle by its edge; node_width: none
   std::array<std::uint8_t, node_width> slot;                        ///< of the source, for each of the leaf that grows
 
-  /// The slot of the corner of a triangle with an edge from .. to that is not on it.
+  /// The slot of the third corner of triangle `t`, which has an edge from .. to.
   [[nodiscard]] unsigned third(int t, unsigned from, unsigned to) const {
     const auto& c = corners[t];
     return c[0] == from && c[1] == to ? c[2] : c[1] == from && c[2] == to ? c[0] : c[1];
@@ -144,7 +144,7 @@ class TileEncoder {
     old = leaf;
   }
 
-  /// How the third corner of the triangle beyond a gate is named.
+  /// How to name the third corner of the triangle beyond a gate.
   Apex apex(const Source& s, unsigned third, std::uint16_t from, std::uint16_t to) {
     const std::uint16_t v = s.numbers[third];
     if (v == no_vertex) return Apex::fresh;
@@ -168,7 +168,7 @@ class TileEncoder {
     return step;
   }
 
-  /// A triangle that no gate of the leaf leads to. Returns which.
+  /// Adds a triangle that no gate of the leaf reaches. Returns its number.
   int seed(Source& s, Gate& gate, Step& step) {
     int best = node_width, first = 0, age = INT32_MAX;
     for (int t = 0; t < s.triangles; ++t) {
@@ -193,7 +193,7 @@ class TileEncoder {
       step = add(s, third, gate, how);
       return best;
     }
-    // None touches the front: the one with most known corners, those first.
+    // None touches the front. Take the triangle with most known corners, and put those first.
     std::uint32_t least = UINT32_MAX;
     for (int t = 0; t < s.triangles; ++t) {
       if ((s.undone >> t & 1U) == 0) continue;
@@ -210,7 +210,7 @@ class TileEncoder {
     return best;
   }
 
-  /// The number of corners not seen before, then which, as a number that is less the later they come.
+  /// A cost: the number of new corners, then their position. Smaller if they come later.
   static std::uint32_t fresh_corners(const Source& s, int t, int first) {
     std::uint32_t count = 0, which = 0;
     for (int c = 0; c < 3; ++c) {
@@ -249,7 +249,7 @@ class TileEncoder {
       if (!fine) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
       put_magnitude(stream + k, 0, zigzag(difference), stream == gate_x ? gate_bits_ : free_bits_);
     }
-    // Before it counts as seen: the table finds the free slot of its place.
+    // Looked up before the vertex is stored, so that the table returns the free slot of its position.
     std::uint16_t& number = table_.find(at, vertices_.get());
     number = static_cast<std::uint16_t>(count_);
     s.numbers[slot] = number;
@@ -264,7 +264,7 @@ class TileEncoder {
     }
   }
 
-  /// The ids of a leaf after its triangles have been put into this order.
+  /// Reorders the ids of a leaf like its triangles.
   void reorder_ids(const index::Leaf& leaf, std::span<const std::uint8_t> order) {
     std::array<std::uint8_t, std::size_t{4} * node_width> ids;
     std::uint8_t* at = tile_.ids.data() + leaf.ids + 4;

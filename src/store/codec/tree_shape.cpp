@@ -27,19 +27,19 @@ constexpr auto counts_of_letters() {
 }
 constexpr auto letter_counts = counts_of_letters();
 
-/// Eight numbers of one vector register, by the extension that GCC and Clang share. Signed: the oldest vector units of
-/// the x86 have a minimum of signed 16-bit numbers only.
+/// Eight numbers in one vector register, by the extension that GCC and Clang share. They are signed because the oldest
+/// vector units of x86 have a minimum of 16-bit numbers only for signed ones.
 using Lanes [[gnu::vector_size(16)]] = std::int16_t;
 
 Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
 
-/// From eight lanes of a and eight of b the least of two each: four and four, alternating.
+/// The lesser of lanes i and i + 4 of a, and of b: four of each, alternating.
 Lanes narrow(Lanes a, Lanes b) {
   return least(__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11),
                __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15));
 }
 
-/// The box of a leaf's vertices: all sixteen, as those that are not used repeat the first.
+/// The box of a leaf's vertices. All sixteen are used, because unused ones repeat the first.
 StepBox box_of(const Leaf& leaf) {
   std::array<Lanes, 3> lower, upper;
   for (int k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The tree of a tile as two counts a node, and the nodes from it: numbers of children and boxes are computed again.
+/// The tree of a tile as two counts for each node, and its reconstruction with child numbers and boxes.
 
 #include <array>
 #include <cstddef>
@@ -13,25 +13,25 @@
 
 namespace roam::store {
 
-/// A tile has fewer blocks than this.
+/// Upper bound of a tile's blocks.
 inline constexpr std::size_t tile_blocks = tile_bytes / sizeof(index::Block);
 
-/// The counts of a node as one letter: pairs (children, inner children) numbered through.
+/// The counts of a node as one letter: the pairs (children, inner children), enumerated.
 [[nodiscard]] inline std::uint8_t node_letter(const index::Node& node) {
   const unsigned c = node.child_count;
   return static_cast<std::uint8_t>(c * (c + 1) / 2 - 1 + node.inner_count);
 }
 
-/// What is needed to make nodes again; its memory is used over and over.
+/// Reconstructs the nodes of tiles. Its memory is reused.
 class TreeBuilder {
  public:
-  /// Makes the nodes, all but their boxes. They come as collapse() makes them: node after node, depth first, takes the
-  /// next numbers for its inner children and for its leaves. Returns null, or why these letters are no tree of exactly
-  /// as many nodes and leaves, no deeper than index::max_depth.
+  /// Makes the nodes without their boxes, numbered as collapse() does: depth first, each node takes the next numbers
+  /// for its inner children and for its leaves. Returns null, or the reason why the letters are no tree of exactly this
+  /// many nodes and leaves with a depth of at most index::max_depth.
   [[nodiscard]] const char* topology(std::span<const std::byte> letters, std::span<index::Node> nodes,
                                      std::size_t leaves);
 
-  /// Sets the boxes of the nodes; children come after their parents.
+  /// Sets the boxes of the nodes. Children must come after their parents.
   void refit(std::span<index::Node> nodes, std::span<const index::Leaf> leaves);
 
  private:
@@ -40,7 +40,7 @@ class TreeBuilder {
   std::array<index::StepBox, tile_blocks> boxes_;
 };
 
-/// The order in which topology() visits the nodes of a tile that was built.
+/// Visits the nodes of a built tile in the order of topology().
 template <class Visit>
 void visit_depth_first(std::span<const index::Node> nodes, std::uint32_t at, Visit&& visit) {
   visit(nodes[at]);

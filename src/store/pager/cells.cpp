@@ -27,7 +27,7 @@ struct Cube {
     return out;
   }
   [[nodiscard]] TriangleId number() const { return static_cast<TriangleId>(x + mask_cells * (y + mask_cells * z)); }
-  /// The half of it, along each axis, that the bits of `i` choose.
+  /// The octant that the bits of `i` choose: bit k is the upper half along axis k.
   [[nodiscard]] Cube part(int i) const {
     const int half = size / 2;
     return {x + (i & 1) * half, y + (i >> 1 & 1) * half, z + (i >> 2 & 1) * half, half};
@@ -49,8 +49,8 @@ Filled filled(const TileEntry& t, const Cube& cube) {
   return every ? Filled::all : any ? Filled::some : Filled::none;
 }
 
-/// Visits the boxes of occupied cells, as large as they get, of which look(box) is true; `order` is the part of a cube
-/// that comes first.
+/// Visits the boxes of occupied cells for which look(box) is true. Boxes are as large as possible. `order` is the
+/// octant of each cube that is visited first.
 template <class Look, class Visit>
 void visit_cells(const TileEntry& t, const Cube& cube, int order, const Look& look, const Visit& visit) {
   const Filled state = filled(t, cube);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Where the thread of the body and the loading threads meet: a lock that is held for microseconds, and that the body's
-/// thread only ever tries.
+/// Data that the body's thread and the loading threads exchange. Its lock is held for microseconds, and the body's
+/// thread only tries it.
 
 #include <array>
 #include <chrono>
@@ -18,7 +18,7 @@ namespace roam::paging {
 
 using Clock = std::chrono::steady_clock;
 
-/// A queue in memory that is taken once.
+/// A queue of fixed capacity, allocated once.
 template <class T>
 class Queue {
  public:
@@ -26,7 +26,7 @@ class Queue {
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t room() const { return items_.size() - size_; }
-  /// Only where there is room.
+  /// Requires room() > 0.
   void push(const T& item) { items_[(first_ + size_++) % items_.size()] = item; }
   T pop() {
     const T item = items_[first_];
@@ -40,19 +40,19 @@ class Queue {
   std::size_t first_ = 0, size_ = 0;
 };
 
-/// What update() is to do.
+/// A change for update() to make.
 struct Message {
   enum class Kind : std::uint8_t { come, go, failed };
   Kind kind = Kind::come;
   PagedItem item;
-  std::uint32_t unit = 0;  ///< of a tile that comes
-  PageInMemory page;       ///< that comes
+  std::uint32_t unit = 0;  ///< of a tile, for `come`
+  PageInMemory page;       ///< for `come`
 };
 
-/// What became of a item that was to go.
+/// The result of a request to evict an item.
 struct Gone {
   PagedItem item;
-  bool kept = false;  ///< too near to the body
+  bool kept = false;  ///< not evicted: too near to the body
 };
 
 struct Handover {
@@ -60,16 +60,16 @@ struct Handover {
 
   std::mutex mutex;
   TrackedBody tracked;
-  std::uint64_t told = 0;  ///< how often update() told of a body
+  std::uint64_t told = 0;  ///< number of times that update() has set `tracked`
   Queue<Message> messages{capacity};
   Queue<Gone> gone{capacity};
-  PagerStats stats;      ///< but for last_failure
-  double latency = 0.0;  ///< seconds from the beginning of a read until the item is ready: the worst of late
-  std::array<Clock::time_point, most_loaders> reading_since{};  ///< by loading thread; 0 where it does not read
+  PagerStats stats;      ///< all except last_failure
+  double latency = 0.0;  ///< seconds from the start of a read until the item is ready: a recent maximum
+  std::array<Clock::time_point, most_loaders> reading_since{};  ///< by loading thread; 0 if it is not reading
   struct {
     PagedItem item;
     Box box;
-    const char* why = nullptr;  ///< null: none yet
+    const char* why = nullptr;  ///< null: no failure yet
   } last_failure;
 };
 

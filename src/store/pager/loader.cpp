@@ -10,10 +10,10 @@
 namespace roam::paging {
 namespace {
 
-/// How long a thread that has nothing to do sleeps: as long as a body that begins to move may wait for it.
+/// Sleep of an idle thread, and so the longest delay after a body begins to move.
 constexpr std::chrono::milliseconds nap{2};
 
-/// What a page must say, beyond what view_page checks, lest something unknown not be solid where it is.
+/// Checks beyond those of view_page. They ensure that every unknown place is solid. Returns null, or what is wrong.
 const char* check_solid(const store::PageView& view, const Box& page) {
   for (const store::TileEntry& tile : view.tiles) {
     std::uint64_t cells = 0;
@@ -175,7 +175,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   return nullptr;
 }
 
-/// Nothing where it cannot be found out now, and never an exception.
+/// The name, or nothing if it is not available now. Never throws.
 std::optional<std::string> Loaders::name(TriangleId triangle) {
   try {
     if ((triangle & unknown_bit) == 0) return store_->source(triangle).object;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The loading threads: they read, check and decode what the planner says.
+/// The threads that read, check and decode the items that the planner chooses.
 
 #include <condition_variable>
 #include <memory>
@@ -21,15 +21,16 @@ class Loaders {
   /// Bytes that one thread needs.
   static constexpr std::size_t cost = store::tile_bytes + (1 << 20);
 
-  /// Throws roam::Error where a thread cannot be started.
+  /// Throws roam::Error if a thread cannot be started.
   Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover, Names& names,
           int count);
-  /// Waits until what is being read has been read.
+  /// Waits until reads in progress have ended.
   ~Loaders();
 
  private:
   struct Tools;
-  /// Texts of exceptions, which live as long as the loaders: a few, because a reader may make each of its own.
+  /// Texts of exceptions. They live as long as the loaders. Their number is limited, because a reader may make a
+  /// different text each time.
   class Reasons {
    public:
     [[nodiscard]] const char* keep(const char* text) noexcept;
@@ -42,7 +43,7 @@ class Loaders {
 
   void run(int number);
   void end();
-  /// Whatever is thrown meanwhile is a failure like that of a disk.
+  /// Turns every exception into a failure, like a failed read of the disk.
   [[nodiscard]] Outcome load(const Work& work, Tools& tools) noexcept;
   [[nodiscard]] const char* read(const Work& work, std::span<std::byte> out, Outcome& outcome) const;
   [[nodiscard]] const char* load_tile(const Work& work, Tools& tools, Outcome& outcome) const;

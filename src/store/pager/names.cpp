@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Who asks in every frame must not keep a disk that fails busy.
+/// A caller may ask for a name in every frame; this must not keep a failing disk busy.
 constexpr std::chrono::milliseconds retry_after{500};
 
 }  // namespace
@@ -30,9 +30,9 @@ std::string Names::ask(TriangleId triangle) {
     *entry = {triangle, {}, 0, true, {}};
   }
   entry->asked = ++count_;
-  // Why something is unknown changes.
+  // The reason why an item is unknown may change.
   if ((triangle & unknown_bit) != 0) entry->wanted = true;
-  // What could not be read may come back.
+  // A name that could not be read may become readable.
   if (entry->again != Clock::time_point{} && Clock::now() >= entry->again) entry->wanted = true;
   return entry->name;
 }

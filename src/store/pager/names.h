@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names of objects, found out by a loading thread for whoever asks again.
+/// A cache of object names. A loading thread finds missing ones, for later calls.
 
 #include <array>
 #include <chrono>
@@ -16,19 +16,19 @@ namespace roam::paging {
 
 class Names {
  public:
-  /// The name, or "" when it is not known yet: then a loading thread is asked. Never waits.
+  /// The name, or "" if it is not known yet; then a loading thread finds it. Never waits.
   [[nodiscard]] std::string ask(TriangleId triangle);
-  /// Finds out one name that was asked for. What `find` cannot tell is asked for again when somebody asks, but not at
-  /// once. For loading threads.
+  /// Finds one name that is wanted, by `find`. If `find` returns nothing, a later ask() tries again, but not at once.
+  /// For loading threads.
   void serve(const std::function<std::optional<std::string>(TriangleId)>& find);
 
  private:
   struct Entry {
     TriangleId triangle = 0;
     std::string name;
-    std::uint64_t asked = 0;  ///< when last, counted; 0: never
+    std::uint64_t asked = 0;  ///< a counter: the last call of ask() for it; 0: never
     bool wanted = false;
-    std::chrono::steady_clock::time_point again{};  ///< when it may be tried again; 0: nothing is wrong
+    std::chrono::steady_clock::time_point again{};  ///< when to try again; 0: the last try did not fail
   };
   [[nodiscard]] Entry* entry_of(TriangleId triangle);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is paged: tiles, and pages of the index.
+/// Numbers of the items that a pager loads: tiles, and pages of the index.
 
 #include <cstdint>
 

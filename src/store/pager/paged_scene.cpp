@@ -10,7 +10,7 @@ namespace {
 
 static_assert(index::tile_triangle_bits == store::triangle_bits);
 
-/// What a traversal of one page asks of the tiles that are not there.
+/// Callbacks for the absent tiles that a traversal of one page meets.
 struct Asking {
   const Residents& residents;
   const index::Piece& piece;
@@ -44,7 +44,7 @@ struct Asking {
 
 constexpr TriangleId page_base(std::uint32_t page) { return store::stored_id(page, 0, 0); }
 
-/// Calls visit(page, its roots) for each page of which there are some.
+/// Calls visit(page, its roots) for each page with roots.
 template <class Visit>
 void each_page(const index::Roots& roots, const Visit& visit) {
   const index::Root* const end = roots.root.data() + roots.count;

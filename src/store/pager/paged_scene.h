@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A query of everything that is in memory and of what is not.
+/// Queries of the tiles in memory and of the unknown cells between them.
 
 #include <optional>
 
@@ -11,18 +11,18 @@
 
 namespace roam::paging {
 
-/// Adds what of all pages meets the box. False where not all of that is in memory, or is too much.
+/// Adds the roots in all pages that meet the box. Returns false if some are not in memory, or if there are too many.
 [[nodiscard]] bool gather(const Residents& residents, const Box& box, index::Roots& out);
 
-/// As world/scene_queries.h asks it.
+/// A scene for world/scene_queries.h.
 class PagedScene {
  public:
   enum class What : std::uint8_t {
     everything,
-    coming,  ///< what is unknown and has not failed
+    coming,  ///< unknown items that have not failed
   };
   explicit PagedScene(const Residents& residents, What what = What::everything) : residents_(residents), what_(what) {}
-  /// Of everything, beginning at `roots`, unless that is null.
+  /// All items. The search begins at `roots` unless that is null.
   PagedScene(const Residents& residents, const index::Roots* roots) : residents_(residents), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece);
@@ -36,7 +36,7 @@ class PagedScene {
   const Residents& residents_;
   What what_ = What::everything;
   const index::Roots* roots_ = nullptr;
-  // What first() met.
+  // The result of first().
   bool known_ = false;
   std::uint32_t page_ = 0;
   index::Place place_;
@@ -44,7 +44,7 @@ class PagedScene {
   TriangleId base_ = 0;
 };
 
-/// The index that holds what a first impact touches, which PagedScene has named.
+/// The index of the triangle or cell that a first impact touches. PagedScene has set its name.
 [[nodiscard]] index::Index index_of(const Residents& residents, const FirstImpact& first);
 
 }  // namespace roam::paging

@@ -24,13 +24,13 @@ namespace {
 
 using namespace paging;
 
-/// Changes that one update takes into use: some 50 ns each.
+/// Most changes that one update makes; each takes about 50 ns.
 constexpr int most_changes = 64;
 
-/// Metres. However short a time is waited for, what the body is in must be known.
+/// Metres. Even for the shortest wait, the space that the body occupies must be known.
 constexpr double least_wait_reach = 1e-3;
 
-/// Bytes for everything whose size no store and no option changes.
+/// Bytes for all data whose size depends on no store and no option.
 constexpr std::uint64_t fixed_cost = 512 << 10;
 
 struct Plan {
@@ -38,7 +38,7 @@ struct Plan {
   std::uint32_t units = 0;
 };
 
-/// How the memory is divided.
+/// Divides the memory between tables and items.
 Plan divide(const Store::State& store, const PagerOptions& options) {
   if (options.memory < Pager::least_memory) {
     throw Error(fmt::format("a pager with {} bytes of memory: it needs {} MiB at least", options.memory,
@@ -53,7 +53,7 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
   }
   const std::uint64_t threads = static_cast<std::uint64_t>(options.loaders) * Loaders::cost;
   const std::uint64_t tables = store.pages.size() * (Residents::page_cost + Planner::page_cost);
-  // The largest pages and tiles that may have to be there together.
+  // The largest pages and tiles that may have to be in memory together.
   std::uint64_t page = 0;
   for (const Store::State::Page& p : store.pages) {
     page = std::max<std::uint64_t>(page, Planner::page_bytes(p.ref.bytes, p.ref.tiles) + unit_bytes);
@@ -74,11 +74,11 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
   return plan;
 }
 
-/// Memory that is there: every byte of it has been written to.
+/// Memory that the system has committed: every byte of it has been written.
 class Memory {
  public:
   explicit Memory(std::size_t bytes) : bytes_(static_cast<std::byte*>(::operator new(bytes, alignment))) {
-    // In large pages where the system has them: a step into new tiles misses the address cache as often as the others.
+    // Large pages, where the system has them: a step into new tiles then misses the address cache no more than others.
     ::madvise(bytes_, bytes, MADV_HUGEPAGE);
     std::memset(bytes_, 0, bytes);
   }
@@ -112,23 +112,23 @@ struct Pager::State {
   mutable Handover handover;
   Names names;
 
-  // Of the thread that moves the body.
+  // Used by the thread that moves the body.
   Residents residents;
-  std::uint64_t revision = next_revision();  ///< which no other space has
+  std::uint64_t revision = next_revision();  ///< different from that of every other space
   std::uint64_t tiles = 0, pages = 0, triangles = 0, used = 0, loads = 0, evictions = 0;
 
-  Planner planner;  ///< of the loading threads
+  Planner planner;  ///< used by the loading threads
   SpeedLimiter speed_limiter;
-  Loaders loaders;  ///< last: they end first
+  Loaders loaders;  ///< last member, so that the threads end first
 
   void count(const PagedItem& item, bool comes);
   [[nodiscard]] bool take(const Message& message, const TrackedBody& tracked);
   [[nodiscard]] bool exchange(const TrackedBody& tracked, double& latency);
-  /// What a query of `reach` (m) sees.
+  /// The scene for a query of `reach` (m).
   [[nodiscard]] PagedScene scene(const Query& query, double reach, Vicinity* vicinity) const;
 };
 
-/// Keeps the counters when something comes into use, or goes.
+/// Updates the counters when an item comes or goes.
 void Pager::State::count(const PagedItem& item, bool comes) {
   const std::uint64_t one = comes ? 1 : ~std::uint64_t{0};
   ++(comes ? loads : evictions);
@@ -144,7 +144,7 @@ void Pager::State::count(const PagedItem& item, bool comes) {
   }
 }
 
-/// Does what a message says; whether that changed anything.
+/// Applies a message. Returns whether the space has changed.
 bool Pager::State::take(const Message& message, const TrackedBody& tracked) {
   const PagedItem& item = message.item;
   switch (message.kind) {
@@ -176,7 +176,8 @@ bool Pager::State::take(const Message& message, const TrackedBody& tracked) {
   return true;
 }
 
-/// What the loading threads brought is taken into use, and they are told of the body: now, or next time.
+/// Takes what the loading threads have brought, and gives them the tracked body. Returns false if the lock is taken;
+/// the next update tries again.
 bool Pager::State::exchange(const TrackedBody& tracked, double& latency) {
   const std::unique_lock lock(handover.mutex, std::try_to_lock);
   if (!lock) return false;

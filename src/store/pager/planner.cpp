@@ -10,16 +10,17 @@
 namespace roam::paging {
 namespace {
 
-/// What comes must be wanted sooner by this much than what goes for it, or the two would take turns.
+/// An incoming item must be needed earlier than the displaced one by this factor and time, or they would alternate.
 constexpr double hysteresis_factor = 1.25, hysteresis_seconds = 0.05;
 
-/// Seconds until what failed is tried again: at first, and at most.
+/// Seconds until a failed item is tried again: the first time, and at most.
 constexpr double first_retry = 0.05, last_retry = 4.0;
 
-/// Pages come before tiles that are this much farther: without them nobody knows what to bring.
+/// Factor of a page's time. Pages come before tiles that are needed at the same time, because the planner does not know
+/// tiles without their page.
 constexpr double page_haste = 0.75;
 
-/// Messages that must find room beside those of a plan: of what is being read.
+/// Places in the message queue that are kept free for the items being read.
 constexpr std::size_t spare_messages = 256;
 
 std::uint32_t units_for(std::size_t bytes) { return static_cast<std::uint32_t>((bytes + unit_bytes - 1) / unit_bytes); }
@@ -66,7 +67,7 @@ Box Planner::box(const PagedItem& item) const {
   return item.is_page() ? store_.pages[item.page].ref.box : box_of(pages_[item.page].entries[item.tile]);
 }
 
-// --- what update() answered
+// --- results of update()
 
 void Planner::settle() {
   for (;;) {
@@ -110,7 +111,7 @@ void Planner::settle(const Gone& gone) {
   }
 }
 
-/// What is not in use any more: gives its units back, and those of the tiles of a page.
+/// Releases the units of an item that is no longer used. A page releases those of its tiles too.
 void Planner::forget(const PagedItem& item) {
   units_.release(run_of(item));
   TileState& state = state_of(item);
@@ -126,7 +127,7 @@ void Planner::forget(const PagedItem& item) {
   page.tiles = nullptr;
 }
 
-/// A request that comes to nothing: its units are free again, but for those of what has been kept.
+/// Ends a request without result. Its units become free, except those of items that have been kept.
 void Planner::end(Request& request) {
   for (std::uint32_t i = request.unit; i < request.unit + request.units; ++i) {
     if (units_.is_reserved(i)) units_.release({i, 1});
@@ -136,7 +137,7 @@ void Planner::end(Request& request) {
   request = {};
 }
 
-// --- what is to come
+// --- items to load
 
 bool Planner::next(Work& work) {
   settle();
@@ -173,9 +174,9 @@ void Planner::plan(const TrackedBody& tracked, Clock::time_point time) {
   look_again_at_requests(tracked);
   consider_all(tracked, time);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
-    // Its page may have been sent away for one that came before it.
+    // Its page may have been evicted for an earlier candidate.
     if (pages_[candidates_[i].item.page].self.leaving) continue;
-    // What is farther must not take the room of what is nearer and did not find any.
+    // A farther item must not take the room that a nearer item did not find.
     if (!place(candidates_[i], tracked)) break;
   }
   const std::lock_guard lock(handover_.mutex);
@@ -265,13 +266,13 @@ bool Planner::place(const Candidate& candidate, const TrackedBody& tracked) {
   return true;
 }
 
-/// Makes room by sending away what is worth least.
+/// Makes room by evicting the items that are worth least.
 Run Planner::clear(const Candidate& candidate, std::uint32_t units, const TrackedBody& tracked, Request& request) {
   if (!appraised_) appraise(tracked);
   double worth = 0.0;
   const Run run = units_.cheapest(units, worth);
   if (!run.found() || worth >= worth_of(candidate.key * hysteresis_factor + hysteresis_seconds)) return {};
-  // A page after its tiles: then none is spoken of that has gone with its page.
+  // A page goes after its tiles. Otherwise a message could name a tile that has gone with its page.
   std::size_t items = 0;
   bool own_page = false;
   units_.for_each(run, [&](const Run&, const PagedItem& item) {
@@ -317,7 +318,7 @@ void Planner::appraise(const TrackedBody& tracked) {
   });
 }
 
-// --- what was read
+// --- items that were read
 
 void Planner::done(const Work& work, const Outcome& outcome) {
   changed_ = changed_ || work.item.is_page() || outcome.why;
@@ -362,7 +363,7 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   stats.failures += outcome.why ? 1 : 0;
   stats.failed = failed_;
   if (outcome.why) handover_.last_failure = {work.item, box(work.item), outcome.why};
-  // The worst of late: it is forgotten by halves in some fifty loads.
+  // A recent maximum: it decays to one half in about fifty loads.
   handover_.latency = std::max(outcome.read_s + outcome.decode_s, 0.985 * handover_.latency);
 }
 

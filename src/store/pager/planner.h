@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is to come into memory, where, and what goes for it. Belongs to the loading threads, one at a time.
+/// Chooses the items to load, their place, and the items to evict. The loading threads use it, one at a time.
 
 #include <array>
 #include <cstddef>
@@ -21,9 +21,9 @@ struct Work {
   const store::TileEntry* entry = nullptr;  ///< of a tile
 };
 
-/// What became of it.
+/// The result of a Work.
 struct Outcome {
-  const char* why = nullptr;  ///< it failed; lives for ever
+  const char* why = nullptr;  ///< the reason of a failure, never freed; null: success
   PageInMemory page;
   double read_s = 0.0, decode_s = 0.0;
   std::uint64_t bytes = 0;
@@ -33,14 +33,14 @@ class Planner {
  public:
   Planner(const Store::State& store, std::byte* arena, std::uint32_t units, double horizon, Handover& handover);
 
-  /// Takes the answers of update() and chooses what is to be read next. False where there is nothing to do now.
+  /// Takes the results of update() and chooses the next item to read. False if there is nothing to do now.
   bool next(Work& work);
-  /// What was read is handed over; what failed is tried again later.
+  /// Hands over an item that was read, or schedules a failed one again.
   void done(const Work& work, const Outcome& outcome);
-  /// Why a item is unknown, for people.
+  /// Why an item is unknown, as a text for people.
   [[nodiscard]] std::string reason(const PagedItem& item) const;
 
-  /// Of a tile in a page that is in memory, after the page.
+  /// State of a tile, or of a page. Those of a page's tiles lie behind the page in memory.
   struct TileState {
     const char* why = nullptr;
     Clock::time_point again{};
@@ -48,9 +48,9 @@ class Planner {
     std::uint8_t attempts = 0;
     bool requested = false;
     bool here = false;     ///< in memory
-    bool leaving = false;  ///< and told to go
+    bool leaving = false;  ///< in memory, and update() is to remove it
   };
-  /// Bytes that a page takes in memory, and where the states of its tiles begin.
+  /// Bytes of a page in memory, and the offset at which the states of its tiles begin.
   [[nodiscard]] static std::size_t page_bytes(std::uint32_t coded, std::uint32_t tiles);
   [[nodiscard]] static std::size_t tiles_offset(std::uint32_t coded);
   static constexpr std::size_t page_cost = 128;
@@ -60,14 +60,14 @@ class Planner {
     TileState self;
     const store::TileEntry* entries = nullptr;  ///< null: not in memory
     TileState* tiles = nullptr;
-    std::uint32_t requests = 0;  ///< for tiles of it
+    std::uint32_t requests = 0;  ///< requests for its tiles
   };
   struct Request {
     enum class State : std::uint8_t { none, clearing, ready, reading, cancelled };
     State state = State::none;
     PagedItem item;
     std::uint32_t unit = 0, units = 0;
-    std::uint32_t leaving = 0;  ///< items that have not gone yet
+    std::uint32_t leaving = 0;  ///< items still to be evicted
     double key = 0.0;
   };
   struct Candidate {
@@ -76,7 +76,7 @@ class Planner {
   };
   static constexpr std::size_t most_requests = 64;
   static constexpr std::size_t most_candidates = 32;
-  /// What nobody wants yet comes into memory while more than this part of it is free.
+  /// Items beyond the horizon are loaded while more than 1 / reserve_part of the memory is free.
   static constexpr std::uint32_t reserve_part = 8;
 
   void settle();
@@ -112,10 +112,10 @@ class Planner {
   std::size_t candidate_count_ = 0;
   std::uint64_t wanted_ = 0, failed_ = 0;
   bool appraised_ = false;  ///< in this plan
-  // Of the last plan.
+  // State of the last plan.
   TrackedBody planned_for_;
-  bool changed_ = true;  ///< something came, went or failed since
-  bool more_ = false;    ///< there were more candidates than it could hold
+  bool changed_ = true;  ///< an item came, went or failed since
+  bool more_ = false;    ///< there were more candidates than fit into the array
   Clock::time_point retry_at_ = Clock::time_point::max();
 };
 

@@ -5,7 +5,7 @@
 namespace roam::paging {
 namespace {
 
-/// Of an absent tile, in place of where its leaves are.
+/// Marks an absent tile as failed, in the field for its leaves.
 constexpr std::uint32_t tile_failed = 1;
 
 constexpr std::uint32_t unit_blocks = unit_bytes / sizeof(index::Block);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What queries see: which pages and tiles are in memory. Changed between queries only, by one thread.
+/// The pages and tiles in memory, as queries see them. One thread changes them, only between queries.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,18 +16,18 @@
 
 namespace roam::paging {
 
-/// Bytes that items in memory take a multiple of.
+/// Bytes of a unit. Each item in memory takes whole units.
 inline constexpr std::size_t unit_bytes = 8192;
 
-/// Numbers of what is unknown, which is no triangle: this bit, page and tile as in a TriangleId, and the side of the
-/// cell, or of a page's box, where the triangle would be.
+/// Marks the number of an unknown item. The number also has the page and tile of a TriangleId and, in place of the
+/// triangle, the side of a cell or of a page's box.
 inline constexpr TriangleId unknown_bit = TriangleId{1} << 63;
 inline constexpr TriangleId page_sides = 0x3000;
 [[nodiscard]] TriangleId unknown_base(const PagedItem& item);
-/// Of a number with unknown_bit.
+/// The item of a number with unknown_bit.
 [[nodiscard]] PagedItem unknown_thing(TriangleId number);
 
-/// A page in memory: as it was read, and of each tile where it is.
+/// A page in memory: its view, and its tiles.
 struct PageInMemory {
   store::PageView view;
   index::Tile* tiles = nullptr;
@@ -41,7 +41,7 @@ class Residents {
   void put_page(std::uint32_t page, const PageInMemory& in);
   void put_tile(const PagedItem& tile, std::uint32_t unit);
   void take(const PagedItem& item);
-  /// It is solid because it failed: nobody need wait for it.
+  /// Marks an item as failed. It is solid, and a body need not wait for it.
   void fail(const PagedItem& item);
   [[nodiscard]] bool has_page(std::uint32_t page) const { return pages_[page].in.tiles != nullptr; }
   [[nodiscard]] Box box(const PagedItem& item) const;
@@ -57,7 +57,7 @@ class Residents {
   [[nodiscard]] index::Index view(const Page& page, const index::Absent& absent) const;
   [[nodiscard]] bool has_failed(const PagedItem& item) const;
 
-  /// Bytes that one page of a store costs here.
+  /// Bytes that one page of a store needs here.
   static constexpr std::size_t page_cost = sizeof(Page) + 2 * 80 + 8;
 
  private:

@@ -10,16 +10,17 @@
 namespace roam::paging {
 namespace {
 
-/// Metres. How far it looks at least and at most.
+/// Metres. The least and greatest distance of a search.
 constexpr double least_reach = 16.0, greatest_reach = 500.0;
 
-/// Seconds between two updates, at a guess: what comes waits for one, and what goes for it for another.
+/// Seconds for two updates, assuming 60 a second: an incoming item waits for one update, and the eviction before it for
+/// another.
 constexpr double two_updates = 2.0 / 60.0;
 
-/// Part of what was found by which a body may move before it is looked again.
+/// Part of the gap found last that a body may move before the next search.
 constexpr double trusted_part = 0.25;
 
-/// The gap between the body's surface and the nearest item that is still to come, or `reach`.
+/// The gap between the body's surface and the nearest item still to come; `reach` if that is farther.
 double gap(const Residents& residents, const TrackedBody& t, double reach) {
   Contact nearest;
   Collector collector(Collector::Kind::contacts, reach, {&nearest, 1});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How fast a body may go, so that what it comes to is known by then.
+/// The speed at which a body reaches no space before it is loaded.
 
 #include "store/pager/paged_item.h"
 #include "store/pager/residents.h"
@@ -8,15 +8,16 @@
 
 namespace roam::paging {
 
-/// Of the thread that moves the body.
+/// Used by the thread that moves the body.
 class SpeedLimiter {
  public:
   explicit SpeedLimiter(double horizon) : horizon_(horizon) {}
 
-  /// Looks how far everything is known around the body, or concludes it from when it looked last. `changed`: something
-  /// came or went; `complete`: everything is there.
+  /// Updates the distance within which all space around the body is known, by a search or from the last search.
+  /// `changed`: an item came or went. `complete`: all items are in memory. `latency` is the time to load an item, in
+  /// seconds.
   void look(const Residents& residents, const TrackedBody& tracked, double latency, bool changed, bool complete);
-  /// Whether anything within `reach` (m) of the body is unknown and has not failed.
+  /// Whether any item within `reach` (m) of the body is unknown and has not failed.
   [[nodiscard]] static bool anything_coming(const Residents& residents, const TrackedBody& tracked, double reach);
 
   [[nodiscard]] double limit() const { return limit_; }
@@ -24,12 +25,12 @@ class SpeedLimiter {
   [[nodiscard]] double latency() const { return latency_; }
 
  private:
-  /// Metres per second. Nobody need stand still, for nothing unknown lets anybody through.
+  /// Metres per second. A body need never stand still, because unknown space is solid.
   static constexpr double least_limit = 0.5;
 
   double horizon_;
   double limit_ = least_limit, ready_ = 0.0, latency_ = 0.0;
-  // Where it looked last, how far, and what it found.
+  // The position, body, reach and result of the last search.
   Vec3 place_{0.0};
   double radius_ = -1.0, half_height_ = -1.0, reach_ = 0.0, found_ = 0.0;
 };

@@ -8,13 +8,13 @@
 namespace roam::paging {
 namespace {
 
-/// Metres per second. Who stands may run.
+/// Metres per second. A body at rest may begin to run.
 constexpr double least_pace = 4.0;
 
-/// Metres, and seconds at the present speed: what lies nearer is not taken away.
+/// Metres, and seconds at the present speed: items nearer than their sum are not evicted.
 constexpr double held_distance = 0.25, held_seconds = 0.1;
 
-/// Changes that are no reason to plan anew: metres, and metres per second.
+/// Changes of position and velocity below these need no new plan: metres, and metres per second.
 constexpr double same_place = 0.25, same_velocity = 1.0;
 
 }  // namespace

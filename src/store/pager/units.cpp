@@ -20,7 +20,7 @@ Run Units::cheapest(std::uint32_t count, double& worth) const {
   Run best;
   worth = std::numeric_limits<double>::infinity();
   if (count > slots_.size()) return best;
-  // Runs that begin where something begins, or is free, are all that need be looked at.
+  // A best run begins at the first unit of an item, or at a unit without an item, so only these are tried.
   for (std::uint32_t begin = 0; begin + count <= slots_.size(); ++begin) {
     const bool boundary = slots_[begin].item.page == PagedItem::none || slots_[begin].first == begin;
     if (!boundary) continue;

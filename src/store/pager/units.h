@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Who has which units of the arena.
+/// Allocation of the arena's units to items.
 
 #include <cstdint>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace roam::paging {
 
-/// A run of units.
+/// A run of consecutive units.
 struct Run {
   static constexpr std::uint32_t none = UINT32_MAX;
   std::uint32_t unit = none;
@@ -25,18 +25,18 @@ class Units {
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(slots_.size()); }
   [[nodiscard]] std::uint32_t free() const { return free_; }
-  /// The first run of so many free units.
+  /// The first run of `count` free units.
   [[nodiscard]] Run find(std::uint32_t count) const;
-  /// The run of so many units that is worth least: that is worth no more than any other. `worth` of a run is the
-  /// largest of what is in it; free units are worth nothing, and what must stay more than any number.
+  /// The run of `count` units with the least worth. The worth of a run is the largest worth in it. Free units have
+  /// worth 0, and reserved units infinite worth.
   [[nodiscard]] Run cheapest(std::uint32_t count, double& worth) const;
 
-  /// Gives a run to a request, which is `reserved` from then on; or to a item. Units that were free are so no more.
+  /// Reserves a run for a request, or gives it to an item. Units that were free are not free any more.
   void reserve(const Run& run);
   void give(const Run& run, const PagedItem& item);
   void release(const Run& run);
 
-  /// Calls f(run, item) for every item that has units in the run.
+  /// Calls f(run, item) for every item with units in the run.
   template <class F>
   void for_each(const Run& run, F&& f) const {
     for (std::uint32_t i = run.unit; i < run.unit + run.count;) {
@@ -53,14 +53,14 @@ class Units {
   [[nodiscard]] bool is_reserved(std::uint32_t unit) const {
     return !slots_[unit].free && slots_[unit].item.page == PagedItem::none;
   }
-  /// What a item is worth, by its first unit.
+  /// Sets the worth of an item by its first unit.
   void set_worth(std::uint32_t unit, double worth) { slots_[unit].worth = static_cast<float>(worth); }
 
  private:
   struct Slot {
     PagedItem item;
-    std::uint32_t first = 0, count = 1;  ///< of the item
-    float worth = 0.0F;                  ///< in the first unit of a item
+    std::uint32_t first = 0, count = 1;  ///< of the item's run
+    float worth = 0.0F;                  ///< valid in the first unit of an item
     bool free = true;
   };
   std::vector<Slot> slots_;

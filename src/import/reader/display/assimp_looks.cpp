@@ -11,7 +11,7 @@
 namespace roam::reader {
 namespace {
 
-/// The sRGB transfer function (IEC 61966-2-1): glTF's colours are linear, images and screens are not.
+/// The sRGB transfer function (IEC 61966-2-1). glTF's colours are linear; images and screens are not.
 double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
@@ -28,7 +28,7 @@ DisplayWrap wrap_of(aiTextureMapMode mode) {
   }
 }
 
-/// An embedded image that is not encoded, as a TGA file: its texels are in the order of that format.
+/// An uncompressed embedded image as a TGA file, whose texels have the same order.
 std::string as_tga(const aiTexture& texture) {
   std::string bytes(18, '\0');
   bytes[2] = 2;  // true colour
@@ -39,7 +39,7 @@ std::string as_tga(const aiTexture& texture) {
   put(12, texture.mWidth);
   put(14, texture.mHeight);
   bytes[16] = 32;
-  bytes[17] = 0x28;  // eight bits of opacity, first row on top
+  bytes[17] = 0x28;  // eight bits of opacity, top row first
   const auto* texels = reinterpret_cast<const char*>(texture.pcData);
   return bytes.append(texels, sizeof(aiTexel) * texture.mWidth * texture.mHeight);
 }
@@ -94,7 +94,7 @@ AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
     from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
   }
   material.colour = shown(colour);
-  // What nobody could see would still stop a body.
+  // An invisible surface would still stop a body, so show it.
   if (material.colour[3] == 0) material.colour[3] = 255;
   if (gltf_) {
     take_gltf_transparency(from, material.look);
@@ -102,7 +102,7 @@ AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
   }
   float opacity = 1.0f;
   from.Get(AI_MATKEY_OPACITY, opacity);
-  // In these formats an image takes the place of the colour.
+  // In these formats an image replaces the colour.
   if (material.look.texture != no_texture) material.colour = white;
   material.colour[3] = opacity > 0.0f ? colour_byte(opacity) : 255;
   material.look.transparency = material.colour[3] < 255 ? Transparency::blend : Transparency::by_texture;
@@ -142,7 +142,7 @@ TextureId AssimpLooks::embedded(const aiTexture& texture, const std::string& nam
     if (texture.pcData == nullptr) return std::string();
     return encoded ? std::string(reinterpret_cast<const char*>(texture.pcData), texture.mWidth) : as_tga(texture);
   };
-  // The name's extension says what the bytes are where they do not say it themselves.
+  // The extension names the format of bytes that have no signature.
   const std::string key = name + (encoded ? "" : ".tga");
   return sink_.parts()->textures().add_encoded(key, read, wrapping);
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What assimp says about looks.
+/// Looks of surfaces from assimp's materials and vertices.
 
 #include <assimp/scene.h>
 
@@ -16,19 +16,20 @@ namespace roam::reader {
 
 class AssimpLooks {
  public:
-  /// `extension`: of the scene's file, lower case without the dot. `sink` must have parts; all must outlive this.
+  /// `extension`: of the scene's file, lower case without the dot. `sink` must have parts. All must outlive this
+  /// object.
   AssimpLooks(const aiScene& scene, const std::filesystem::path& file, std::string extension, MeshSink& sink);
 
-  /// Makes the mesh's material that of the triangles that follow. `linear`: the linear part of the mesh's transform.
+  /// Sets the mesh's material for the triangles that follow. `linear`: the linear part of the mesh's transform.
   void begin_mesh(const aiMesh& mesh, const glm::dmat3& linear);
-  /// The look of a vertex of the mesh begun last.
+  /// The look of a vertex of the current mesh.
   [[nodiscard]] VertexLook of(unsigned vertex) const;
 
  private:
   struct Material {
     Look look;
     Colour colour = white;
-    unsigned coordinates = 0;  ///< which of the mesh's sets
+    unsigned coordinates = 0;  ///< the number of the mesh's set of texture coordinates
   };
 
   Material material_of(const aiMaterial& material);
@@ -44,7 +45,7 @@ class AssimpLooks {
   MeshSink& sink_;
   std::map<unsigned, Material> materials_;
 
-  // The mesh begun last.
+  // The current mesh.
   const aiMesh* mesh_ = nullptr;
   const Material* material_ = nullptr;
   glm::dmat3 normal_matrix_{1.0};

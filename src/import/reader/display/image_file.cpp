@@ -21,10 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// No texture is larger; an encoded one of this size would not be drawn by any card.
+/// Upper bound of an image file. No graphics card could draw an image of this encoded size.
 constexpr std::uintmax_t image_bytes_limit = 512u << 20;
 
-/// By how the image begins, else by the extension of its file. Empty for what is none that is decoded.
+/// The plugin by the first bytes of the image, else by the extension of its file. Empty if no image format is
+/// recognised.
 std::string plugin_for(const std::string& bytes, const std::string& name) {
   const std::string extension = extension_of(name);
   std::string_view by_name;
@@ -35,7 +36,7 @@ std::string plugin_for(const std::string& bytes, const std::string& name) {
   return std::string(by_name);
 }
 
-/// The entry of a folder that has this name in any case of letters; empty when there is none.
+/// The entry of a folder with this name, ignoring case; empty if there is none.
 fs::path entry_named(const fs::path& folder, const std::string& name) {
   std::error_code none;
   if (fs::exists(fs::symlink_status(folder / name, none))) return folder / name;
@@ -45,12 +46,12 @@ fs::path entry_named(const fs::path& folder, const std::string& name) {
   return {};
 }
 
-/// The scene's file at `name`, seen from a folder, in any case of letters.
+/// The scene's file at `name` relative to a folder, ignoring case.
 fs::path existing(const SceneFiles& files, const fs::path& folder, const fs::path& name) {
   fs::path place = (folder / name).lexically_normal();
   if (fs::path file = files.find(place); !file.empty()) return file;
   if (!files.resolve(place)) return {};
-  // What lies above the name is not the scene's to spell.
+  // Only the part below the folder is compared without case; folders above it are not the scene's.
   const fs::path inside = place.lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..") return {};
   place = folder;
@@ -62,13 +63,13 @@ fs::path existing(const SceneFiles& files, const fs::path& folder, const fs::pat
   return files.find(place);
 }
 
-/// Where exporters leave images: inside, and beside the folder of the scene's file.
+/// Folders in which exporters leave images, relative to that of the scene's file.
 constexpr std::array<const char*, 9> usual_places{
     "",         "textures", "texture", "images", "maps", "materials/textures", "../textures", "../materials/textures",
     "../images"};
 
-/// Whether a regular file is at `path`, which begins in the folder above `folder`. Links are not followed: they may
-/// lead to a network.
+/// Whether a regular file is at `path`, which lies below the parent of `folder`. Does not follow links, because they
+/// may lead to a network.
 bool is_there_without_links(const fs::path& path, const fs::path& folder) {
   std::error_code none;
   fs::path at = folder.parent_path();
@@ -82,8 +83,8 @@ bool is_there_without_links(const fs::path& path, const fs::path& folder) {
   return false;
 }
 
-/// Says of a name that led to no file of the scene whether it means one that lies outside. Only the places beside the
-/// scene's folder are looked at: what the name itself says may be anywhere.
+/// Reports a name without a file in the scene if it refers to a file outside. Searches only the usual places around the
+/// scene's folder, because the name itself may lead anywhere.
 void report_outside(SceneFiles& files, const fs::path& folder, const fs::path& name) {
   if (!files.resolve(folder / name)) return files.leave_out(folder / name);
   for (const char* place : usual_places) {
@@ -98,7 +99,7 @@ fs::path find_image_file(SceneFiles& files, const fs::path& folder, const std::s
   std::string name = written;
   std::replace(name.begin(), name.end(), '\\', '/');
   if (name.starts_with("file://")) name.erase(0, 7);
-  // What remains of an address is on a network.
+  // A name that is still an address refers to a network.
   if (name.empty() || name.find("://") != std::string::npos) return {};
   std::vector<std::string> spellings{name};
   if (const std::string plain = unescaped(name); plain != name) spellings.push_back(plain);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How surfaces look: what the readers tell of it beside the shape.
+/// Looks of surfaces: the data that readers pass on beside the shape.
 
 #include <algorithm>
 #include <array>
@@ -13,29 +13,29 @@
 
 namespace roam::reader {
 
-/// Red, green, blue and opacity, 255 for 1.
+/// Red, green, blue and opacity; 255 means 1.
 using Colour = std::array<std::uint8_t, 4>;
 inline constexpr Colour white{255, 255, 255, 255};
 
-/// A vertex beside its place. What a file does not say is left as it is here.
+/// The look of a vertex. Members that the file does not state keep these defaults.
 struct VertexLook {
-  glm::vec3 normal{0.0f};   ///< of any length; zero where there is none
+  glm::vec3 normal{0.0f};   ///< of any length; zero if there is none
   glm::vec2 texture{0.0f};  ///< coordinates in the image, (0, 0) at its lower left corner
   Colour colour = white;    ///< material and vertex colour multiplied
 };
 
-/// Number of an image known to Textures.
+/// The number of an image in Textures.
 using TextureId = std::uint32_t;
 inline constexpr TextureId no_texture = std::numeric_limits<TextureId>::max();
 
 enum class Transparency : std::uint8_t {
-  none,        ///< opaque, whatever the image's fourth channel says
+  none,        ///< opaque, whatever the opacity of the image
   by_texture,  ///< blended where the image is translucent
-  mask,        ///< texels below the cutoff are not there
+  mask,        ///< texels with an opacity below the cutoff are not drawn
   blend
 };
 
-/// What triangles that are drawn together have in common.
+/// The look that triangles drawn together share.
 struct Look {
   TextureId texture = no_texture;
   Transparency transparency = Transparency::none;
@@ -43,7 +43,7 @@ struct Look {
   auto operator<=>(const Look&) const = default;
 };
 
-/// From 0..1; what is not a number is 0.
+/// Converts from 0..1. A NaN gives 0.
 inline std::uint8_t colour_byte(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value > 0.0 ? value : 0.0, 0.0, 1.0)));
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How normals turn when their surface is moved, scaled, sheared or mirrored.
+/// Transformation of normals with a surface that is moved, scaled, sheared or mirrored.
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/mat3x3.hpp>
@@ -8,14 +8,14 @@
 
 namespace roam::reader {
 
-/// The inverse transpose of a transform's linear part, whose columns are the images of the axes. A transform that
-/// flattens the surface has none: then its normals are not finite, which counts as having none.
+/// The inverse transpose of the linear part of a transform; its columns are the images of the axes. A transform that
+/// flattens the surface has no inverse: its normals are not finite, which counts as none.
 inline glm::dmat3 normal_matrix(const glm::dmat3& linear) { return glm::inverseTranspose(linear); }
 
 inline glm::vec3 transformed_normal(const glm::dmat3& matrix, const glm::dvec3& normal) {
   const glm::dvec3 n = matrix * normal;
   const double length = glm::length(n);
-  // Scaled to 1 while it is a double: the inverse of a small scale is large.
+  // Normalised in double, because the inverse of a small scale is large.
   return length > 0.0 ? glm::vec3(n / length) : glm::vec3(0.0f);
 }
 

@@ -13,7 +13,7 @@
 namespace roam::reader {
 namespace {
 
-/// Up to as many numbers as there is room for; how many there were.
+/// Parses numbers until `numbers` is full. Returns how many there were.
 template <std::size_t n>
 std::size_t take_numbers(std::string_view rest, std::array<double, n>& numbers) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -22,7 +22,7 @@ std::size_t take_numbers(std::string_view rest, std::array<double, n>& numbers) 
   return n;
 }
 
-/// The element that an index of a corner names: from 1 on, or backwards from -1.
+/// The element of a corner's index: from 1 on, or backwards from -1.
 template <class T>
 const T* indexed(const std::vector<T>& elements, std::string_view word) {
   std::int64_t index = 0;
@@ -53,7 +53,7 @@ void ObjLooks::take_vertex_colour(std::string_view rest) {
   std::array<double, 4> numbers{};
   ++vertices_;
   const std::size_t count = take_numbers(rest, numbers);
-  // One number is a weight, which polygons do not have; with four the first is.
+  // One number is a weight, which polygons do not have. Of four numbers the first is a weight.
   if (count < 3) return;
   const std::size_t first = count - 3;
   colours_.resize(vertices_ - 1, white);
@@ -76,7 +76,7 @@ VertexLook ObjLooks::of(std::uint64_t vertex, std::string_view corner) const {
 }
 
 void ObjLooks::read_materials(const std::string& name) {
-  // Found like an image: by its name, and where it lies if the name is another machine's.
+  // The search for images applies: by the name, and by its last part if the path is of another machine.
   SceneFiles& files = sink_.parts()->textures().files();
   const std::filesystem::path file = find_image_file(files, folder_, name);
   if (file.empty()) {

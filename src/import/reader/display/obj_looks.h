@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What an OBJ file says about looks: normals, texture coordinates, vertex colours, materials.
+/// Looks of an OBJ file: normals, texture coordinates, vertex colours, materials.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,13 +19,13 @@ class ObjLooks {
   /// `sink` must have parts.
   ObjLooks(const std::filesystem::path& file, MeshSink& sink) : folder_(file.parent_path()), sink_(sink) {}
 
-  /// Takes a line of keyword vt, vn, mtllib or usemtl; of others nothing. What is malformed counts as not there: it
-  /// concerns no wall.
+  /// Takes a line with keyword vt, vn, mtllib or usemtl; ignores others. Ignores malformed lines too, because they
+  /// affect no surface.
   void take_line(std::string_view keyword, std::string_view rest);
-  /// Takes what follows the three coordinates of the next vertex: maybe a colour.
+  /// Takes the rest of a vertex line after the three coordinates, which may be a colour.
   void take_vertex_colour(std::string_view rest);
 
-  /// The look of a corner such as 7, 7/2, 7//3 or 7/2/3, at vertex number `vertex` counted from 0.
+  /// The look of a corner such as 7, 7/2, 7//3 or 7/2/3. Its vertex has the number `vertex`, counted from 0.
   [[nodiscard]] VertexLook of(std::uint64_t vertex, std::string_view corner) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace roam::reader {
 namespace {
 
-/// Element `i` of an array of any kind as numbers; integers are 0..1 where the array or `fraction` says so.
+/// Element `i` of an array of any kind as numbers. Integers are scaled to 0..1 if the array or `fraction` says so.
 osg::Vec4d element(const osg::Array& array, std::uint64_t i, bool fraction) {
   const unsigned size = static_cast<unsigned>(array.getDataSize());
   osg::Vec4d v(0.0, 0.0, 0.0, 1.0);
@@ -45,7 +45,7 @@ osg::Vec4d element(const osg::Array& array, std::uint64_t i, bool fraction) {
   return v;
 }
 
-/// The array's element for a vertex of a primitive set; -1 where the file gives none.
+/// The index of the array's element for a vertex of a primitive set; -1 if there is none.
 std::int64_t place(const osg::Array* array, std::uint64_t vertex, unsigned set) {
   if (array == nullptr || array->getNumElements() == 0) return -1;
   std::uint64_t at = vertex;
@@ -72,7 +72,7 @@ Colour colour_of(const osg::Vec4d& c) {
   return {colour_byte(c[0]), colour_byte(c[1]), colour_byte(c[2]), colour_byte(c[3])};
 }
 
-/// OpenSceneGraph's default, CLAMP, mixes in a border that nobody draws: it ends at the edge, too.
+/// OpenSceneGraph's default, CLAMP, blends in a border that is not drawn here, so it ends at the edge too.
 DisplayWrap wrap_of(osg::Texture::WrapMode mode) {
   if (mode == osg::Texture::REPEAT) return DisplayWrap::repeat;
   return mode == osg::Texture::MIRROR ? DisplayWrap::mirror : DisplayWrap::clamp;
@@ -100,7 +100,7 @@ OsgLooks::OsgLooks(const osg::Geometry& geometry, const osg::NodePath& path, con
     : normals_(geometry.getNormalArray()),
       colours_(geometry.getColorArray()),
       coordinates_(geometry.getNumTexCoordArrays() > 0 ? geometry.getTexCoordArray(0) : nullptr) {
-  // OpenSceneGraph's vectors are rows, glm's columns.
+  // OpenSceneGraph's vectors are rows, glm's are columns.
   glm::dmat3 linear;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) linear[i][j] = to_world(i, j);
@@ -117,7 +117,7 @@ void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
   const auto* texture = dynamic_cast<const osg::Texture2D*>(state.getTextureAttribute(0, osg::StateAttribute::TEXTURE));
   const bool textured = texture != nullptr && is_on(state.getTextureMode(0, GL_TEXTURE_2D));
   if (textured && coordinates_ != nullptr && texture->getImage() != nullptr && texture->getImage()->data() != nullptr) {
-    // The walk reads the graph, and an image is the graph's.
+    // The walk has the graph as const, but the image is only read.
     osg::Image& image = const_cast<osg::Image&>(*texture->getImage());
     look_.texture = textures.add_image(
         image, {wrap_of(texture->getWrap(osg::Texture::WRAP_S)), wrap_of(texture->getWrap(osg::Texture::WRAP_T))});
@@ -126,7 +126,7 @@ void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
           dynamic_cast<const osg::TexMat*>(state.getTextureAttribute(0, osg::StateAttribute::TEXMAT))) {
     texture_matrix_ = matrix->getMatrix();
   }
-  // A decal or replacement hides what lies below it.
+  // A decal or replacement hides the colour below it.
   const auto* environment = dynamic_cast<const osg::TexEnv*>(state.getTextureAttribute(0, osg::StateAttribute::TEXENV));
   const bool covers = environment != nullptr &&
                       (environment->getMode() == osg::TexEnv::REPLACE || environment->getMode() == osg::TexEnv::DECAL);
@@ -136,12 +136,12 @@ void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
   if (material != nullptr && lit) {
     const auto mode = material->getColorMode();
     if (mode == osg::Material::DIFFUSE || mode == osg::Material::AMBIENT_AND_DIFFUSE) {
-      // The vertex colour is the material's.
+      // The vertex colour is that of the material.
     } else {
       colours_ = nullptr;
       const osg::Vec4 diffuse = material->getDiffuse(osg::Material::FRONT);
       material_ = colour_of(osg::Vec4d(diffuse));
-      // What shines by itself is black otherwise.
+      // A surface that only emits light would be black.
       const osg::Vec4 emission = material->getEmission(osg::Material::FRONT);
       for (std::size_t k = 0; k < 3; ++k)
         material_[k] = std::max(material_[k], colour_byte(emission[static_cast<int>(k)]));
@@ -154,10 +154,10 @@ void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
   const auto* alpha = attribute_of<osg::AlphaFunc>(state, osg::StateAttribute::ALPHAFUNC);
   const bool cuts = alpha != nullptr && is_on(state.getMode(GL_ALPHA_TEST)) &&
                     (alpha->getFunction() == osg::AlphaFunc::GREATER || alpha->getFunction() == osg::AlphaFunc::GEQUAL);
-  // What nobody could see would still stop a body.
+  // An invisible surface would still stop a body, so show it.
   if (material_[3] == 0) material_[3] = 255;
   if (is_on(state.getMode(GL_BLEND))) {
-    // Blending is often left on where there is nothing to see through, and what is blended is drawn last and sorted.
+    // Files often leave blending on for opaque surfaces, and blended surfaces must be sorted and drawn last.
     const bool translucent = material_[3] < 255 || (colours_ != nullptr && any_translucent(*colours_));
     look_.transparency = translucent ? Transparency::blend : Transparency::by_texture;
   } else if (cuts && look_.texture != no_texture) {

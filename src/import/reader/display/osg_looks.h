@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How an OpenSceneGraph geometry looks: the state of its ancestors and its own, and its arrays.
+/// Looks of an OpenSceneGraph geometry, from its arrays, its state and that of its ancestors.
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -15,16 +15,16 @@
 
 namespace roam::reader {
 
-/// The looks of one geometry where a walk meets it.
+/// The looks of one geometry at one place in the graph.
 class OsgLooks {
  public:
-  /// `path`: the nodes above it, and itself. Both must outlive this.
+  /// `path`: the nodes above the geometry, and itself. Both must outlive this object.
   OsgLooks(const osg::Geometry& geometry, const osg::NodePath& path, const osg::Matrixd& to_world, Textures& textures);
 
   [[nodiscard]] const Look& look() const { return look_; }
-  /// Of a vertex, where it is used by that primitive set.
+  /// The look of a vertex in that primitive set.
   [[nodiscard]] VertexLook of(std::uint64_t vertex, unsigned set) const;
-  /// Whether a vertex looks different in different primitive sets.
+  /// Whether the look of a vertex depends on the primitive set.
   [[nodiscard]] bool by_set() const;
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pages are sent so often that the first picture does not wait for the last tile.
+/// Time between parts of pages, so that the first picture does not wait for the last tile.
 constexpr auto sending_interval = std::chrono::milliseconds(200);
 
 class FindPages : public osg::NodeVisitor {
@@ -40,7 +40,7 @@ class FindPages : public osg::NodeVisitor {
   bool found_ = false;
 };
 
-/// The frame of a file in that of the scene.
+/// The transform from a file's frame to that of the scene.
 osg::Matrixd to_scene(const MeshSink& sink) {
   const std::array<Vec3, 4> frame = sink.placement();
   osg::Matrixd matrix;
@@ -51,7 +51,7 @@ osg::Matrixd to_scene(const MeshSink& sink) {
   return matrix;
 }
 
-/// By how much a matrix lengthens what it lengthens most along the axes.
+/// The largest scale of a matrix along an axis.
 double scale_of(const osg::Matrixd& matrix) {
   const osg::Vec3d scale = matrix.getScale();
   return std::max({std::abs(scale.x()), std::abs(scale.y()), std::abs(scale.z())});
@@ -60,12 +60,12 @@ double scale_of(const osg::Matrixd& matrix) {
 Vec3 vec3(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
 bool is_place(const osg::Vec3d& v) {
-  // Written so that a NaN is none.
+  // False for a NaN.
   return std::abs(v.x()) <= coordinate_limit && std::abs(v.y()) <= coordinate_limit &&
          std::abs(v.z()) <= coordinate_limit;
 }
 
-/// Written so that a NaN is none.
+/// False for a NaN.
 bool is_length(double length) { return length >= 0.0 && length <= 2.0 * coordinate_limit; }
 
 }  // namespace
@@ -136,7 +136,7 @@ void PageWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
 }
 
 bool PageWalk::stands_for(const osg::LOD& coarser) const {
-  // A page that is not there yet stands for nothing.
+  // A page that is not loaded yet replaces nothing.
   return dynamic_cast<const osg::PagedLOD*>(&coarser) == nullptr;
 }
 
@@ -149,7 +149,7 @@ std::uint32_t PageWalk::state_here() {
   }
   if (state == nullptr) return 0;
   if (states_.empty()) states_.emplace_back();
-  // Nodes side by side inherit the same.
+  // Neighbouring nodes inherit the same state.
   if (states_.back() == nullptr || states_.back()->compare(*state, true) != 0) states_.push_back(state);
   return static_cast<std::uint32_t>(states_.size() - 1);
 }
@@ -174,7 +174,7 @@ bool PageWalk::add(osg::PagedLOD& lod) {
   node.radius = static_cast<float>(radius);
   node.by_pixels = lod.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
   const float range_scale = node.by_pixels ? 1.0f : static_cast<float>(scale);
-  // A range that is not a number hides its child.
+  // A range with a NaN hides its child.
   const auto has_range = [&](unsigned i) { return i < lod.getNumRanges() && lod.getMinRange(i) < lod.getMaxRange(i); };
   std::vector<std::pair<osg::Node*, std::uint32_t>> shown;
   for (unsigned i = 0; i < lod.getNumChildren(); ++i) {

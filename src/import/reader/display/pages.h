@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scenes that are paged: handed on unread, and read page by page when the program wants what is near.
+/// Paged scenes: passed on unread, then read page by page on demand.
 
 #include <chrono>
 #include <filesystem>
@@ -17,19 +17,19 @@
 
 namespace roam::reader {
 
-/// Whether somewhere in `root`, which was read from `file`, a page is named that exists. Where all are missing the
-/// coarse geometry is all there is, and is better read whole.
+/// Whether `root`, which was read from `file`, names a page that exists. If all pages are missing, there is only the
+/// coarse geometry, which is better read whole.
 [[nodiscard]] bool refers_to_pages(osg::Node& root, const std::filesystem::path& file);
 
 /// Gathers paged files and sends them in parts.
 class Pages {
  public:
-  /// `sink` must have parts; what is set there moves, turns and scales the files that are added next.
+  /// `sink` must have parts. Its settings move, turn and scale the files added later.
   explicit Pages(MeshSink& sink) : sink_(sink) {}
 
-  /// Adds the file `file`, from which `root` was read. False when it says no place where it could be shown.
+  /// Adds `file`, from which `root` was read. False if it has no usable bounds.
   bool add(osg::Node& root, const std::filesystem::path& file);
-  /// Sends what is gathered.
+  /// Sends the files gathered so far.
   void send();
 
  private:
@@ -38,17 +38,17 @@ class Pages {
   std::chrono::steady_clock::time_point begun_;
 };
 
-/// What pages inherit from nodes in the files through which they are reached; kept as long as the process lives. Number
-/// 0 is none.
+/// State that pages inherit from nodes in the files on the path to them; kept for the life of the process. Number 0 is
+/// no state.
 using PageStates = std::vector<osg::ref_ptr<osg::StateSet>>;
 
-/// Walks a page: what is in it goes into the page of the sink's parts (PartPool::begin_page), and its PagedLODs that
-/// name pages become pages again.
+/// Walks a page. Its geometry goes into the page of the sink's parts (PartPool::begin_page), and its PagedLODs that
+/// name pages become pages.
 class PageWalk : public SceneGraphWalk {
  public:
   PageWalk(MeshSink& sink, const PageContext& page, PageStates& states);
 
-  /// Walks what was read from the page's file.
+  /// Walks the graph that was read from the page's file.
   void walk(osg::Node& root);
 
  private:

@@ -12,8 +12,8 @@
 namespace roam::reader {
 namespace {
 
-/// Chunks hang under transforms on a grid of so many metres. Neighbours under one transform have the same floats at a
-/// common edge, so that no background shines through; within a cell floats keep 8 micrometres.
+/// Metres: size of the grid cells to which chunks are relative. Neighbours in one cell have equal floats at a common
+/// edge, so that no background shines through. Within a cell, floats are precise to 8 micrometres.
 constexpr double cell_size = 256.0;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -24,8 +24,8 @@ Vec3 cell_around(const Vec3& place) {
   return cell;
 }
 
-/// Fills in what a chunk of triangles has at its corners. `index_of` has an entry for each vertex of the surface, all
-/// none before and after.
+/// Fills in the arrays of a chunk of triangles. `index_of` has an entry for each vertex of the surface; all are `none`
+/// before and after.
 void fill(DisplayGeometry& geometry, const Surface& surface, std::span<const std::uint32_t> triangles, const Vec3& zero,
           bool normals, bool textured, std::vector<std::uint32_t>& index_of) {
   std::vector<std::uint32_t> used;
@@ -49,7 +49,7 @@ void fill(DisplayGeometry& geometry, const Surface& surface, std::span<const std
     const VertexLook& look = surface.looks[i];
     geometry.colours.push_back(look.colour);
     if (normals) {
-      // In doubles: the square of a float may be too large for one.
+      // In double, because the square of a float may overflow a float.
       const glm::dvec3 n(look.normal);
       geometry.normals.emplace_back(n / glm::length(n));
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One part: surfaces and pages as the plain values of display_part.h.
+/// Builder of one part: surfaces and pages as the plain values of display_part.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,18 +19,18 @@ class PartGraph {
   /// `origin` is subtracted from every coordinate.
   PartGraph(Textures& textures, const Vec3& origin);
 
-  /// Adds the chunks of a surface of one look to a group. `normals`: whether all of its vertices have one.
+  /// Adds the chunks of a surface with one look to a group. `normals`: whether all its vertices have normals.
   void add(const Surface& surface, const Look& look, bool normals, std::uint32_t group);
-  /// A new group, which must become a level of one node of pages.
+  /// Adds a group, which must become a level of one node of pages. Returns its number.
   [[nodiscard]] std::uint32_t add_group() { return part_.groups++; }
-  /// Adds a node of pages, its place in the frame of the scene, in which `box` lies; returns its number. It must come
-  /// before what is in its levels.
+  /// Adds a node of pages, with its centre in the frame of the scene, and bounds `box`. Returns its number. Add it
+  /// before the contents of its levels.
   std::size_t add_pages(DisplayPages&& pages, const Box& box);
   [[nodiscard]] DisplayPages& pages(std::size_t number) { return part_.pages[number]; }
 
-  /// What is gathered.
+  /// The part so far.
   [[nodiscard]] const DisplayPart& part() const { return part_; }
-  /// Of geometry and images, about.
+  /// Approximate bytes of geometry and images.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

@@ -9,12 +9,12 @@
 namespace roam::reader {
 namespace {
 
-/// Bytes of geometry in a part: a second of reading at most, thousands of parts at least before they are a burden.
+/// Bytes of geometry in a part. A part takes a second of reading at most, and thousands of parts are no burden.
 constexpr std::size_t part_bytes = 8u << 20;
-/// Geometry that is gathered for the sake of its textures, before these are sent again: of one, and of all.
+/// Bytes of geometry that are held back so that a texture is sent once: for one texture, and for all.
 constexpr std::size_t one_texture_bytes = 64u << 20;
 constexpr std::size_t all_textures_bytes = 512u << 20;
-/// Beyond this the origin is moved: floats at 10 km are a millimetre apart.
+/// Metres. Beyond this the origin is moved, because floats at 10 km are a millimetre apart.
 constexpr double far_from_zero = 1e4;
 constexpr double origin_rounding = 1e3;
 
@@ -84,7 +84,8 @@ void PartPool::add_to(Surface& surface, std::span<const Vec3> vertices, std::spa
 void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
   std::optional<PartGraph> own;
   TextureId last = no_texture;
-  // In the order of the map, which is that of textures: several small ones in a part, all of one in the same part.
+  // The map is in the order of textures. So one part has several small textures, and all geometry of one texture is in
+  // one part.
   for (auto at = gathered_.begin(); at != gathered_.end();) {
     const auto& [look, group, normals] = at->first;
     Surface& surface = at->second;
@@ -114,7 +115,7 @@ void PartPool::finish_file() {
 
 const Vec3& PartPool::origin_near(std::span<const Vec3> places) {
   if (origin_) return *origin_;
-  // The median, because one stray vertex must not move the origin.
+  // The median, so that one stray vertex cannot move the origin.
   Vec3 middle{0.0};
   std::vector<double> along(places.size());
   for (int k = 0; k < 3; ++k) {
@@ -133,7 +134,7 @@ const Vec3& PartPool::origin_near(std::span<const Vec3> places) {
 void PartPool::send(const PartGraph& graph) {
   const DisplayPart& part = graph.part();
   const std::vector<std::byte> bytes = encode(part);
-  // A page of which nothing is left lies nowhere.
+  // An empty page has no bounds.
   const Box bounds = part.bounds.lower.x <= part.bounds.upper.x ? part.bounds : Box{part.origin, part.origin};
   PartHeader header{};
   for (int k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is to be seen, gathered by its look and sent in parts.
+/// Display geometry, gathered by look and sent in parts.
 
 #include <cstdint>
 #include <functional>
@@ -18,27 +18,27 @@ namespace roam::reader {
 
 class PartPool {
  public:
-  /// `origin`: that of the paths before; unset, the first geometry decides it.
+  /// `origin`: that of the previous paths. If unset, the first geometry sets it.
   PartPool(FrameWriter& frames, SceneFiles& files, std::optional<Vec3> origin)
       : frames_(frames), textures_(frames, files), origin_(origin) {}
 
   [[nodiscard]] Textures& textures() { return textures_; }
 
-  /// Adds triangles, their vertices in the frame of the scene, and sends what is enough for a part.
+  /// Adds triangles with vertices in the frame of the scene. Sends a part when there is enough geometry.
   void add(std::span<const Vec3> vertices, std::span<const VertexLook> looks, std::span<const Corners> triangles,
            const Look& look);
-  /// Sends all that is gathered: what follows has other textures.
+  /// Sends all geometry gathered, because the next file has other textures.
   void finish_file();
 
-  /// Chooses the origin, unless it is known, for a scene that has these places.
+  /// Returns the origin. If it is unset, chooses it for a scene with these points.
   const Vec3& origin_near(std::span<const Vec3> places);
-  /// Sends a part that is made already.
+  /// Sends a complete part.
   void send(const PartGraph& graph);
 
-  /// From here on all belongs to one part, which finish_file sends: a page. Triangles go into the group of it that is
-  /// set last, at first 0.
+  /// Begins a page: from now on all geometry belongs to one part, which finish_file sends. Triangles go into the group
+  /// that was set last, at first 0.
   PartGraph& begin_page();
-  /// Null outside of a page.
+  /// Null unless a page has begun.
   [[nodiscard]] PartGraph* page() { return page_ ? &*page_ : nullptr; }
   void set_group(std::uint32_t group) { group_ = group; }
   [[nodiscard]] std::uint32_t group() const { return group_; }
@@ -63,9 +63,9 @@ class PartPool {
   Gathered gathered_;
   std::optional<PartGraph> page_;
   std::uint32_t group_ = 0;
-  std::size_t plain_bytes_ = 0, textured_bytes_ = 0;  ///< gathered without and with texture
+  std::size_t plain_bytes_ = 0, textured_bytes_ = 0;  ///< gathered without and with textures
 
-  /// The index in the surface of each vertex of the mesh that is being added, where its mark is the current one.
+  /// The surface index of each vertex of the mesh being added; valid if `mark` is the current one.
   struct Index {
     std::uint32_t mark = 0;
     std::uint32_t index = 0;

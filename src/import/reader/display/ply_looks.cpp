@@ -91,7 +91,7 @@ PlyWedges::PlyWedges(const PlyHeader& header, const std::filesystem::path& file,
   if (sink.parts() == nullptr) return;
   bool any = false;
   for (const PlyElement& element : header.elements) {
-    // Strips share their vertices by number.
+    // Strips share vertices by index.
     if (element.name == "tristrips") return;
     for (const PlyProperty& property : element.properties) {
       any = any || (element.name == "face" && is_coordinates(property));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which properties of a PLY file say how it looks.
+/// The properties of a PLY file that describe its look.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,28 +13,28 @@
 
 namespace roam::reader {
 
-/// Those of vertices.
+/// The properties of vertices.
 class PlyLooks {
  public:
-  /// Where `sink` has parts, sets the look of the triangles that follow; else wants nothing.
+  /// If `sink` has parts, sets the look of the triangles that follow. Otherwise wants no property.
   PlyLooks(const PlyElement& vertex, const PlyHeader& header, const std::filesystem::path& file, MeshSink& sink);
 
   [[nodiscard]] bool wants(std::size_t property) const { return roles_[property] != Role::none; }
-  /// Puts a value of a wanted property into the look.
+  /// Stores the value of a wanted property in the look.
   void take(std::size_t property, double value, VertexLook& look) const;
 
  private:
   enum class Role { none, normal_x, normal_y, normal_z, red, green, blue, across, up };
 
   std::vector<Role> roles_;
-  std::vector<double> one_;  ///< the value of each property that stands for 1
+  std::vector<double> one_;  ///< for each property, the value that means 1
 };
 
-/// Those of faces: each corner of a face has its own place in an image, which programs that cut a surface into pieces
-/// of image write.
+/// The properties of faces. Programs that cut a surface into pieces of an image give each corner of a face its own
+/// texture coordinates.
 class PlyWedges {
  public:
-  /// Where `sink` has parts and some face such places, wants vertices; else nothing.
+  /// Wants vertices if `sink` has parts and some faces have such coordinates.
   PlyWedges(const PlyHeader& header, const std::filesystem::path& file, MeshSink& sink);
 
   [[nodiscard]] bool wanted() const { return !looks_.empty(); }
@@ -43,7 +43,8 @@ class PlyWedges {
 
   void add_vertex(const Vec3& place, const VertexLook& look) { vertices_.push_back({place, look}); }
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
-  /// Adds a face whose corners are vertices, with two numbers each for the place in image number `image`, or none.
+  /// Adds a face. `corners` are vertex indices; `coordinates` has two numbers for each corner in image number `image`,
+  /// or is empty.
   void add_face(std::span<const std::uint32_t> corners, std::span<const double> coordinates, std::int64_t image);
 
  private:

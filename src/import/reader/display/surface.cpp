@@ -6,7 +6,7 @@
 namespace roam::reader {
 namespace {
 
-/// Floats keep a tenth of a millimetre over this; only few triangles may be farther apart in one chunk.
+/// Metres. Floats are precise to a tenth of a millimetre over this size. Only a chunk of few triangles may be larger.
 constexpr double chunk_size = 2000.0;
 constexpr std::size_t few_triangles = 256;
 

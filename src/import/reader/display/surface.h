@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangles with the looks of their vertices, and how they are cut into chunks that are drawn or not as a whole.
+/// Triangles with vertex looks, and their division into chunks, which are the units of culling.
 
 #include <array>
 #include <cstdint>
@@ -24,12 +24,13 @@ struct Surface {
   }
 };
 
-/// Most triangles of a chunk: their corners are counted in 16 bits, and a few hundred chunks are a million triangles.
+/// Most triangles of a chunk. Their corners fit into 16-bit indices, and a million triangles are a few hundred chunks
+/// at most.
 inline constexpr std::size_t chunk_triangles = 16384;
 static_assert(3 * chunk_triangles <= 65536);
 
-/// The triangles of each chunk, as spans of `order`, which is filled with all triangle numbers: cut at the median of
-/// the longest side until a chunk is small enough.
+/// The triangles of each chunk, as spans of `order`, which receives all triangle indices. Cuts at the median of the
+/// longest side until a chunk is small enough.
 [[nodiscard]] std::vector<std::span<const std::uint32_t>> cut_into_chunks(const Surface& surface,
                                                                           std::vector<std::uint32_t>& order);
 

@@ -9,7 +9,7 @@
 namespace roam::reader {
 namespace {
 
-/// What can be sent as it lies there.
+/// The kind of an image whose texels can be sent unchanged.
 std::optional<DisplayTexels> kind_of(const osg::Image& image) {
   switch (image.getPixelFormat()) {
     case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
@@ -46,7 +46,7 @@ std::uint32_t height_of(const osg::Image& image) {
 }
 
 void copy_blocks(const osg::Image& image, DisplayTexture& texture) {
-  // The levels of a file that does not have all of them are of no use to those who draw.
+  // The display cannot use an incomplete set of levels.
   if (image.getNumMipmapLevels() == DisplayTexture::all_levels(texture.width, texture.height)) {
     texture.levels = image.getNumMipmapLevels();
   }
@@ -65,7 +65,7 @@ bool has_texels(const osg::Image& image) {
   const auto kind = kind_of(image);
   if (!kind) return !image.isCompressed();
   if (*kind < DisplayTexels::dxt1) return true;
-  // Blocks cannot be cut to size.
+  // Compressed blocks cannot be reduced.
   return std::max(image.s(), image.t()) <= static_cast<int>(DisplayTexture::side_limit);
 }
 

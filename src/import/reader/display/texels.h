@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// An image's texels as they are sent.
+/// Conversion of an image's texels for sending.
 
 #include <osg/Image>
 
@@ -8,11 +8,11 @@
 
 namespace roam::reader {
 
-/// Whether there is anything in it to be shown.
+/// Whether the image can be shown.
 [[nodiscard]] bool has_texels(const osg::Image& image);
 
-/// Its texels as they are where their kind is one of DisplayTexels, else turned into bytes of red, green, blue and
-/// opacity. `image` must have texels.
+/// The image's texels: unchanged if their kind is one of DisplayTexels, else converted to bytes of red, green, blue and
+/// opacity. Requires has_texels(image).
 [[nodiscard]] DisplayTexture texels_of(const osg::Image& image);
 
 }  // namespace roam::reader

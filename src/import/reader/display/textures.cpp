@@ -61,7 +61,7 @@ osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
 void Textures::forget_images() {
   for (Source& source : sources_) source.image = nullptr;
   found_.clear();
-  // An address may be used again by another image.
+  // Another image may later have the same address.
   std::erase_if(known_, [](const auto& entry) { return entry.first.starts_with("image"); });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The images of a scene: looked for where exporters leave them, decoded when they are needed, each one once.
+/// The images of a scene: found where exporters leave them, decoded on demand, each one once.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +20,7 @@
 
 namespace roam::reader {
 
-/// How an image goes on beyond its edges, across and up.
+/// How an image continues beyond its edges, across and up.
 struct Wrapping {
   DisplayWrap across = DisplayWrap::repeat;
   DisplayWrap up = DisplayWrap::repeat;
@@ -30,23 +30,23 @@ class Textures {
  public:
   Textures(FrameWriter& frames, SceneFiles& files) : frames_(frames), files_(files) {}
 
-  /// The files that images may be read from.
+  /// The files from which images may be read.
   [[nodiscard]] SceneFiles& files() { return files_; }
 
-  /// The image that a file in `folder` calls `name`. It is looked for when it is needed.
+  /// Adds the image that a file in `folder` refers to as `name`. The file is searched on demand.
   TextureId add_file(const std::filesystem::path& folder, const std::string& name, Wrapping wrapping);
-  /// An encoded image inside a scene's file. `key` tells it from others; `read` gives the bytes of the image.
+  /// Adds an encoded image embedded in a scene's file. `key` identifies it; `read` returns its bytes.
   TextureId add_encoded(const std::string& key, std::function<std::string()> read, Wrapping wrapping);
-  /// An image that is decoded already.
+  /// Adds a decoded image.
   TextureId add_image(osg::Image& image, Wrapping wrapping);
 
-  /// The image, decoded anew each time; null when there is none, which is reported once.
+  /// The image, decoded anew each time. Null if there is none, which is reported once.
   [[nodiscard]] osg::ref_ptr<osg::Image> load(TextureId texture);
   [[nodiscard]] Wrapping wrapping(TextureId texture) const { return sources_.at(texture).wrapping; }
-  /// Lets go of the images of find and add_image; the latter's numbers must not be used any more.
+  /// Frees the images of find and add_image. Numbers from add_image must not be used any more.
   void forget_images();
 
-  /// The image of that name, for files that OpenSceneGraph reads itself; null when there is none, which is reported.
+  /// The image of that name, for files that OpenSceneGraph reads itself. Null if there is none, which is reported.
   [[nodiscard]] osg::ref_ptr<osg::Image> find(const std::filesystem::path& folder, const std::string& name);
 
   [[nodiscard]] std::uint64_t read() const { return read_; }
@@ -56,7 +56,7 @@ class Textures {
   struct Source {
     std::string name;
     std::function<osg::ref_ptr<osg::Image>()> decode;
-    osg::ref_ptr<osg::Image> image;  ///< where there is nothing to decode
+    osg::ref_ptr<osg::Image> image;  ///< for images that are already decoded
     Wrapping wrapping;
     bool counted = false;
   };

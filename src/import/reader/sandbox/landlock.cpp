@@ -16,7 +16,7 @@
 namespace roam::reader {
 namespace {
 
-// Names and numbers of the kernel's interface. The header of Debian 12 stops at version 2, and older systems have none.
+// Names and numbers of the kernel's interface. The header of Debian 12 ends with version 2; older systems have none.
 constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446;
 constexpr std::uint32_t ask_version = 1;
 constexpr int rule_path_beneath = 1;
@@ -32,21 +32,21 @@ struct __attribute__((packed)) PathBeneath {
   std::int32_t parent;
 };
 
-/// Rights over files that version 1, 2, ... of the interface knows: what is known here and not allowed is denied.
+/// Rights over files in versions 1, 2, ... of the interface. Known rights that no rule allows are denied.
 constexpr std::array<std::uint64_t, 5> file_rights{(1u << 13) - 1, (1u << 14) - 1, (1u << 15) - 1, (1u << 15) - 1,
                                                    (1u << 16) - 1};
-/// Binding and connecting of TCP, from version 4; signals and abstract sockets, from version 6.
+/// TCP bind and connect, from version 4; signals and abstract sockets, from version 6.
 constexpr std::uint64_t tcp_rights = 3, all_scopes = 3;
 constexpr int version_with_networks = 4, version_with_scopes = 6;
 
-/// A path of a scope has no links. One that is a link by now would let in what it leads to.
+/// Opens a path of a scope, which has no links. A path that has become a link would let its target in.
 int open_without_links(const std::filesystem::path& path) {
   open_how how{};
   how.flags = O_PATH | O_CLOEXEC;
   how.resolve = RESOLVE_NO_SYMLINKS;
   const long descriptor = syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof(how));
   if (descriptor >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(descriptor);
-  // Some containers refuse openat2. Only the last part is looked at then.
+  // Some containers refuse openat2. Then only the last part is checked.
   const int last = open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC);
   struct stat status {};
   if (last < 0 || (fstat(last, &status) == 0 && !S_ISLNK(status.st_mode))) return last;
@@ -54,7 +54,7 @@ int open_without_links(const std::filesystem::path& path) {
   return -1;
 }
 
-/// A path that is not there needs no rule: nothing can be read there either.
+/// An absent path needs no rule, because nothing can be read there.
 void allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
   const int descriptor = open_without_links(path);
   if (descriptor < 0) return;

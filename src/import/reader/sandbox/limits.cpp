@@ -22,7 +22,7 @@
 #include <sys/syscall.h>
 #endif
 
-// Sanitizers reserve terabytes of address space; a limit on it would end the reader before it begins.
+// Sanitizers reserve terabytes of address space. A limit on it would end the reader at once.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ROAM_SHADOW_MEMORY 1
 #elif defined(__has_feature)
@@ -34,10 +34,10 @@
 namespace roam::reader {
 namespace {
 
-/// A scene's files are read one by one, and each may name others before it is closed.
+/// A scene's files are read one by one, and each may name others while it is open.
 constexpr rlim_t open_files = 256;
 
-/// A limit that is stricter already stays.
+/// Keeps a limit that is already stricter.
 bool limit(int resource, rlim_t value) {
   struct rlimit both {};
   if (getrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0) value = std::min(value, both.rlim_max);
@@ -45,7 +45,7 @@ bool limit(int resource, rlim_t value) {
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
-/// Whether no other thread runs: it would not be behind Landlock.
+/// Whether no other thread runs, which Landlock would not confine. Also true if /proc cannot be read.
 bool is_alone() {
   std::error_code none;
   std::filesystem::directory_iterator thread("/proc/self/task", none);
@@ -53,10 +53,10 @@ bool is_alone() {
 }
 
 #ifdef __linux__
-/// Whether every descriptor above `last` is closed.
+/// Closes every descriptor above `last`. Returns whether it could.
 bool close_above(int last) {
   if (close_range(static_cast<unsigned>(last) + 1, ~0u, 0) == 0) return true;
-  // Linux before 5.9, and containers that do not know the call.
+  // For Linux before 5.9, and containers that do not know the call.
   std::vector<int> above;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", none)) {
@@ -67,7 +67,7 @@ bool close_above(int last) {
   return !none;
 }
 
-/// Where memory runs out, the system ends this process before the program that started it.
+/// Makes the system end this process before its parent when memory runs out.
 void be_ended_first() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -76,9 +76,9 @@ void be_ended_first() {
   close(file);
 }
 
-/// Gives up what root may do and others may not. Returns whether nothing of it is left.
+/// Drops the capabilities of root. Returns whether none is left.
 bool drop_capabilities() {
-  // Root alone can, and only root gets them back by starting a program.
+  // Only root can drop these, and only root regains them by starting a program.
   for (int right = 0; prctl(PR_CAPBSET_READ, right) >= 0; ++right) prctl(PR_CAPBSET_DROP, right);
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
@@ -96,12 +96,12 @@ bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
   if (rights.address_space > 0) all = limit(RLIMIT_AS, rights.address_space) && all;
   if (rights.data > 0) all = limit(RLIMIT_DATA, rights.data) && all;
 #endif
-  // By 1 Linux writes no core dump and starts no program that takes one; by 0 it still starts that.
+  // With 1, Linux writes no core dump and does not start a program that takes one. With 0 it still starts that program.
   all = limit(RLIMIT_CORE, 1) && all;
   all = limit(RLIMIT_NPROC, 0) && all;
   all = limit(RLIMIT_NOFILE, open_files) && all;
   all = limit(RLIMIT_FSIZE, rights.file_size) && all;
-  // Beyond it writing fails and is reported, instead of ending the process.
+  // Writing beyond the limit then fails and is reported, instead of ending the process.
   signal(SIGXFSZ, SIG_IGN);
 #ifdef __linux__
   const pid_t parent = getppid();
@@ -113,17 +113,17 @@ bool limit_process(const Rights& rights, [[maybe_unused]] int last_descriptor) {
   return all;
 }
 
-/// Moves the process into a folder that is empty and that nobody can put a file into. Returns whether it did.
+/// Moves the process into an empty folder in which no file can be made. Returns whether it could.
 bool enter_empty_folder() {
   std::string folder = files::temporary_folder() + "/roam-empty-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr) return false;
   const bool inside = chdir(folder.c_str()) == 0;
-  // A folder that is gone takes no new file.
+  // A removed folder accepts no new file.
   rmdir(folder.c_str());
   return inside;
 }
 
-/// Which of Landlock, seccomp and no_new_privs hold.
+/// Sets no_new_privs, Landlock and seccomp. Returns which of them hold.
 Confinement give_up_rights(const Rights& rights, int highest_landlock) {
   Confinement confinement;
 #ifdef __linux__
