@@ -6,7 +6,7 @@
 namespace roam::index {
 namespace {
 
-/// Sets the corners. `low_of` returns the part of a vertex coordinate below whole steps, metres.
+/// Sets the corners; `low_of` gives what a coordinate of a vertex has beyond its whole steps, metres.
 template <class LowOf>
 [[gnu::always_inline]] inline void set_corners(const Leaf& leaf, std::uint32_t triangle, double step,
                                                const Vec3& offset, const LowOf& low_of, certified::LocalTriangle& out) {
