@@ -56,8 +56,9 @@ class Search {
 
   enum class Answer : std::uint8_t { none, free, hidden };
 
-  /// `free`: there is a disc, or it is undecided. With `past_walls` no walls are looked for until a disc is found; then
-  /// `hidden` means that a wall may stand before its centre, and no other disc was looked for.
+  /// `none`: there is no disc. `free`: there is one, or the search reached a limit undecided. With `past_walls` walls
+  /// are not looked for until a disc is found. `hidden` then means that a wall may stand before that disc, or that the
+  /// search is undecided; search again without `past_walls`.
   Answer run(bool past_walls, walking::DiscFound& disc) {
     std::array<Square, stack_size> stack;
     std::size_t depth = 0;
