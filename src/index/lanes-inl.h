@@ -145,8 +145,8 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
 
 /// Delays the times of the remaining children, and drops more of them, by a second supporting plane. It belongs to the
 /// point of the box closest to the body when the body enters the slabs; let w be the vector to it. From then on the
-/// body is free as long as
-/// w|^2 - time w.m > r |w|. This costs a root and a division, so it pays only where there are several children.
+/// body is free as long as |w|^2 - time w.m > r |w|. This costs a root and a division, so it pays only where there are
+/// several children.
 HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                                Children& out) {
   const Boxes boxes(node, frame, motion.mirror);

@@ -157,7 +157,8 @@ struct Tight {
 };
 
 /// Accepts bounds that lose part of the gap. Of the distance to the stored triangle less the radius and the tile's
-/// error, a bound must keep at least 1 - part. Beyond `reach` no closer bound is needed.
+/// error, a bound must keep at least 1 - part. This holds only within `reach`: beyond it, a loose bound could report a
+/// triangle as nearer than `reach`.
 struct Slack {
   static constexpr bool is_loose = true;
   float factor, less, farthest;
@@ -172,8 +173,8 @@ struct Slack {
   }
 };
 
-/// Lower bound of the distance from the triangles' own planes to the body's axis during the whole motion, except for
-/// roundings.
+/// Lower bound of the distance between triangles and the body's axis during the whole motion, by the triangles' own
+/// planes; the caller subtracts the roundings.
 HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
   const V3& n = t.normal;
   const VF zero = hn::Zero(kF), a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), along = dot(n, way);
@@ -192,7 +193,7 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// except for rounding.
 ///
 /// Any w gives a bound. For the whole motion m, seen from any point of the axis at the fraction t of the motion,
-/// w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w leads from the closest point to the
+/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w leads from the closest point to the
 /// nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one of
 /// their ends.
 template <class Bounds>
