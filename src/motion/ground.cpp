@@ -15,8 +15,8 @@ namespace {
 /// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is walked on.
 constexpr double cosine_rounding = 1e-9;
 
-/// Metres. A rim is judged by a ball of this radius, lowered this far behind the rim: so far that it does not lie on
-/// the rim itself, so near that it finds the top of a thin wall and the nosing of a stair.
+/// Metres. A rim is judged by a ball of radius rim_ball, lowered rim_inset behind the rim. That is far enough not to
+/// lie on the rim itself. It is near enough to find the top of a thin wall and the nosing of a stair.
 constexpr double rim_ball = 0.004;
 constexpr double rim_inset = 0.012;
 

@@ -17,9 +17,9 @@ struct InstanceMotion {
   [[nodiscard]] Vec3 carried(const Vec3& point) const { return to.to_scene(from.to_instance(point)); }
   /// A direction that turns with the instance.
   [[nodiscard]] Vec3 turned(const Vec3& direction) const;
-  /// Metres. Upper bound of the distance between the path of a point that moves by `way` meanwhile, as the instance
-  /// sees it, and its chord: an eighth of the greatest second derivative of R(-angle t) (point + way t - position -
-  /// shift t) for t in [0, 1].
+  /// Metres. Upper bound of the distance between the path of a point and the path's chord. As the instance sees it, the
+  /// point moves by `way` meanwhile. The bound is an eighth of the greatest second derivative of R(-angle t) (point +
+  /// way t - position - shift t) for t in [0, 1].
   [[nodiscard]] double bulge(const Vec3& point, const Vec3& way) const;
 };
 

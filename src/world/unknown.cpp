@@ -11,9 +11,10 @@
 namespace roam::unknown {
 namespace {
 
-/// Unit roundoffs charged to each metre of the distance at the start, the motion, the half height and the radius. At a
-/// distance d and a motion w, the components of the distance carry at most 3 roundings of d + w and one of the half
-/// height; their length 3 of itself; the slope 4 of w; their sum with the radius 3; sqrt(3) for three axes.
+/// Unit roundoffs charged to each metre of the distance at the start, the motion, the half height and the radius. Let d
+/// be the distance and w the motion. The components of the distance carry at most 3 roundings of d + w and one of the
+/// half height. Their length carries 3 of itself, the slope 4 of w, and their sum with the radius 3; sqrt(3) for three
+/// axes.
 constexpr double roundings = 32.0;
 
 /// Metres. A body this near has arrived. It is the rest of the 2 mm by which a hit may be early, after the margin.

@@ -10,8 +10,8 @@ namespace {
 constexpr double spare = 0.25;
 constexpr double ways_ahead = 3.0;
 
-/// Metres. A body with a longer reach or a longer motion, or with a larger radius and half height together, leaves the
-/// box too soon or meets too much of it: gathering would take longer than it saves.
+/// Metres. Limits of the reach, the motion, and the sum of radius and half height. A body beyond them leaves the box
+/// too soon or meets too much of it: gathering would take longer than it saves.
 constexpr double farthest_reach = 0.25;
 constexpr double longest_way = 0.2;
 constexpr double largest_body = 16.0;
