@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Reader of JSON of a known shape, straight into structs, within limits of depth and memory. An untrusted text costs
-/// no more than the data kept from it. No tree is built in between, and no error path allocates.
+/// no more than the data kept from it. No tree is built in between.
 
 #include <array>
 #include <cstddef>

@@ -37,13 +37,13 @@ class Vicinity {
 };
 
 /// Space::sweep() and gap() for a body that queries again from near its last query. The guarantees are the same, and a
-/// World or a Pager has less to search. Within the tolerances a result may differ, because it depends on where a search
-/// begins: a hit by 0.025 mm, the distance at which a body may arrive before it touches (more along a grazing motion);
-/// a gap by the part by which it may be too small. The same queries in the same order give the same bits, if they begin
-/// with an equal vicinity and the revision stays the same.
+/// World or a Pager has less to search. Results depend on where a search begins, so they may differ within the
+/// tolerances. A hit may differ by 0.025 mm, the distance at which a body may arrive before it touches; by more along a
+/// grazing motion. A gap may differ by the part by which it may be too small. The same queries in the same order give
+/// the same bits, if they begin with an equal vicinity and the revision stays the same.
 ///
-/// Walker makes no sweep along a way whose gap exceeds 0.05 mm. That the body passes through nothing then rests on the
-/// gap, as otherwise on the sweep.
+/// Walker makes no sweep along a way whose gap exceeds 0.05 mm. Such a gap alone then guarantees that the body passes
+/// through nothing.
 struct Nearby {
   [[nodiscard]] static Impact sweep(const Space& space, Vicinity& vicinity, const Query& query);
   [[nodiscard]] static double gap(const Space& space, Vicinity& vicinity, const Query& query, double reach);
