@@ -1,4 +1,4 @@
-// A platform rises, crosses a pit and turns, with a person on it who walks about and jumps.
+// A moving platform: it lifts a person, carries the person over a pit, and turns. Meanwhile the person walks and jumps.
 #include <roam/instances.h>
 #include <roam/move_instances.h>
 #include <roam/walker.h>
@@ -23,7 +23,7 @@ void add_floor(roam::Mesh& mesh, double x0, double x1, double z) {
 }  // namespace
 
 int main() {
-  // Two banks, the far one 2 m higher, and a pit of 20 m between them.
+  // Two banks with a pit of 20 m between them; the far bank is 2 m higher.
   roam::Mesh banks{.name = "banks"};
   add_floor(banks, -10.0, 0.0, 0.0);
   add_floor(banks, 0.0, 20.0, -30.0);
@@ -48,7 +48,7 @@ int main() {
     }
   };
 
-  run(3.3, {}, {.velocity = {1.4, 0.0, 0.0}});  // onto the platform
+  run(3.3, {}, {.velocity = {1.4, 0.0, 0.0}});  // walk onto the platform
   std::printf("on board: %s\n", person.stance().object == platform ? "yes" : "no");
   run(2.0, {.linear = {0.0, 0.0, 1.0}}, {});
   std::printf("lifted to z = %.2f\n", person.feet().z);
@@ -57,7 +57,7 @@ int main() {
   std::printf("carried to x = %.2f, by ground that moves at %.1f m/s\n", person.position().x,
               person.report().ground_velocity.x);
   run(2.0, {.turning = 0.8}, {});
-  run(2.0, {}, {.velocity = {1.4, 0.0, 0.0}});  // off it, onto the far bank
+  run(2.0, {}, {.velocity = {1.4, 0.0, 0.0}});  // walk off the platform, onto the far bank
   const bool across = person.grounded() && person.position().x > 20.0;
   std::printf("across: %s, z = %.2f\n", across ? "yes" : "no", person.feet().z);
   return across ? 0 : 1;

@@ -1,4 +1,5 @@
-// A door leaf turns in a scene graph while a sphere tries to pass: the intersector asks the graph as it is, every time.
+// Sweeps of a sphere through a scene graph whose door turns. The intersector builds no index: each visit sees the graph
+// as it is at that moment.
 #include <osgRoam/BoxIntersector.h>
 
 #include <cstdio>
@@ -8,7 +9,7 @@
 
 namespace {
 
-/// An upright leaf of 1 m by 2 m, hinged at the origin.
+/// An upright door leaf, 1 m wide and 2 m high, hinged at the origin.
 osg::ref_ptr<osg::Geometry> leaf() {
   osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
   for (const auto& [x, z] : {std::pair{0, 0}, {1, 0}, {1, 2}, {0, 2}}) corners->push_back(osg::Vec3(x, 0, z));

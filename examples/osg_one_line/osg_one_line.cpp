@@ -1,5 +1,5 @@
-// An ordinary viewer of OpenSceneGraph in which one line was replaced. W, A, S, D and the arrows fly, the mouse looks,
-// G walks, H tells of the other keys; no wall is ever crossed.
+// An ordinary OpenSceneGraph viewer with one line replaced, so that the camera never crosses a wall. Fly with W, A, S,
+// D and the arrow keys, look with the mouse, press G to walk and H for the other keys.
 #include <osgRoam/Manipulator.h>
 
 #include <cstdio>

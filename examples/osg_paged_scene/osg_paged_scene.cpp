@@ -1,6 +1,6 @@
-// A viewer of a paged OpenSceneGraph scene. Collision comes from the files as OpenSceneGraph's own pager reads them:
-// what it has not read yet is solid. W, A, S, D and the arrows fly, the mouse looks, G walks, H tells of the other
-// keys.
+// A viewer of a paged OpenSceneGraph scene, with collision taken from the files that OpenSceneGraph's own pager reads.
+// Files that are not read yet are solid. Fly with W, A, S, D and the arrow keys, look with the mouse, press G to walk
+// and H for the other keys.
 #include <osgRoam/Harvester.h>
 #include <osgRoam/Manipulator.h>
 #include <roam/patchwork.h>
@@ -21,14 +21,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: osg_paged_scene ROOT...\n");
     return 2;
   }
-  space->update();  // now the root's coarsest level is there, before there is a body
+  space->update();  // puts the root's coarsest level into use before there is a body
   harvester->setTakesUnnamedFiles(false);
 
   osgViewer::Viewer viewer(arguments);
   viewer.setSceneData(scene);
   scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);  // photographs have their own light
   const osg::ref_ptr<osgRoam::Manipulator> manipulator = new osgRoam::Manipulator;
-  manipulator->setSpace(space);  // which is updated before the steps of each frame
+  manipulator->setSpace(space);  // the manipulator updates the space before the steps of each frame
   viewer.setCameraManipulator(manipulator);
   const int status = viewer.run();
 

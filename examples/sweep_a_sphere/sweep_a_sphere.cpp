@@ -1,12 +1,12 @@
-// A sphere of 0.3 m flies down a corridor 2 m wide until it meets the wall at its end, then asks how far it may go on
-// along that wall.
+// A sphere of radius 0.3 m flies down a corridor 2 m wide until it meets the end wall. Then the program steps back 0.1
+// m and queries the clearance there.
 #include <roam/world.h>
 
 #include <cstdio>
 
 namespace {
 
-/// An upright rectangle between two points of the floor plan.
+/// An upright rectangle above the line from (x0, y0) to (x1, y1).
 roam::Mesh wall(const char* name, double x0, double y0, double x1, double y1, double height) {
   return {name, {{x0, y0, 0}, {x1, y1, 0}, {x1, y1, height}, {x0, y0, height}}, {{0, 1, 2}, {0, 2, 3}}};
 }

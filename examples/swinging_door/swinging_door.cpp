@@ -1,5 +1,5 @@
-// A person walks to a door that is shut. It swings open, away from the person, who goes through; then it shuts, pushes
-// whoever stands in its way, and stops where somebody has nowhere to go.
+// A swinging door. A person walks to the shut door. It swings open, away from the person, who goes through. Then it
+// shuts: it pushes the person out of its way, and stops if there is no room to push the person to.
 #include <roam/instances.h>
 #include <roam/move_instances.h>
 #include <roam/walker.h>
@@ -36,7 +36,7 @@ int main() {
   add_box(house, {-0.1, 1.0, 0.0}, {0.1, 4.0, 3.0});
   const roam::World rooms = roam::World::build({&house, 1});
 
-  // The door's leaf, with its hinge at the origin of its own world.
+  // The door leaf, with its hinge at the origin of its own world.
   roam::Mesh leaf{.name = "leaf"};
   add_box(leaf, {-0.02, 0.02, 0.01}, {0.02, 0.98, 2.1});
   roam::Instances scene(rooms);
@@ -46,7 +46,8 @@ int main() {
   roam::Walker person(scene, {.radius = 0.3}, roam::Mode::walk, {-3.0, 0.5, 1.0});
   roam::Walker* const people[] = {&person};
   constexpr double dt = 1.0 / 60.0;
-  // Turns the door for some seconds while the person walks; returns how often somebody stopped it.
+  // Turns the door at `turning` rad/s while the person walks at `wish` m/s. Returns how many times a person stopped the
+  // door.
   const auto run = [&](double seconds, double turning, const Vec3& wish) {
     int stops = 0;
     for (double t = 0.0; t < seconds; t += dt) {
@@ -62,10 +63,10 @@ int main() {
   const roam::ObjectId met = report.contacts.empty() ? roam::no_object : report.contacts.back().object;
   std::printf("shut: the person is %s at x = %.2f\n", met == door ? "stopped by the door" : "not stopped",
               person.position().x);
-  run(1.5, -0.5 * std::numbers::pi / 1.5, {0.0, 0.0, 0.0});  // a right angle in 1.5 s
+  run(1.5, -0.5 * std::numbers::pi / 1.5, {0.0, 0.0, 0.0});  // a quarter turn in 1.5 s
   run(2.0, 0.0, {1.4, 0.0, 0.0});
   std::printf("open: the person came to x = %.2f\n", person.position().x);
-  run(1.6, 0.0, {-1.4, 0.0, 0.0});  // back into the doorway
+  run(1.6, 0.0, {-1.4, 0.0, 0.0});  // walk back into the doorway
   const int stops = run(1.5, 0.5 * std::numbers::pi / 1.5, {0.0, 0.0, 0.0});
   std::printf("shut again: the person was moved to x = %.2f, the door stands at %.0f degrees%s\n", person.position().x,
               scene.pose(door).heading * 180.0 / std::numbers::pi, stops > 0 ? ", stopped" : "");

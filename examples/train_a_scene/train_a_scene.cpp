@@ -1,4 +1,5 @@
-// Which bodies go everywhere in a scene and fall nowhere; kept beside the scene, where `roam view` takes it from.
+// Finds the size of body that can walk everywhere in a scene without falling. Saves it as a profile beside the scene,
+// where `roam view` looks for it.
 #include <cstdio>
 
 #include "roam/import.h"
@@ -12,7 +13,7 @@ int main(int argc, char** argv) {
   try {
     const roam::Survey survey = roam::Survey::build(roam::import_scene(argv[1]).meshes, {.lossless = true});
     const roam::Training training = roam::train(survey, {.height = 1.8});
-    if (training.places == 0) return 3;  // nobody fits anywhere
+    if (training.places == 0) return 3;  // no body fits anywhere
     std::printf("%s a body with a radius of %.3f m: %zu paths were planned\n",
                 training.feasible ? "all are served by" : "the best is", training.radius, training.paths.size());
 

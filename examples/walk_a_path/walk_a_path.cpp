@@ -1,4 +1,4 @@
-// A person of 1.8 m walks along a path file through a scene file: what `roam walk` does, in a page.
+// A person 1.8 m high walks along a path file through a scene file: `roam walk` in one page.
 #include <roam/import.h>
 #include <roam/path_file.h>
 #include <roam/route.h>

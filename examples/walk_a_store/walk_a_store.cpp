@@ -1,4 +1,4 @@
-// Makes a store of a scene, unless it is up to date, and walks a path through it in 16 MB of collision.
+// Builds the store of a scene, unless it is up to date, and walks a path through it with 16 MB of memory for collision.
 #include <roam/pager.h>
 #include <roam/path_file.h>
 #include <roam/route.h>
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     const auto waypoints = roam::positions(roam::load_path(argv[3]));
     roam::WalkerSettings person;
     roam::Walker walker(pager, person, roam::Mode::walk, waypoints.front());
-    // Takes what has come into use between two steps, and waits where the body needs what has not.
+    // Between steps, puts loaded tiles into use. Where the body needs tiles that are not loaded yet, it waits for them.
     const roam::RouteResult walked = roam::follow(walker, pager, waypoints);
     const roam::PagerStats stats = pager.stats();
     std::printf("%s after %.1f m, %.0f MB of memory\n", roam::to_string(walked.outcome), walked.length,

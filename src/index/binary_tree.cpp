@@ -11,11 +11,11 @@ namespace roam::index {
 namespace {
 
 constexpr int bin_count = 16;
-/// Up to this many items every split position is tried instead of bins.
+/// For up to this many items every split position is tried, without bins.
 constexpr std::uint32_t exact_below = 64;
 
-/// All axes at once, in g++ and clang. A vector of lower bounds ends with, one of upper bounds begins with a number
-/// that means nothing.
+/// All axes in one vector, a type of g++ and clang. The last element of lower bounds and the first of upper bounds have
+/// no meaning.
 using Four = std::int32_t __attribute__((vector_size(16)));
 
 Four lower_of(const StepBox& box) {
@@ -29,7 +29,7 @@ Four upper_of(const StepBox& box) {
   std::memcpy(&four, reinterpret_cast<const char*>(&box) + 8, sizeof four);
   return four;
 }
-/// Doubled, so that they are whole.
+/// Doubled centres, which are integers.
 Four centres_of(const StepBox& box) {
   const Four upper = upper_of(box);
   return lower_of(box) + __builtin_shufflevector(upper, upper, 1, 2, 3, 3);
@@ -58,7 +58,7 @@ class Bounds {
 struct Split {
   double cost = std::numeric_limits<double>::infinity();
   int axis = -1;
-  std::int64_t position = 0;  ///< items whose doubled centre lies below it go left
+  std::int64_t position = 0;  ///< items with a smaller doubled centre go left
 };
 
 class Builder {
@@ -84,7 +84,7 @@ class Builder {
     return double((items + options_.items_per_test - 1) >> tests_shift_);
   }
 
-  /// Divides a node, and all below it, until what is left fits leaves.
+  /// Divides a node and its descendants until they fit leaves.
   void build_below(std::int32_t root, int root_depth) {
     std::vector<std::pair<std::int32_t, int>> open{{root, root_depth}};
     while (!open.empty()) {
@@ -123,7 +123,7 @@ class Builder {
     return left;
   }
 
-  /// Reorders the items of `n` in two halves and returns where the second begins.
+  /// Reorders the items of `n` into two parts and returns the beginning of the second.
   std::uint32_t divide(const BinaryNode& n, int depth) {
     if (depth < sah_depth) {
       const Split split = best_binned(n);
@@ -151,11 +151,11 @@ class Builder {
     return middle;
   }
 
-  /// A node of few items and all below it: each position between two centres is tried on each axis. The items are
-  /// sorted once; halves of what is sorted are sorted.
+  /// A node of few items with its descendants: every position between two centres is tried on each axis. The items are
+  /// sorted once, because parts of a sorted sequence stay sorted.
   class Few {
    public:
-    /// Items by their centres on each axis: numbers of boxes_, in the low bits of the centre.
+    /// Item numbers sorted by centre on each axis: an index into boxes_ in the low bits, the centre above it.
     using Sorted = std::array<std::array<std::uint64_t, exact_below>, 3>;
 
     Few(Builder& builder, const BinaryNode& n) : builder_(builder) {
@@ -176,7 +176,7 @@ class Builder {
     }
     [[nodiscard]] const Sorted& all() const { return all_; }
 
-    /// Divides a node, which does not fit a leaf, until all below it do.
+    /// Divides a node that does not fit a leaf, and its descendants, until all fit.
     void divide(std::int32_t index, int depth, const Sorted& sorted) {
       const BinaryNode n = builder_.tree_.nodes[index];
       const std::uint32_t count = n.end - n.begin;
@@ -293,7 +293,7 @@ class Builder {
     return best;
   }
 
-  /// The least centre that falls in bin `b`, by the same arithmetic that sorts items into bins.
+  /// The least centre that falls into bin `b`, by the same arithmetic that assigns items to bins.
   static std::int64_t first_of_bin(std::int64_t lower, double inverse, int b) {
     auto offset = static_cast<std::int64_t>(double(b) / inverse);
     while (offset > 0 && int(double(offset - 1) * inverse) >= b) --offset;

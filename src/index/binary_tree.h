@@ -25,24 +25,23 @@ struct BinaryTree {
 };
 
 struct BinaryTreeOptions {
-  /// The heuristic's cost of n items is that of n rounded up to a multiple of this, a power of two: what
-  /// a leaf test costs.
+  /// The heuristic rounds the number of items of a leaf up to a multiple of this, the items of one leaf test. A power
+  /// of two.
   std::uint32_t items_per_test = node_width;
-  /// Steps by which a query grows the boxes, in all: the chance of a visit goes with the area of the grown box. More
-  /// than 0, or flat scenes leave the heuristic without a preference.
+  /// Steps by which a query grows the boxes, in total: the chance of a visit is proportional to the area of the grown
+  /// box. Must be more than 0, or the heuristic has no preference in flat scenes.
   double margin = 1.0;
   /// Whether these items may form a leaf. Must hold for a single item.
   std::function<bool(std::span<const std::uint32_t>)> fits_leaf;
 };
 
-/// The depth below which splits are balanced, whatever they cost: it bounds the depth-first part of a traversal's
-/// stack.
+/// Splits deeper than this are balanced, whatever they cost. This bounds the depth-first part of a traversal's stack.
 inline constexpr int sah_depth = 40;
-/// No tree is deeper: at most 2^24 items, halved below sah_depth.
+/// Greatest depth of a tree: at most 2^24 items are halved below sah_depth.
 inline constexpr int max_depth = sah_depth + 24;
 
-/// Deterministic: depends on the boxes and their order only. `boxes` holds 1 to 2^24 boxes, whose
-/// coordinates are from 0 to 2^30 - 1.
+/// Deterministic: the result depends only on the boxes and their order. `boxes` holds 1 to 2^24 boxes with coordinates
+/// from 0 to 2^30 - 1.
 [[nodiscard]] BinaryTree build_binary_tree(std::span<const StepBox> boxes, const BinaryTreeOptions& options);
 
 }  // namespace roam::index

@@ -8,14 +8,14 @@
 namespace roam::index {
 namespace {
 
-/// Visiting one more node costs as much as this many mean leaf areas, whatever its size: nodes take memory too.
+/// Cost of visiting one more node, in mean leaf areas, whatever its size: nodes take memory too.
 constexpr double leaves_per_node = 4.0;
 
 /// For each binary node, the least cost of its subtree when it may fill up to k of its parent's slots.
 struct Plan {
   std::array<float, node_width + 1> cost{};         ///< cost[k], k = 1 .. 16
-  std::array<std::uint8_t, node_width + 1> left{};  ///< slots of the left child; 0: the node takes one slot itself
-  std::uint8_t left_own = 0;                        ///< the left child's share of the sixteen slots of the node itself
+  std::array<std::uint8_t, node_width + 1> left{};  ///< slots of the left child; 0: the node itself takes one slot
+  std::uint8_t left_own = 0;                        ///< the left child's share of the node's own sixteen slots
 };
 
 std::vector<Plan> plan(const BinaryTree& tree, double margin) {
@@ -83,7 +83,7 @@ WideTree collapse(const BinaryTree& tree, double margin) {
     const BinaryNode& n = tree.nodes[index];
     children.clear();
     if (n.left < 0) {
-      children.push_back(index);  // a root that is a leaf itself
+      children.push_back(index);  // the root is itself a leaf
     } else {
       const int left = plans[index].left_own;
       gather(tree, plans, n.left, left, children);

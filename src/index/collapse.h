@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Turns a binary tree into one of sixteen children a node, each node one block.
+/// Collapse of a binary tree into a tree with sixteen children per node, each node one block.
 
 #include <cstdint>
 #include <vector>
@@ -15,9 +15,10 @@ struct WideTree {
   std::vector<std::uint32_t> leaves;  ///< binary leaves (indices into BinaryTree::nodes) in order of first_leaf
 };
 
-/// Chooses which binary nodes survive by dynamic programming over the number of child slots, so that the expected cost
-/// of visits is least (the idea of Ylitie et al., "Efficient incoherent ray traversal on GPUs through compressed wide
-/// BVHs", 2017, with sixteen children). The leaves are those of the binary tree; `margin` as in BinaryTreeOptions.
+/// Chooses the surviving binary nodes by dynamic programming over the number of child slots, so that the expected cost
+/// of visits is least. The idea is that of Ylitie et al., "Efficient incoherent ray traversal on GPUs through
+/// compressed wide BVHs", 2017, here with sixteen children. The leaves are those of the binary tree; `margin` as in
+/// BinaryTreeOptions.
 [[nodiscard]] WideTree collapse(const BinaryTree& tree, double margin);
 
 }  // namespace roam::index

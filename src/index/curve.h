@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Places on a Morton curve: the order in which triangles are cut into tiles.
+/// Positions on a Morton curve: the order in which triangles are cut into tiles.
 ///
-/// A key is the size class of a triangle in its top 4 bits, then the interleaved bits of the cell that the centre of
-/// its box lies in.
+/// A key holds the size class of a triangle in its top 4 bits. Below them are the interleaved bits of the cell that
+/// contains the centre of its box.
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace roam::index {
 
-/// 0 for ordinary triangles; each class above holds sixteen times wider ones. `extent`: the widest side of the box, m.
+/// 0 for ordinary triangles; each further class is sixteen times wider. `extent`: the widest side of the box, m.
 inline std::uint32_t size_class(double extent) {
   std::uint32_t c = 0;
   for (double limit = ordinary_triangle; extent > limit && c < 15; limit = std::ldexp(limit, class_factor_bits)) ++c;

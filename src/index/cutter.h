@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cuts a sorted run of triangles into tiles at the cells of a Morton curve.
+/// Division of a sorted run of triangles into tiles at the cells of a Morton curve.
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@
 
 namespace roam::index {
 
-/// `Curve`: see curve.h. Items have a `key` and ascend by it; `reach(item)` is half the widest side of a triangle's
-/// box, rounded up, in metres: how far it may stick out of the cells of its run.
+/// `Curve`: see curve.h. Items have a `key` and are sorted by it. `reach(item)` is half the widest side of a triangle's
+/// box in metres, rounded up: the triangle may extend that far beyond the cells of its run.
 ///
-/// A run that holds more than Curve::most_tile_triangles is always divided at the first bit of the keys that divides
-/// it. So cutting the cells of such a division one by one gives the same tiles as cutting the whole.
+/// A run with more than Curve::most_tile_triangles is always divided at the first key bit that differs. So cutting the
+/// cells of such a division one by one gives the same tiles as cutting the whole.
 template <class Curve, class Item, class Reach>
 class Cutter {
  public:
@@ -24,13 +24,13 @@ class Cutter {
   Cutter(std::span<const Item> items, Reach reach, double cell, bool lossless)
       : items_(items), reach_(reach), cell_(cell), widest_(lossless ? widest_lossless : widest_box) {}
 
-  /// Calls out(begin, end) for each tile of items[begin, end), which are of one size class and not empty.
+  /// Calls out(begin, end) for each tile of items[begin, end), which must be of one size class and not empty.
   template <class Out>
   void cut(std::uint32_t begin, std::uint32_t end, Out&& out) const {
     cut(begin, end, Curve::class_shift - 1, out);
   }
 
-  /// Where the cutter would divide items[begin, end): at the first bit that does, else in the middle.
+  /// Position where the cutter would divide items[begin, end): at the first bit that differs, or else in the middle.
   [[nodiscard]] std::uint32_t middle(std::uint32_t begin, std::uint32_t end) const {
     int bit = Curve::class_shift - 1;
     const std::uint32_t at = divide(begin, end, bit);
@@ -55,13 +55,14 @@ class Cutter {
       cut(at, end, bit - 1, out);
       return;
     }
-    // More triangles than a tile holds in one cell of the curve.
+    // One cell of the curve holds more triangles than a tile may.
     for (; end - begin > Curve::most_tile_triangles; begin += Curve::most_tile_triangles)
       out(begin, begin + Curve::most_tile_triangles);
     out(begin, end);
   }
 
-  /// The first item with a one in the highest bit, from `bit` down, that not all have alike; `end` when there is none.
+  /// Finds the highest bit, from `bit` down, in which the keys differ. Returns the first item with a one there, or
+  /// `end` if all keys agree.
   std::uint32_t divide(std::uint32_t begin, std::uint32_t end, int& bit) const {
     const Key differ = items_[begin].key ^ items_[end - 1].key;
     for (; bit >= 0; --bit) {
@@ -74,12 +75,12 @@ class Cutter {
     return end;
   }
 
-  /// The widest side that a tile of the class may have.
+  /// Metres. Upper limit of the widest side of a tile of the class.
   [[nodiscard]] double limit(int c) const {
     return std::min(widest_, std::ldexp(ordinary_step * double(grid_steps - 4), class_factor_bits * c));
   }
 
-  /// An upper bound of the widest side of the box of a run.
+  /// Metres. Upper bound of the widest side of the box of a run.
   [[nodiscard]] double width(std::uint32_t begin, std::uint32_t end) const {
     Key lower[3], upper[3];
     for (int k = 0; k < 3; ++k) {
@@ -90,7 +91,7 @@ class Cutter {
     for (std::uint32_t i = begin; i < end; ++i) {
       const Key key = items_[i].key & ((Key{1} << Curve::class_shift) - 1);
       for (int k = 0; k < 3; ++k) {
-        // Interleaved bits of one axis compare as the coordinate does.
+        // Interleaved bits of one axis compare like the coordinate.
         const Key place = key >> k & Curve::axis_mask;
         lower[k] = std::min(lower[k], place);
         upper[k] = std::max(upper[k], place);

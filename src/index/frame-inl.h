@@ -1,4 +1,4 @@
-// Where a query starts and how it goes on, in steps of a grid and in single precision: set up once a query or a tile,
+// The start and the motion of a query in steps of a grid and in single precision. Set up once per query or per tile,
 // all axes at once. Included once per instruction set by traverse.cpp.
 
 #if defined(ROAM_INDEX_FRAME_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -24,13 +24,13 @@ namespace roam::index::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors of axes: double precision, what it is rounded to, and whole steps.
+// Vectors of axes: in doubles, in floats, and in whole steps.
 using D = hn::CappedTag<double, 4>;
 using S = hn::Rebind<float, D>;
 using W = hn::Rebind<std::int32_t, D>;
 inline constexpr int axis_lanes = static_cast<int>(hn::MaxLanes(D{}));
 
-/// Axes k .. k + axis_lanes - 1, of four: the last repeats the third.
+/// Axes k .. k + axis_lanes - 1 of four; the fourth repeats the third.
 HWY_INLINE hn::Vec<D> axes_of(const Vec3& v, [[maybe_unused]] int k) {
 #if HWY_MAX_BYTES >= 32
   const hn::Half<D> half;
@@ -42,18 +42,18 @@ HWY_INLINE hn::Vec<D> axes_of(const Vec3& v, [[maybe_unused]] int k) {
 #endif
 }
 
-/// The start of a query on the grid of a tile or of the top: whole steps and the rest.
+/// The start of a query on the grid of a tile or of the tree over tiles: whole steps and the rest.
 struct Frame {
-  alignas(16) std::int32_t whole[4];  // an axis each, as in all that follows
+  alignas(16) std::int32_t whole[4];  // one element per axis, as in all arrays below
   alignas(16) float rest[4];
-  float step, inverse;  ///< metres, and steps a metre
+  float step, inverse;  ///< metres, and steps per metre
 
   HWY_INLINE Frame(const Vec3& origin, double grid_step, const Vec3& start) : step(static_cast<float>(grid_step)) {
-    // 1 / grid_step, of a power of two.
+    // 1 / grid_step, exact for a power of two
     const auto exact = std::bit_cast<double>(0x7fe0000000000000U - std::bit_cast<std::uint64_t>(grid_step));
     inverse = static_cast<float>(exact);
     for (int k = 0; k < 4; k += axis_lanes) {
-      // A start too far away for whole steps can not matter: at the limit it is 4095 m away at least, out of any reach.
+      // A start too far away for whole steps cannot matter: at the limit it is at least 4095 m away, out of any reach.
       const auto steps = hn::Mul(hn::Sub(axes_of(start, k), axes_of(origin, k)), hn::Set(D{}, exact));
       const auto at = hn::Min(hn::Max(steps, hn::Set(D{}, -farthest_steps)), hn::Set(D{}, farthest_steps));
       const auto nearest = hn::Floor(hn::Add(at, hn::Set(D{}, 0.5)));
@@ -67,18 +67,18 @@ struct Frame {
   }
 };
 
-/// A float that is no less than x, which is not negative.
+/// A float that is not less than x, for x >= 0.
 HWY_INLINE float round_up(double x) { return static_cast<float>(x) * (1.0F + 4.0F * float_unit); }
 
 /// A piece of motion in single precision.
 struct Motion {
   alignas(16) float way[4];
-  // Node tests mirror the axes along which the body moves backwards, so that it enters every box by its lower planes.
+  // Node tests mirror the axes along which the body moves backwards. So it enters every box through its lower planes.
   alignas(16) float mirror[4];      ///< 1 or -1
   alignas(16) float forward[4];     ///< |way[k]|
   alignas(16) float inverse[4];     ///< 1 / forward[k], at most huge_inverse
-  std::uint32_t entry[3], exit[3];  ///< where in a node the planes begin by which axis k is entered and left
-  float longest;                    ///< of |way[k]|
+  std::uint32_t entry[3], exit[3];  ///< offsets in a node of the planes through which axis k is entered and left
+  float longest;                    ///< of |way[k]|, the greatest
   float half_height;                ///< rounded up
 
   HWY_INLINE Motion(const Vec3& motion, double h) : half_height(round_up(h)) {
@@ -102,7 +102,7 @@ struct Motion {
   }
 };
 
-/// How far from its start a body reaches on its way, in metres, rounded outwards.
+/// The extent of a body's whole motion relative to its start, in metres, rounded outwards.
 struct Reach {
   alignas(16) float lower[4], upper[4];
 
@@ -119,15 +119,15 @@ struct Reach {
   }
 };
 
-/// The box of a reach that is `more` metres wider, in whole steps of a frame, two steps wider than any rounding.
+/// The box of a reach, `more` metres wider, in whole steps of a frame: two steps wider than any rounding.
 struct Swept {
   alignas(16) std::int32_t lower[4], upper[4];
 
   Swept() = default;
   HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
-    // Planes lie between 0 and 2^16 steps of a tile, 2^29 + 2^19 of the tree over tiles: of what is farther off only
-    // the side matters. A reach that is cut off still leads from any start, as it is cut off, past all planes of a
-    // tile; in the tree over tiles none is so long. No sum of these and an origin overflows.
+    // Planes lie between 0 and 2^16 steps of a tile, and between 0 and 2^29 + 2^19 steps of the tree over tiles. For a
+    // point farther off only its side matters. A clamped reach still leads from any clamped start past all planes of a
+    // tile; in the tree over tiles no reach is that long. No sum of these and an origin overflows.
     const auto farthest = hn::Set(W{}, (1 << 30) - (1 << 18)), end = hn::Set(W{}, 1 << 30), two = hn::Set(W{}, 2);
     const auto longest = hn::Set(S{}, 0x1p30F - 0x1p17F), wider = hn::Set(S{}, more);
     const auto steps = hn::Set(S{}, frame.inverse * (1.0F + time_roundings * float_unit));
@@ -143,12 +143,13 @@ struct Swept {
   }
 };
 
-/// The way of a body of which the nearest approach to something is looked for; zero for one at rest.
+/// The motion of a body whose nearest approach is searched for; zero for a body at rest.
 struct Way {
   float way[3];
-  float longest;  ///< of |way[k]|
+  float longest;  ///< of |way[k]|, the greatest
   float half_height;
-  float inverse_square, inverse_flat;  ///< of the length of the way, and of its horizontal part; 0 for none
+  float inverse_square, inverse_flat;  ///< 1 / squared length of the motion, and of its horizontal part; 0 if that is
+                                       ///< too short
   bool moves;
 
   Way(const Vec3& motion, double h) : longest(0.0F), half_height(round_up(h)) {

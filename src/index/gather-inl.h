@@ -1,4 +1,4 @@
-// What lies in a box, gathered for searches that stay in it. Included once per instruction set by traverse.cpp.
+// Gathering of the contents of a box, for searches that stay in it. Included once per instruction set by traverse.cpp.
 
 #if defined(ROAM_INDEX_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_GATHER_INL_H_
@@ -45,14 +45,14 @@ class Gathering {
   }
 
  private:
-  /// A node or a leaf of a tile, and what of its box lies in the box.
+  /// A node or a leaf of a tile, and the part of its box inside the query box.
   struct Part {
     StepBox box;
     std::uint32_t number;
     bool leaf;
   };
 
-  /// Nodes over tiles that wait; boxes that meet more are none to stay in.
+  /// Capacity for waiting nodes over tiles. A box that meets more is not gathered.
   static constexpr int open_limit = 64;
 
   bool tile(std::uint32_t number) {
@@ -63,7 +63,7 @@ class Gathering {
     std::array<Part, node_width> parts;
     int count = 0;
     count = open(nodes[0].node, swept, parts, count);
-    // Level by level, as long as what takes a node's place has room.
+    // Opens nodes level by level, as long as their children fit into the array.
     for (int at = 0; at < count;) {
       const Part part = parts[at];
       if (part.leaf) {
@@ -85,7 +85,7 @@ class Gathering {
     return true;
   }
 
-  /// Adds what of a node's children meets the box.
+  /// Adds the children of a node that meet the box.
   static int open(const Node& node, const Swept& swept, std::array<Part, node_width>& parts, int count) {
     for (std::uint32_t met = met_children(node, swept); met != 0; met &= met - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(met));
@@ -98,7 +98,7 @@ class Gathering {
             std::min(node.origin[k] + (std::int32_t{node.upper[k][i]} << node.shift[k]), swept.upper[k]);
         apart |= part.box.lower[k] > part.box.upper[k];
       }
-      if (apart) continue;  // the node's own grid is coarser
+      if (apart) continue;  // the box's grid is finer than the node's own
       part.leaf = i >= node.inner_count;
       part.number = part.leaf ? node.first_leaf + (i - node.inner_count) : node.first_node + i;
       ++count;

@@ -39,10 +39,11 @@ StepBox Grid::steps(const Box& box) const {
 
 std::array<std::int64_t, 3> Grid::fine(const Vec3& p) const {
   std::array<std::int64_t, 3> f{};
-  // Both are powers of two: the product is the quotient, to the last bit.
+  // Both are powers of two, so the product equals the quotient to the last bit.
   const double per_metre = double(fine_steps) / step;
   for (int k = 0; k < 3; ++k) {
-    // llround of numbers below 2^52, without the call: the greatest double below 1/2 carries just what rounds up.
+    // llround of numbers below 2^52, without the call: the largest double below 1/2 carries exactly the values that
+    // round up.
     const double x = (p[k] - origin[k]) * per_metre;
     f[k] = static_cast<std::int64_t>(x + std::copysign(0x1.fffffffffffffp-2, x));
   }

@@ -44,12 +44,12 @@ HWY_INLINE VF set(float x) { return hn::Set(kF, x); }
 HWY_INLINE VF clamp(VF x, VF lo, VF hi) { return hn::Min(hn::Max(x, lo), hi); }
 HWY_INLINE VF largest(const V3& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
 
-/// The children of a node that cannot be left out, and a lower bound of the time (sweep) or distance (near) of each.
+/// The children of a node that may matter, and a lower bound of the time (sweep) or distance (near) of each.
 struct Children {
   alignas(64) float key[node_width];
   std::uint32_t mask;
 
-  /// Takes those that are in `met`, of none of which more is known than that.
+  /// Takes all children in `met`, with 0 as the only known bound.
   HWY_INLINE void take(std::uint32_t met) {
     mask = met;
     for (std::uint32_t left = met; left != 0; left &= left - 1) key[std::countr_zero(left)] = 0.0F;
@@ -62,7 +62,7 @@ HWY_INLINE VF bounds_of(const std::uint8_t* bounds) {
   return hn::ConvertTo(kF, hn::PromoteTo(kI, hn::LoadU(bytes, bounds)));
 }
 
-/// Child boxes as distances from the start, each axis times `mirror` (1 or -1), part by part.
+/// Child boxes as distances from the start, with each axis multiplied by `mirror` (1 or -1).
 struct Boxes {
   float at[3], scale[3];
 
@@ -70,7 +70,7 @@ struct Boxes {
     for (int k = 0; k < 3; ++k) {
       const float step = mirror[k] * frame.step;
       at[k] = frame.steps(node.origin[k], k) * step;
-      // step * 2^shift, by its exponent
+      // step * 2^shift, by adding to the exponent
       scale[k] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(step) + (std::uint32_t{node.shift[k]} << 23));
     }
   }
@@ -81,8 +81,8 @@ struct Boxes {
   }
 };
 
-/// How far child boxes are to be grown, so that no rounding in a node test can lose a child: metres. `extent` is the
-/// widest that a node of this frame can be.
+/// Metres by which child boxes are grown, so that no rounding in a node test can lose a child. `extent` is the greatest
+/// width of a node in this frame.
 HWY_INLINE float grown_radius(float radius, float half_height, float longest, float extent, float step) {
   return radius * (1.0F + radius_roundings * float_unit) +
          node_roundings * float_unit * (extent + longest + radius + half_height) + 2.0F * fraction_rounding * step;
@@ -94,8 +94,8 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
   return std::uint32_t{bits[0]} | std::uint32_t{lane_count > 8 ? bits[1] : std::uint8_t{0}} << 8;
 }
 
-/// The planes across axis `k` by which the centre of a body enters and leaves lane_count child boxes, which are higher
-/// and lower by its half height.
+/// The planes across axis `k` through which the centre of a body enters and leaves lane_count child boxes. On the
+/// vertical axis the boxes are extended by the body's half height at both ends.
 struct Slabs {
   VF lower, upper;
 
@@ -110,7 +110,7 @@ struct Slabs {
   }
 };
 
-/// Which children the body may meet before t_max, and when. `grown` is the radius that is kept free, with the margin.
+/// The children that the body may meet before t_max, with times. `grown` is the radius to keep free plus the margin.
 HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                            Children& out) {
   const Boxes boxes(node, frame, motion.mirror);
@@ -126,12 +126,12 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
       const VF inverse = set(motion.inverse[k]);
       enter = hn::Max(enter, hn::Mul(hn::Sub(lower, r), inverse));
       exit = hn::Min(exit, hn::Mul(hn::Add(upper, r), inverse));
-      // The closest point of the box to the start gives one supporting plane.
+      // The point of the box closest to the start gives one supporting plane.
       const VF closest = hn::Add(hn::Max(lower, zero), hn::Min(upper, zero));
       squared = hn::Add(squared, hn::Mul(closest, closest));
       towards = hn::Add(towards, hn::Mul(closest, set(motion.forward[k])));
     }
-    // Apart at the start, and at t_max still: squared - t_max towards > r |closest|, without the root.
+    // Apart at the start and still apart at t_max: squared - t_max towards > r |closest|, without the root.
     const VF left = hn::Sub(squared, hn::Mul(end, towards));
     const MF apart = hn::And(hn::Gt(squared, r2), hn::Gt(left, zero));
     const MF never = hn::And(apart, hn::Gt(hn::Mul(left, left), hn::Mul(r2, squared)));
@@ -143,9 +143,10 @@ HWY_INLINE void sweep_node(const Node& node, const Frame& frame, const Motion& m
   out.mask &= (1U << node.child_count) - 1;
 }
 
-/// Makes the times of the children that are left later, and leaves out more of them, by a second supporting plane: of
-/// the point of the box that is closest to the body when it enters the slabs, w away. From then on it is free as long
-/// as |w|^2 - time w.m is more than r |w|. A root and a division: worth it where there are children to choose from.
+/// Delays the times of the remaining children, and drops more of them, by a second supporting plane. It belongs to the
+/// point of the box closest to the body when the body enters the slabs; let w be the vector to it. From then on the
+/// body is free as long as |w|^2 - time w.m > r |w|. This costs a root and a division, so it pays only where there are
+/// several children.
 HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motion& motion, float grown, float t_max,
                                Children& out) {
   const Boxes boxes(node, frame, motion.mirror);
@@ -175,11 +176,11 @@ HWY_INLINE void delay_children(const Node& node, const Frame& frame, const Motio
   out.mask &= met;
 }
 
-/// The children of a node whose boxes meet the swept box, in whole numbers: most visits need to know no more.
+/// The children of a node whose boxes meet the swept box, in integers. Most visits need no more.
 HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 #if HWY_TARGET == HWY_SCALAR
   std::uint32_t mask = 0;
-  // As the conversion to bytes saturates below: the answer is the same to the bit.
+  // Saturates like the conversion to bytes below: the result is the same to the bit.
   const auto on_grid = [&](const std::int32_t* plane, int k) {
     return std::clamp((plane[k] - node.origin[k]) >> node.shift[k], 0, 255);
   };
@@ -195,7 +196,7 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
   const hn::FixedTag<std::int32_t, 4> axes;
   const hn::FixedTag<std::uint8_t, 4> few;
   const hn::FixedTag<std::uint8_t, node_width> bytes;
-  // On the node's own grid, of which the boxes lie within 0 to 255: the conversion to bytes saturates.
+  // On the node's own grid the boxes lie within 0 to 255; the conversion to bytes saturates.
   const auto origin = hn::LoadU(axes, node.origin), shift = hn::PromoteTo(axes, hn::LoadU(few, node.shift));
   const auto on_grid = [&](const std::int32_t* plane) {
     return hn::DemoteTo(few, hn::Shr(hn::Sub(hn::Load(axes, plane), origin), shift));
@@ -213,11 +214,11 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
 #endif
 }
 
-/// Which children may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
-/// least of that of the others, unless it was less. `margin` is grown_radius() of radius 0.
+/// The children that may come within `reach` of the body's axis during its motion, with lower bounds of their
+/// distances. `left` is lowered to the least bound of the others. `margin` is grown_radius() of radius 0.
 ///
-/// With w from the closest point of the box to a place on the axis, t of the way along, the box is at least
-/// |w| - max(t w.m, (t - 1) w.m) / |w| from the whole way m: that is what the plane across w says.
+/// Let w be the vector from the closest point of the box to a point of the axis at the fraction t of the motion m. The
+/// plane across w shows that the box is at least |w| - max(t w.m, (t - 1) w.m) / |w| away during the whole motion.
 HWY_INLINE void near_node(const Node& node, const Frame& frame, const Way& way, float margin, float reach, VF& left,
                           Children& out) {
   static constexpr float as_is[3] = {1.0F, 1.0F, 1.0F};

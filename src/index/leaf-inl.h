@@ -1,4 +1,5 @@
-// The triangles of one leaf against a moving or resting body. Included once per instruction set by traverse.cpp.
+// Tests of the triangles of one leaf against a moving or resting body. Included once per instruction set by
+// traverse.cpp.
 
 #if defined(ROAM_INDEX_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_LEAF_INL_H_
@@ -18,7 +19,7 @@ namespace roam::index::HWY_NAMESPACE {
 struct Support {
   V3 away;
   VF length, bound;
-  VF most;  ///< how far some point of the axis is from one of the triangle, but for rounding
+  VF most;  ///< distance of some point of the axis from one of the triangle, except for rounding
 };
 
 HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_height) {
@@ -32,7 +33,7 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
     V3 p = centre;
     p.z = clamp(clamp(p.z, foot, head), lowest, highest);
     s.away = t.away(p);
-    // Where the nearest place of the axis does not change, nothing does any more.
+    // Stops once the nearest point of the axis no longer changes.
     for (int i = 0; i < projection_count; ++i) {
       const VF nearest = clamp(hn::Sub(p.z, s.away.z), lowest, highest);
       if (hn::AllTrue(kF, hn::Eq(nearest, p.z))) break;
@@ -40,7 +41,8 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
       s.away = t.away(p);
     }
     s.most = hn::Sqrt(dot(s.away, s.away));
-    // Between its ends the axis is nearest straight across. What rests of w along it would count times its height.
+    // Between its ends the axis is nearest straight across. Any rest of w along the axis would be multiplied by its
+    // height.
     const MF between = hn::And(hn::Gt(p.z, lowest), hn::Lt(p.z, highest));
     s.away.z = hn::IfThenZeroElse(between, s.away.z);
     s.length = hn::Sqrt(dot(s.away, s.away));
@@ -52,27 +54,28 @@ HWY_INLINE Support support(const Triangles& t, const V3& centre, float half_heig
 
 /// The triangles of a leaf that are not certainly missed.
 struct Met {
-  alignas(64) float time[node_width];  ///< free until then
-  std::uint32_t arrived;               ///< the body is within the arrival distance then: a hit
-  std::uint32_t open;                  ///< to be decided in double precision, from then on
+  alignas(64) float time[node_width];  ///< the body is free until then
+  std::uint32_t arrived;               ///< bits: the body is then within the arrival distance, a hit
+  std::uint32_t open;                  ///< bits: to be decided in double precision from that time on
 };
 
-/// Metres that a computed bound may be wrong by, for each triangle, with the body `way` metres along.
+/// Metres. Error of a computed bound, for each triangle, after the body has moved by `way` metres.
 HWY_INLINE VF leaf_error(const Triangles& t, VF way, const Frame& frame, float half_height) {
   return hn::Add(hn::Mul(set(leaf_roundings * float_unit), hn::Add(hn::Max(t.farthest, way), set(half_height))),
                  set(4.0F * fraction_rounding * frame.step));
 }
 
-/// The times by which bodies that are slower than `speed` (times length) have used up their slack, where `active`.
+/// The times at which the slack (m times length) is used up at `speed` (m times length per whole motion), where
+/// `active`.
 HWY_INLINE VF advanced(VF time, VF slack, VF speed, MF active) {
   const VF step =
       hn::Mul(hn::Div(slack, hn::IfThenElse(active, speed, set(1.0F))), set(1.0F - time_roundings * float_unit));
   return hn::IfThenElse(active, hn::Add(time, step), time);
 }
 
-/// Leaves out of `active` the triangles whose own plane, or what rounding left of it, keeps the body off all the way
-/// from `time` to `end`: the cheapest supporting plane, and enough for most. For the others `time` becomes that until
-/// which it does: where a face is hit, about the time of the hit.
+/// Drops from `active` the triangles whose own plane, as rounded, keeps the body off from `time` to `end`. This is the
+/// cheapest supporting plane and settles most triangles. For the others `time` advances as far as the plane allows: for
+/// a hit face, about to the time of the hit.
 HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF keep, VF error, float longest,
                                 float half_height, VF& time, MF& active) {
   const V3& n = t.normal;
@@ -89,9 +92,9 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
   time = advanced(time, slack, speed, hn::And(active, apart));
 }
 
-/// Advances the body against all triangles of a leaf, from t_entry, up to which they are known to be free, to t_max.
-/// A triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all to double precision.
-/// Of a Ray, what its line certainly passes is left out before all else.
+/// Advances the body against all triangles of a leaf from t_entry, until which they are known to be free, to t_max. A
+/// triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all decisions to double
+/// precision. A Ray first drops the triangles that its line certainly misses.
 template <class Line>
 HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, const Line& line, float radius,
                            float hit_limit, float t_entry, float t_max, Met& out) {
@@ -110,7 +113,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
     keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
                     motion.longest, motion.half_height, time, active);
     if (hn::AllFalse(kF, active)) continue;
-    if (Line::is_ray && hit_limit < 0.0F) {  // no round could settle what is left
+    if (Line::is_ray && hit_limit < 0.0F) {  // rounds could not settle the rest
       hn::Store(time, kF, out.time + first);
       out.open |= bits_of(active) << first;
       continue;
@@ -127,7 +130,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
       active = hn::AndNot(missed, active);
       const VF reached = hn::Min(hn::Add(keep, hn::Add(set(arrival_tolerance), hn::Add(error, error))), set(hit_limit));
-      // At time 0 a body that is not certainly apart may be touching: that is for double precision to say.
+      // At time 0 a body that is not certainly apart may be touching; double precision decides that.
       const MF near = hn::And(hn::Le(hn::Add(s.most, error), reached), hn::Or(apart, hn::Gt(time, zero)));
       const MF hit = hn::And(active, near);
       arrived = hn::Or(arrived, hit);
@@ -145,16 +148,17 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
   }
 }
 
-/// A bound that is settled_gap below its distance at most is tight.
+/// Accepts bounds at most settled_gap below the distance.
 struct Tight {
   static constexpr bool is_loose = false;
   Tight(double, double, double, double) {}
-  /// The farthest distances for which a bound is good enough.
+  /// The greatest distance for which the bound is good enough.
   [[nodiscard]] HWY_INLINE VF enough(VF bound) const { return hn::Add(bound, set(settled_gap)); }
 };
 
-/// Of what the distance to the stored triangle and the tile's error leave beside the radius, a bound must be 1 - part
-/// at least, as long as that is within `reach`; else what is not as near as that might be told to be.
+/// Accepts bounds that lose part of the gap. Of the distance to the stored triangle less the radius and the tile's
+/// error, a bound must keep at least 1 - part. This holds only within `reach`: beyond it, a loose bound could report a
+/// triangle as nearer than `reach`.
 struct Slack {
   static constexpr bool is_loose = true;
   float factor, less, farthest;
@@ -169,7 +173,8 @@ struct Slack {
   }
 };
 
-/// How far the triangles' own planes keep the body's axis off all of its way, but for roundings.
+/// Lower bound of the distance between triangles and the body's axis during the whole motion, by the triangles' own
+/// planes; the caller subtracts the roundings.
 HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
   const V3& n = t.normal;
   const VF zero = hn::Zero(kF), a = dot(n, t.a), b = dot(n, t.b), c = dot(n, t.c), along = dot(n, way);
@@ -183,13 +188,14 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
                  set(1.0F - time_roundings * float_unit));
 }
 
-/// Which triangles may come within `reach` of the body's axis on its way, and how far they are at least; `left` is the
-/// least of that of the others, unless it was less.
+/// The triangles that may come within `reach` of the body's axis during its motion, with lower bounds of their
+/// distances. `left` is lowered to the least bound of the others. `most` is set to an upper bound of the distance,
+/// except for rounding.
 ///
-/// Any w bounds: over the whole way m, from any place of the axis t of the way along,
-/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w goes from the closest point to the
-/// place nearest to it, and is straight across the way and the axis where that place is not at their ends.
-/// `most` becomes a distance that they come within, but for rounding.
+/// Any w gives a bound. For the whole motion m, seen from any point of the axis at the fraction t of the motion,
+/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w leads from the closest point to the
+/// nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one of
+/// their ends.
 template <class Bounds>
 HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
                           VF& left, Children& out, float* most) {
@@ -204,7 +210,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     MF active = triangle;
     VF least = zero;
-    // Where a part may be given up, planes settle most leaves, and spoil nothing.
+    // Where part of the gap may be lost, the triangles' planes settle most leaves at no cost in tightness.
     if constexpr (Bounds::is_loose) {
       least = hn::Sub(off_planes(t, m, way.half_height), error);
       const MF beyond = hn::And(triangle, hn::Gt(least, set(reach)));
@@ -216,7 +222,7 @@ HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, 
     t.prepare();
     MF unsettled = active;
     VF time = zero, height = zero, nearest = set(std::numeric_limits<float>::max());
-    // The place of the axis that is nearest to a point, one after the other along its way and along itself.
+    // Finds the point of the swept axis nearest to p: first along the motion, then along the axis.
     const auto approach = [&](const V3& p) {
       if (way.moves) {
         const V3 from{p.x, p.y, hn::Sub(p.z, height)};

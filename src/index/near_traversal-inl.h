@@ -1,4 +1,4 @@
-// What a body comes near to. Included once per instruction set by traverse.cpp.
+// Search for everything near a moving or resting body. Included once per instruction set by traverse.cpp.
 
 #if defined(ROAM_INDEX_NEAR_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_NEAR_TRAVERSAL_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// Of at least one that is left.
+/// The nearest of the remaining children; there must be at least one.
 HWY_INLINE std::uint32_t nearest_of(const Children& children) {
   auto nearest = static_cast<std::uint32_t>(std::countr_zero(children.mask));
   for (std::uint32_t left = children.mask & (children.mask - 1); left != 0; left &= left - 1) {
@@ -25,7 +25,7 @@ HWY_INLINE std::uint32_t nearest_of(const Children& children) {
   return nearest;
 }
 
-/// Leaves out the children that are `beyond` what matters.
+/// Drops the children that are `beyond` the bound.
 template <class Beyond>
 HWY_INLINE void leave_out(Children& children, const Beyond& beyond) {
   for (std::uint32_t left = children.mask; left != 0; left &= left - 1) {
@@ -34,8 +34,8 @@ HWY_INLINE void leave_out(Children& children, const Beyond& beyond) {
   }
 }
 
-/// Everything that a body comes near to on its way, nearest boxes first, within a reach that visits may shrink. For a
-/// gap (`Bounds` is Slack, else Tight) that may be told less closely, and is for less.
+/// Visits everything near a body during its motion, nearest boxes first, within a reach that visits may shrink.
+/// `Bounds` is Slack for a gap that may lose part of itself, else Tight.
 template <class Bounds>
 class NearTraversal {
  public:
@@ -74,14 +74,14 @@ class NearTraversal {
 
   double run(std::span<const Root> roots) {
     prefetch_tiles(index_, roots);
-    // What was not gathered, or was cut off, is farther.
+    // Triangles that were not gathered, or were cut off, are farther.
     left_ = reach_;
     for (const Root& root : roots) tile(root.tile, &root);
     return left_;
   }
 
  private:
-  /// What was out of reach: how far from the axis at least.
+  /// Lower bounds of the distance from the axis for everything out of reach.
   struct Passed {
     VF lanes;
     float entry;
@@ -95,7 +95,7 @@ class NearTraversal {
     }
   };
 
-  /// In whole numbers, the box of what is within `reach` of the axis; nothing where it is not asked.
+  /// The box of everything within `reach` of the axis in whole steps; unused where boxes are not tested first.
   struct Around {
     Swept box;
     float reach;
@@ -105,14 +105,15 @@ class NearTraversal {
     return {Swept(frame, Reach(piece_.motion, double(reach), piece_.body.half_height), 0.0F), reach};
   }
 
-  /// Looks at the children of a node or, where it has only one around the way, of that one, and so on; returns whose
-  /// they are. How near they come is not asked where `few` or fewer are around it.
+  /// Tests the children of a node. A node with only one inner child around the motion is replaced by that child,
+  /// repeatedly. Returns the node that `children` belong to. Distances are not computed if at most `few` children are
+  /// around the motion.
   HWY_INLINE const Node& look_at(const Block* nodes, std::uint32_t at, const Frame& frame, const Around& around,
                                  float grown, float reach, int few, Passed& passed, Children& children) const {
     std::uint32_t met = ~0U;
     const Node* node = &nodes[at].node;
     if (Bounds::is_loose && boxed_) {
-      passed.entry = std::min(passed.entry, around.reach);  // what the boxes leave out is farther than that
+      passed.entry = std::min(passed.entry, around.reach);  // the boxes exclude only triangles farther than that
       for (;;) {
         met = met_children(*node, around.box);
         const auto child = static_cast<std::uint32_t>(std::countr_zero(met));
@@ -131,11 +132,11 @@ class NearTraversal {
     return *node;
   }
 
-  /// How far from the axis stored triangles matter still.
+  /// Metres from the axis within which stored triangles still matter.
   [[nodiscard]] float axis_reach(double error) const {
     return round_up(std::max(0.0, piece_.body.radius + reach_ + error));
   }
-  /// A bound that is too low may say less than half of a distance, and is rounded as that is.
+  /// A bound that is too low may be less than half of the distance, and its rounding is that of the distance.
   [[nodiscard]] float margin(float steps, const Frame& frame) const {
     return grown_radius(0.0F, way_.half_height, way_.longest + 2.0F * axis_reach(margin_of(index_)), steps * frame.step,
                         frame.step);
@@ -147,7 +148,7 @@ class NearTraversal {
     left_ = std::min(left_, double(least) - piece_.body.radius - error);
   }
 
-  /// Visits what is near in a tile, from its root on or from what was gathered of it.
+  /// Visits the near triangles of a tile, from its root or from a gathered root.
   void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) {
@@ -197,8 +198,8 @@ class NearTraversal {
     note(passed, error);
   }
 
-  /// Begins with what was gathered of a tile: looks at the nearest, if it is a leaf, before the others are put on the
-  /// stack.
+  /// Starts from the gathered root of a tile: tests the nearest child first if it is a leaf, and then pushes the
+  /// others.
   template <class Beyond, class LookAtLeaf>
   HWY_INLINE void begin(const Root& root, const Frame& frame, const Around& around, float grown, const float& reach,
                         const Block* nodes, const Block* leaves, Passed& passed, const Beyond& beyond,
@@ -223,10 +224,10 @@ class NearTraversal {
     push_children(root, children, nodes, leaves, stack_);
   }
 
-  /// Begins the search in a tile: goes down from its root by the nearest child to a leaf, and looks at that before what
-  /// is left beside the way is put on the stack, which mostly it then need not be: to keep that in order takes as long
-  /// as to look at it. Only of gaps: it may be the wrong leaf, and others measure its triangles exactly. `look(number,
-  /// children)` looks at a node and returns it.
+  /// Starts the search in a tile: descends from its root by the nearest child to a leaf and tests that leaf before
+  /// pushing the other children. Most of them then need not be pushed, and keeping them in order takes as long as
+  /// testing them. Only for gaps: it may be the wrong leaf, and other visits measure its triangles exactly.
+  /// `look(number, children)` tests a node and returns it.
   template <class Beyond, class Look, class LookAtLeaf>
   HWY_INLINE void dive(const Block* nodes, const Block* leaves, const Beyond& beyond, const Look& look,
                        const LookAtLeaf& look_at_leaf) {
@@ -241,7 +242,7 @@ class NearTraversal {
       of[depth++] = &node;
       if (children.mask == 0) break;
       const std::uint32_t nearest = nearest_of(children);
-      if (depth == stack_levels && nearest < node.inner_count) break;  // deeper trees are few: the stack does it
+      if (depth == stack_levels && nearest < node.inner_count) break;  // deeper trees are rare and left to the stack
       children.mask &= ~(1U << nearest);
       if (nearest >= node.inner_count) {
         look_at_leaf(node.first_leaf + (nearest - node.inner_count));
@@ -261,9 +262,9 @@ class NearTraversal {
   Way way_;
   double asked_, reach_;
   double part_;
-  bool boxed_ = way_.longest <= short_motion;  ///< of a gap, boxes in whole numbers are asked first, as by a sweep
+  bool boxed_ = way_.longest <= short_motion;  ///< for a gap, integer boxes are tested first, as in a sweep
   double left_ = std::numeric_limits<double>::infinity();
-  bool looked_ = false;  ///< at a leaf
+  bool looked_ = false;  ///< a leaf was tested
   Visit visit_;
   void* context_;
   Stack stack_;

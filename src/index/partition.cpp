@@ -17,7 +17,7 @@ namespace {
 using Curve = SceneCurve;
 
 struct Item {
-  std::uint64_t key;  // size class, then place along the curve
+  std::uint64_t key;  // size class, then position along the curve
   std::uint32_t triangle;
   bool operator<(const Item& o) const { return key != o.key ? key < o.key : triangle < o.triangle; }
 };
@@ -34,7 +34,8 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
   Partition result;
   const std::uint32_t count = soup.size();
   if (count == 0) return result;
-  // Half the widest side of each triangle's box, rounded up: how far it may stick out of the cells of its run.
+  // Metres. Half the widest side of each triangle's box, rounded up: the triangle may extend that far beyond its run's
+  // cells.
   std::vector<float> reach(count);
   std::vector<Item> items(count);
   const double side = std::max(largest(soup.bounds().size()), ordinary_triangle);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cuts a set of triangles into tiles.
+/// Partition of a set of triangles into tiles.
 
 #include <cstdint>
 #include <functional>
@@ -11,22 +11,23 @@
 
 namespace roam::index {
 
-/// A tile holds no more triangles than this.
+/// Greatest number of triangles of a tile.
 inline constexpr std::uint32_t most_tile_triangles = 16384;
 
-/// Triangles wider than this (m, largest side of the box) go to tiles of their own kind, sixteen times wider for each
-/// kind, so that the grids of the others stay fine.
+/// Metres. Triangles whose box has a larger side go to tiles of their own size class. Each class is sixteen times wider
+/// than the one before, so that the grids of the others stay fine.
 inline constexpr double ordinary_triangle = 16.0;
 inline constexpr int class_factor_bits = 4;
 
-/// Metres. No tile is wider, but for a single cell of the curve or a wider triangle, so that the 32 bits of a
-/// coordinate keep what World promises: 2^14 m make 3.3e-6 m of error in a lossless world, 2^21 m make 0.42 mm in any
-/// other.
+/// Metres. Greatest width of a tile, except for a single cell of the curve or a wider triangle. Then the 32 bits of a
+/// coordinate keep the precision that World promises: 3.3e-6 m at 2^14 m in a lossless world, 0.42 mm at 2^21 m in
+/// others.
 inline constexpr double widest_lossless = 16384.0;
 inline constexpr double widest_box = 2097152.0;
 
-/// Fewer triangles than this are not worth a tile 64 m wide: such tiles may be sixteen times wider, and keep their low
-/// bits. Measured on a gallery under a coarse terrain, 0.5 M triangles: 75 tiles instead of 533, 2.4 node visits less.
+/// Runs with fewer triangles than this are not worth tiles of 64 m. Their tiles may be sixteen times wider and keep
+/// their low bits. Measured on a gallery under a coarse terrain, 0.5 M triangles: 75 tiles instead of 533, 2.4 fewer
+/// node visits.
 inline constexpr std::uint32_t sparse_triangles = 2048;
 
 struct Partition {

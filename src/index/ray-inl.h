@@ -1,5 +1,5 @@
-// Rays: bodies so thin that hardly anything is near them but what they pierce. Included once per instruction set by
-// traverse.cpp.
+// Rays: bodies so thin that they meet hardly anything but the triangles that they pierce. Included once per instruction
+// set by traverse.cpp.
 
 #if defined(ROAM_INDEX_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_RAY_INL_H_
@@ -13,14 +13,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// What the tests of a ray use, beside what those of every motion do.
+/// Data of a ray's tests in addition to its Motion.
 struct Ray {
   static constexpr bool is_ray = true;
-  float early[3], late[3];  ///< 1 / forward[k], not more and not less, in 16 bits: times a bound of a node it is exact
-  float across[2][3];       ///< across the way and, but for rounding, each other
-  float length[2];          ///< of these, rounded up
-  float drift[2];           ///< how far the way leads along them, rounded up
-  float room[2]{};          ///< in a tile: how far off triangles count still along them, times their lengths
+  float early[3], late[3];  ///< 1 / forward[k], rounded down and up to 16 bits, so that the product with a bound of a
+                            ///< node is exact
+  float across[2][3];       ///< perpendicular to the motion and, except for rounding, to each other
+  float length[2];          ///< their lengths, rounded up
+  float drift[2];           ///< extent of the motion along them, rounded up
+  float room[2]{};          ///< in a tile: distance along them within which triangles count, times their lengths
 
   explicit Ray(const Motion& motion) {
     int least = 0;
@@ -50,7 +51,7 @@ struct Ray {
       drift[i] = std::abs(way) + speed_roundings * float_unit * motion.longest * length[i];
     }
   }
-  /// To be called of a tile, which is at most `steps` wide.
+  /// Must be called for each tile, which is at most `steps` wide.
   HWY_INLINE void enter(const Frame& frame, const Motion& motion, float radius, float steps) {
     float farthest = motion.longest;
     for (int k = 0; k < 3; ++k) {
@@ -62,13 +63,13 @@ struct Ray {
   }
 };
 
-/// Stands for it where the body is none.
+/// Takes the place of Ray for bodies that are not rays.
 struct NoRay {
   static constexpr bool is_ray = false;
   explicit NoRay(const Motion&) {}
 };
 
-/// As sweep_node() does, by the slabs alone: which children the ray may meet before t_max, and when.
+/// The children that the ray may meet before t_max, with times: sweep_node() by the slabs alone.
 HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& motion, const Ray& ray, float grown,
                          float t_max, Children& out) {
   const Boxes boxes(node, frame, motion.mirror);
@@ -92,10 +93,11 @@ HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& mot
   out.mask &= (1U << node.child_count) - 1;
 }
 
-/// Leaves out of `active` the triangles that the line of a ray certainly passes: seen along it, where it is a point, it
-/// lies outside of their box or beyond one of their edges.
+/// Drops from `active` the triangles that the line of a ray certainly misses. In the projection along the line, where
+/// it is a point, it then lies outside the triangle's box or beyond one of its edges.
 ///
-/// With p and q any numbers and u, v the directions across, w = p u + q v is across the way, and as good as any w.
+/// With any numbers p and q and the directions u and v, w = p u + q v is perpendicular to the motion and is a valid
+/// direction.
 HWY_INLINE MF pierced(const Leaf& leaf, const Frame& frame, const Ray& ray, int first, MF active) {
   const Corners corners(leaf, first);
   VF at[2][3];

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// The child boxes of a node. The builder and whoever computes the boxes of a tile again call this, so that both get
-/// the same bits.
+/// Child boxes of a node. The builder and every later refit call this function, so that both get the same bits.
 
 #include <cstdint>
 #include <span>

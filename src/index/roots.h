@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where searches that stay in a box begin: below the tree over tiles and the upper levels of each tile.
+/// Roots of searches that stay in a box: they begin below the tree over tiles and below the upper levels of each tile.
 
 #include <array>
 #include <cstdint>
@@ -9,16 +9,15 @@
 
 namespace roam::index {
 
-/// A node that was made for a box, of the nodes and leaves of one tile that meet it: their boxes, cut off where that
-/// ends.
+/// A node made for a box from the nodes and leaves of one tile that meet it. Its child boxes are clipped to the box.
 struct Root {
-  Node node;                                     ///< of which first_node and first_leaf mean nothing
+  Node node;                                     ///< its first_node and first_leaf have no meaning
   std::array<std::uint32_t, node_width> number;  ///< of each child, as in the tile
   std::uint32_t tile;
-  std::uint32_t owner;  ///< the index that the tile is of, by the number that gather() was told
+  std::uint32_t owner;  ///< number of the index that the tile belongs to, as passed to gather()
 };
 
-/// All that lies in a box, that of each index together.
+/// The contents of a box, for all indexes together.
 struct Roots {
   static constexpr int most_roots = 8;
   std::array<Root, most_roots> root;

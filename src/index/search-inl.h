@@ -1,4 +1,4 @@
-// What both ways through the tree have in common. Included once per instruction set by traverse.cpp.
+// Common parts of both traversals. Included once per instruction set by traverse.cpp.
 
 #if defined(ROAM_INDEX_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_SEARCH_INL_H_
@@ -24,7 +24,7 @@ HWY_INLINE void prefetch(const Block* block) {
   hwy::Prefetch(reinterpret_cast<const char*>(block) + 64);
 }
 
-/// Pushes the children that are left of a node. `nodes` and `leaves` are what their numbers count from.
+/// Pushes the remaining children of a node. `nodes` and `leaves` are the bases of their numbers.
 HWY_INLINE void push_children(const Node& node, const Children& children, const Block* nodes, const Block* leaves,
                               Stack& stack) {
   stack.begin_children();
@@ -37,7 +37,7 @@ HWY_INLINE void push_children(const Node& node, const Children& children, const 
   }
 }
 
-/// The same of a root that was gathered.
+/// The same for a gathered root.
 HWY_INLINE void push_children(const Root& root, const Children& children, const Block* nodes, const Block* leaves,
                               Stack& stack) {
   stack.begin_children();
@@ -49,7 +49,7 @@ HWY_INLINE void push_children(const Root& root, const Children& children, const 
   }
 }
 
-/// Visits `e` and then what is on the stack, nearest first, as long as it is not `beyond` what matters.
+/// Visits `e` and then the entries of the stack, nearest first, until they are `beyond` the bound.
 template <class Beyond, class VisitEntry>
 HWY_INLINE void go_on_from(Stack::Entry e, Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
   for (;; e = stack.pop()) {
@@ -62,13 +62,13 @@ HWY_INLINE void go_on_from(Stack::Entry e, Stack& stack, const Beyond& beyond, c
   }
 }
 
-/// The same, of the stack alone.
+/// The same for the stack alone.
 template <class Beyond, class VisitEntry>
 HWY_INLINE void go_on(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
   if (!stack.empty()) go_on_from(stack.pop(), stack, beyond, visit);
 }
 
-/// The same, beginning with a root.
+/// The same, beginning with the root.
 template <class Beyond, class VisitEntry>
 HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& visit) {
   stack.clear();
@@ -79,30 +79,29 @@ HWY_INLINE void search(Stack& stack, const Beyond& beyond, const VisitEntry& vis
 constexpr float tile_steps = 0x1p16F;
 constexpr float top_steps = 0x1p29F;
 
-/// How much farther than triangles the boxes of tiles matter, metres.
+/// Metres by which the boxes of tiles matter farther than triangles do.
 HWY_INLINE double margin_of(const Index& index) { return index.absent ? index.absent->margin : 0.0; }
 
-/// Whether what is in a tile that is in memory is of no interest.
+/// True if tiles in memory are passed over.
 HWY_INLINE bool only_absent(const Index& index) { return index.absent && index.absent->only; }
 
-/// So many tiles may be visited in any order. Where tiles come and go, only one: behind what is met first it should not
-/// show in the last bits which have come.
+/// Up to this many tiles may be visited in any order. If tiles may be absent it is 1, so that the last bits of a result
+/// do not depend on which tiles behind the first impact are loaded.
 HWY_INLINE int few_tiles(const Index& index) { return index.absent ? 1 : few_tile_count; }
 
-/// All tiles of which something was gathered.
+/// Prefetches all gathered tiles.
 HWY_INLINE void prefetch_tiles(const Index& index, std::span<const Root> roots) {
   for (const Root& root : roots) hwy::Prefetch(index.tiles + root.tile);
 }
 
-/// The tiles that are left of a node over tiles.
+/// Prefetches the remaining tiles of a node over tiles.
 HWY_INLINE void prefetch_tiles(const Index& index, const Node& node, const Children& children) {
   for (std::uint32_t left = children.mask >> node.inner_count; left != 0; left &= left - 1) {
     hwy::Prefetch(index.tiles + node.first_leaf + std::countr_zero(left));
   }
 }
 
-/// The roots of the tiles that come next, all of them while one is visited: their memory would be waited for one after
-/// the other.
+/// Prefetches the roots of the next tiles while one tile is visited; otherwise each would be waited for in turn.
 HWY_INLINE void prefetch_roots(const Index& index, const Stack& stack) {
   constexpr int levels_ahead = 4;
   for (int i = 0; i < std::min(levels_ahead, stack.size()); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// All triangles of all meshes, numbered through.
+/// All triangles of all meshes, in one numbering.
 
 #include <cstdint>
 #include <span>
@@ -10,16 +10,16 @@
 
 namespace roam::index {
 
-/// A view of the meshes that a world is built from: triangle i is triangle i - first(m) of the mesh m that holds it.
+/// A view of the meshes that a world is built from. Triangle i is triangle i - first()[m] of the mesh m that holds it.
 class Soup {
  public:
-  /// Throws roam::Error for an index out of range, a vertex that is not finite or beyond coordinate_limit, and
-  /// for more than 2^32 - 1 triangles.
+  /// Throws roam::Error if an index is out of range, if a vertex is not finite or beyond coordinate_limit, or if there
+  /// are more than 2^32 - 1 triangles.
   explicit Soup(std::span<const Mesh> meshes);
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(first_.back()); }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
-  /// The number of the first triangle of each mesh, and the count of all at the end.
+  /// The number of the first triangle of each mesh, followed by the number of all triangles.
   [[nodiscard]] const std::vector<std::uint64_t>& first() const { return first_; }
 
   /// Calls f(position in ids, triangle) for each of the ids, which must be ascending.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a traversal has still to visit, nearest first, in bounded memory.
+/// The stack of a traversal, nearest entries first, in bounded memory.
 
 #include <bit>
 #include <cassert>
@@ -11,12 +11,12 @@
 
 namespace roam::index {
 
-/// Blocks ordered by a key (a float >= 0, whose bits order as it does), the least on top; at equal keys leaves come
-/// before nodes, then lower numbers.
+/// Blocks ordered by a key (a float >= 0, whose bits order like the float), the least on top. At equal keys leaves come
+/// before nodes, and then lower numbers first.
 ///
 /// The frontier of a best-first search has no useful bound: around a body in the middle of a dome every node is nearer
-/// than every leaf. So beyond best_first entries the search goes on depth-first: children are put on top of everything,
-/// ordered among themselves only, until the stack has shrunk. Depth-first search needs node_width - 1 entries a level.
+/// than every leaf. So beyond best_first entries the search becomes depth-first: children are put on top, ordered only
+/// among themselves, until the stack has shrunk. Depth-first search needs node_width - 1 entries per level.
 class Stack {
  public:
   struct Entry {
@@ -36,7 +36,7 @@ class Stack {
     push(0.0F, 0, false);
   }
 
-  /// To be called before the children of a node are pushed.
+  /// Must be called before the children of a node are pushed.
   void begin_children() { floor_ = ordered() ? 0 : count_; }
 
   void push(float key, std::uint32_t number, bool leaf) {
@@ -50,7 +50,7 @@ class Stack {
 
   [[nodiscard]] int size() const { return count_; }
 
-  /// What pop() gives when `i` have been popped, i < size().
+  /// The entry that pop() returns after i other pops; i < size().
   [[nodiscard]] Entry next(int i) const {
     const std::uint64_t e = entries_[count_ - 1 - i];
     const auto low = static_cast<std::uint32_t>(e);
@@ -62,7 +62,7 @@ class Stack {
     return e;
   }
 
-  /// After pop(): no remaining entry has a smaller key than the one that was popped.
+  /// After pop(): true if no remaining entry has a smaller key than the popped one.
   [[nodiscard]] bool ordered() const { return count_ <= best_first; }
 
  private:
@@ -70,7 +70,7 @@ class Stack {
   static constexpr int stack_capacity = best_first + node_width + max_depth * (node_width - 1) + 1;
 
   int count_ = 0;
-  int floor_ = 0;  ///< entries below it are left where they are
+  int floor_ = 0;  ///< entries below it are not moved
   std::uint64_t entries_[stack_capacity];
 };
 

@@ -1,4 +1,4 @@
-// What a body meets first. Included once per instruction set by traverse.cpp.
+// Search for the first impact of a moving body. Included once per instruction set by traverse.cpp.
 
 #if defined(ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
@@ -13,8 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
 
-/// `Line`: Ray where the body is a sphere that is hardly more than a point, else NoRay. `skips`: whether the index
-/// passes triangles over.
+/// `Line`: Ray if the body is hardly more than a point, else NoRay. `skips`: whether the index skips triangles.
 template <class Line, bool skips = false>
 class SweepTraversal {
  public:
@@ -59,7 +58,7 @@ class SweepTraversal {
     return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
   }
 
-  /// Looks for the first impact in a tile, from its root on or from what was gathered of it.
+  /// Searches a tile for the first impact, from its root or from a gathered root.
   void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
@@ -67,7 +66,7 @@ class SweepTraversal {
     const Swept swept(frame, reach_, t.error);
     const float radius = round_up(piece_.body.radius + double(t.error));
     const float grown = grown_for(radius, tile_steps, frame);
-    // Beyond it, a distance to a stored triangle does not show that the true one is within the limit.
+    // Beyond it, a distance to a stored triangle does not prove that the true distance is within the limit.
     const bool exact = t.fine || piece_.body.radius > wide_body;
     const float hit_limit =
         exact ? -1.0F
@@ -91,7 +90,7 @@ class SweepTraversal {
     go_on(stack_, beyond, visit);
   }
 
-  /// Begins with what was gathered of a tile.
+  /// Starts from the gathered root of a tile.
   HWY_INLINE void begin(const Root& root, const Frame& frame, const Swept& swept, float grown, const Block* nodes,
                         const Block* leaves) {
     Children children;
@@ -105,14 +104,14 @@ class SweepTraversal {
     push_children(root, children, nodes, leaves, stack_);
   }
 
-  /// Of several children that a short motion may meet, which and when.
+  /// Selects among several children that a short motion may meet, and computes times.
   HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
     sweep_node(node, frame, motion_, grown, t_max_, out);
     out.mask &= met;
     if (std::popcount(out.mask) >= many_children) delay_children(node, frame, motion_, grown, t_max_, out);
   }
 
-  /// What is left below a node: a single leaf, or the children of one node.
+  /// The result of a descent: a single leaf, or the children of one node.
   struct Descent {
     bool single;
     std::uint32_t first;  ///< the leaf
@@ -120,9 +119,9 @@ class SweepTraversal {
     Children children;
   };
 
-  /// Visits a node and, without a detour by the stack, the only child of each that has one: a visit is latency. Boxes
-  /// in whole numbers settle most visits at a third of the price; times of entry matter only where there is a choice,
-  /// of more than `few`.
+  /// Visits a node and, as long as there is only one child, that child, without a detour through the stack: a visit is
+  /// latency. Integer boxes settle most visits at a third of the cost. Times of entry matter only where more than `few`
+  /// children are met.
   HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
                              float grown, int few) {
     Descent out;
@@ -198,7 +197,7 @@ class SweepTraversal {
     t_max_ = round_up(time);
   }
 
-  /// Metres. What double precision calls arrived: of no consequence beside the grid, small beside 1e-5 m.
+  /// Metres. Arrival distance in double precision: negligible beside the grid, small beside 1e-5 m.
   static constexpr double arrival_exact = 1e-6;
 
   const Index& index_;

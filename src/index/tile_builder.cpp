@@ -12,14 +12,14 @@
 namespace roam::index {
 namespace {
 
-/// Metres. What a query typically adds to the sides of a box: the body and the way of one step.
+/// Metres. Typical growth of a box's sides by a query: the body and its motion in one step.
 constexpr double query_margin = 0.2;
 
 /// The three corners of a triangle in fine steps.
 using Corners = std::array<std::array<std::int64_t, 3>, 3>;
 
-/// A vertex of a leaf as one number, equal exactly when stored vertices are equal. 32 bits an axis are needed when
-/// the low bits are kept, 16 otherwise.
+/// A vertex of a leaf as one number; numbers are equal exactly if the stored vertices are. It has 32 bits per axis with
+/// low bits, else 16.
 struct VertexKey {
   std::uint64_t xy, z;
   auto operator<=>(const VertexKey&) const = default;
@@ -99,7 +99,7 @@ class TileBuilder {
             std::uint64_t(Grid::whole(f[2]))};
   }
 
-  /// The distinct vertices of the triangles, in order of first use; false when there are more than a leaf holds.
+  /// Collects the distinct vertices of the triangles in order of first use. False if there are more than a leaf holds.
   bool distinct(std::span<const std::uint32_t> items, std::array<VertexKey, node_width>& keys, int& count,
                 Leaf* leaf) const {
     count = 0;
@@ -126,7 +126,7 @@ class TileBuilder {
   }
 
   void add_leaf(std::span<const std::uint32_t> unsorted) {
-    // Ascending ids make small differences, and lane order a rule that does not depend on how the tree was built.
+    // Sorted ids have small differences. The order of lanes then does not depend on how the tree was built.
     std::array<std::uint32_t, node_width> items{};
     std::copy(unsorted.begin(), unsorted.end(), items.begin());
     std::sort(items.begin(), items.begin() + unsorted.size());

@@ -17,17 +17,17 @@ struct Triangles {
   V3 a, b, c;
   V3 ab, ac, normal;
   VF farthest;  ///< largest absolute coordinate
-  // Set by prepare(): what the closest point needs, whatever the body's place.
+  // Set by prepare(): data of the closest point that do not depend on the body's position.
   V3 bc;
-  V3 within_ab, within_ac, within_bc;  ///< across each edge in the plane of the triangle, inwards
+  V3 within_ab, within_ac, within_bc;  ///< perpendicular to each edge in the triangle's plane, inwards
   VF inv_ab2, inv_ac2, inv_bc2, inv_normal2;
-  MF narrow;  ///< the normal is noise: the edges stand for the face
+  MF narrow;  ///< the normal is noise, so the edges stand for the face
 
   HWY_INLINE void prepare();
   [[nodiscard]] HWY_INLINE V3 away(const V3& p) const;
 };
 
-/// p minus the closest point of each triangle: the normal of the supporting plane. Inaccuracy costs only rounds.
+/// p minus the closest point of each triangle: the normal of the supporting plane. Inaccuracy costs only extra rounds.
 HWY_INLINE V3 Triangles::away(const V3& p) const {
   const VF zero = hn::Zero(kF), one = set(1.0F);
   const V3 pa = p - a, pb = p - b;
@@ -38,8 +38,8 @@ HWY_INLINE V3 Triangles::away(const V3& p) const {
   const MF second = hn::Lt(lac, lab);
   V3 w = select(second, wac, wab);
   w = select(hn::Lt(lbc, hn::Min(lab, lac)), wbc, w);
-  // Inside all three edges: the foot on the face. Each is asked for itself, straight across it: products of lengths
-  // along the edges would say so of places that are far off a sliver.
+  // Inside all three edges the foot on the face is closest. Each edge is tested perpendicular to itself: for slivers,
+  // products of lengths along the edges would accept points far outside.
   const VF within = hn::Min(hn::Min(dot(within_ab, pa), dot(within_ac, pa)), dot(within_bc, pb));
   const MF inside = hn::AndNot(narrow, hn::Gt(within, zero));
   return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
@@ -52,7 +52,7 @@ HWY_INLINE VF vertices_of(const Leaf& leaf, const Frame& frame, int k, int from)
   return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), set(frame.step));
 }
 
-/// Which vertices are the corners of triangles first .. first + lane_count - 1 of a leaf.
+/// The vertex numbers of the corners of triangles first .. first + lane_count - 1 of a leaf.
 class Corners {
  public:
   HWY_INLINE Corners(const Leaf& leaf, int first) {
@@ -65,7 +65,8 @@ class Corners {
       at_[c] = hn::BitCast(kI, hn::And(hn::Shr(packed, hn::Load(u, vertex_shifts + first)), hn::Set(u, 15U)));
     }
   }
-  /// What `of(from)` says of vertices from .. from + lane_count - 1, for the three corners of each triangle.
+  /// Picks from values `of(from)` of vertices from .. from + lane_count - 1 those of the three corners of each
+  /// triangle.
   template <class Of>
   HWY_INLINE void pick(const Of& of, VF (&out)[3]) const {
     if constexpr (lane_count == 16) {
@@ -105,21 +106,22 @@ HWY_INLINE void Triangles::prepare() {
   const VF ab2 = dot(ab, ab), ac2 = dot(ac, ac);
   const VF floor = set(shortest_way * shortest_way), face_floor = set(smallest_face), one = set(1.0F);
   const VF long_ab = hn::Max(ab2, floor), long_ac = hn::Max(ac2, floor), long_bc = hn::Max(dot(bc, bc), floor);
-  // The roundings of a sliver's normal would tilt its face along it: straight across the longer of two edges it is not.
+  // The roundings of a sliver's normal would tilt its face lengthwise. Made perpendicular to the longer of two edges,
+  // they do not.
   const V3 edge = select(hn::Gt(ac2, ab2), ac, ab);
   normal = normal - scale(edge, hn::Div(dot(normal, edge), hn::Max(long_ab, long_ac)));
   within_ab = cross(normal, ab);
   within_ac = cross(ac, normal);
   within_bc = cross(normal, bc);
-  // Two reciprocals from one division. Where a product overflows, in triangles some thousand kilometres wide, the
-  // closest point is not a number, or the place itself: bounds of gaps are weak there.
+  // Two reciprocals from one division. In triangles some thousand kilometres wide a product overflows; then the closest
+  // point is NaN or the query point itself, and bounds of gaps are weak.
   const VF long_normal = hn::Max(dot(normal, normal), face_floor);
   const VF edges = hn::Div(one, hn::Mul(long_ab, long_ac)), rest = hn::Div(one, hn::Mul(long_bc, long_normal));
   inv_ab2 = hn::Mul(long_ac, edges);
   inv_ac2 = hn::Mul(long_ab, edges);
   inv_bc2 = hn::Mul(long_normal, rest);
   inv_normal2 = hn::Mul(long_bc, rest);
-  const VF width = hn::Mul(set(narrow_limit), farthest);  // against the height over the longest edge
+  const VF width = hn::Mul(set(narrow_limit), farthest);  // to compare with the height over the longest edge
   const VF longest = hn::Max(hn::Max(long_ab, long_ac), long_bc);
   narrow = hn::Le(long_normal, hn::Max(face_floor, hn::Mul(hn::Mul(width, width), longest)));
 }

@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// Becoming lower to pass under something, and standing up again where there is head-room.
+/// Crouching to pass under an obstacle, and standing up again where there is headroom.
 
 #include "motion/move.h"
 
 namespace roam::walking {
 
-/// The height of the crouched body, metres; the standing height where it can not crouch.
+/// The height of the crouched body, metres; the standing height if it cannot crouch.
 [[nodiscard]] double crouched_height(const WalkerSettings& settings);
 
 /// Crouches on the spot: the feet stay.
 void crouch(Move& move);
 
-/// Crouches when that lets the body go on along `motion`, under `contact` that stands in its way.
+/// Crouches if that lets the body go on along `motion`, under `contact`, which blocks it.
 bool crouch_under(Move& move, const Impact& contact, const Vec3& motion);
 
-/// Stands up when there is head-room for the whole body and its skin.
+/// Stands up if there is headroom for the whole body and its skin.
 bool stand_up(Move& move);
 
 }  // namespace roam::walking

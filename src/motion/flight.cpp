@@ -12,14 +12,14 @@
 namespace roam::walking {
 namespace {
 
-/// Seconds. A chord of this length leaves the parabola by g t^2 / 8, 1.4 mm.
+/// Seconds. A chord of this duration is off the parabola by at most g t^2 / 8, 1.4 mm.
 constexpr double chord_seconds = 1.0 / 30.0;
 
-/// A fall that comes this small a part of its way is none. Below sin(45 degrees)^2 by far.
+/// A fall that covers a smaller part of its way than this counts as hindered. Far below sin(45 degrees)^2.
 constexpr double hindered_part = 0.05;
 
-/// The motion along `planes`, in which the wish to go sideways must not turn into a rise: it is first taken out of the
-/// planes as if they were vertical.
+/// The motion along `planes`. The sideways wish must not turn into a rise, so it is first projected as if the planes
+/// were vertical.
 Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
   PlaneSet walls;
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -31,7 +31,7 @@ Vec3 along_slopes(const Vec3& motion, const PlaneSet& planes) {
   return along_planes(Vec3(sideways.x, sideways.y, motion.z), planes);
 }
 
-/// `speed`: downward, m/s.
+/// `speed`: downwards, m/s.
 void note_landing(Move& move, double speed) {
   move.report.landing_speed = std::max(move.report.landing_speed, speed);
   move.note(EventKind::landed);
@@ -56,11 +56,11 @@ double flight_seconds(const Move& move, const Gait& gait, const Vec3& velocity) 
 
 bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, gravity = move.settings.gravity;
-  // What came off a rim at more than that keeps its speed.
+  // A body that came off a rim faster than that keeps its speed.
   const double fastest = std::max(terminal_speed, -gait.rise_speed);
   const double fall = std::max(gait.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
   double rise_speed = std::max(gait.rise_speed - gravity * seconds, -fastest);
-  // The top of a jump is met exactly, or it would be divided for ever.
+  // The top of a jump must be met exactly, or it would be divided without end.
   if (gait.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
   const auto falling = [&] { return std::min(gravity * (move.time - start) - gait.rise_speed, fastest); };
   Vec3 whole(velocity.x * seconds, velocity.y * seconds, fall);
@@ -102,8 +102,8 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
     if (glm::length(motion) <= standstill_part * glm::length(whole)) break;
   }
   move.time = start + seconds;
-  // On a slope of angle a gravity acts by sin(a)^2, and so does the speed kept here: it is that of a free fall. Where
-  // the way down is closed the fall begins anew.
+  // On a slope of angle a gravity acts by sin(a)^2. The speed kept here is that of a free fall and acts likewise. If
+  // the way down is closed, the fall begins anew.
   if (fall < 0.0 && begin_z - move.place.z < hindered_part * -fall) rise_speed = 0.0;
   gait.rise_speed = rise_speed;
   const bool falls = gait.footing == Footing::air && gait.level.has_value();

@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// One stretch of flight: a jump, a fall, a slide down a steep slope.
+/// Flight over a short time: a jump, a fall, a slide down a steep slope.
 
 #include "motion/gait.h"
 #include "motion/move.h"
 
 namespace roam::walking {
 
-/// How long a stretch may last, seconds: to the top of a jump, and else so short that chords follow the parabola.
+/// Greatest duration of one flight, seconds: to the top of a jump, or else so short that chords follow the parabola.
 [[nodiscard]] double flight_seconds(const Move& move, const Gait& gait, const Vec3& velocity);
 
-/// Flies for `seconds` with the horizontal `velocity` and gravity, along what is met, until it lands; Move::time tells
-/// when. False when the body is embedded.
+/// Flies for `seconds` with the horizontal `velocity` and gravity, sliding along obstacles, until the body lands;
+/// Move::time is then the time of landing. False if the body is embedded.
 bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds);
 
 }  // namespace roam::walking

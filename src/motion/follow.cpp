@@ -1,5 +1,5 @@
-// Following a route through a space that comes while the body goes. The only part of motion that looks at a clock: what
-// the body does between two changes of the space does not depend on it.
+// Following a route through a space that is loaded while the body moves. Only this part of motion reads a clock:
+// between two changes of the space, the body's motion does not depend on it.
 
 #include <algorithm>
 #include <chrono>
@@ -15,34 +15,34 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::microseconds between_updates{500};
 
-/// A limit below this part of the route's speed is no way to go on: less than that counts as not getting on.
+/// Part of the route's speed. A lower speed limit of the space counts as no progress.
 constexpr double crawling = 0.1;
 
-/// Lets a live space bring what a body waits for.
+/// Waits until a live space has loaded what a body needs.
 class Attendant {
  public:
   Attendant(const Walker& walker, LiveSpace& space, const RouteOptions& options)
       : walker_(walker), space_(space), options_(options) {}
 
-  /// Until what is at `place` is known.
+  /// Waits until the space at `place` is known.
   void wait_at(const Vec3& place) {
     const Body body = walker_.settings().body();
     wait_for([&] { return space_.update(body, place, Vec3(0.0)); },
              [&] { return space_.clearance(body, place, 0.0).unknown; });
   }
 
-  /// After the step that the walker has made: whether the space is another one now than when the body had to wait.
+  /// Called after a step of the walker. Returns whether the space has changed since the body had to wait.
   bool attend() {
     const auto update = [&] { return space_.update(walker_.body(), walker_.position(), walker_.velocity()); };
     bool changed = update();
     if (changed) vain_ = false;
     const auto stopped = [&] { return space_.facts().speed_limit < crawling * options_.speed; };
     if (walker_.report().met_unknown || stopped()) {
-      // What came just now may be what it met: a step will tell.
+      // The change that just came may be the part that was met: a step shows that.
       if (!changed) changed = wait_for(update, [&] { return stopped() || !changed_; });
       return changed;
     }
-    // No faster than in life where that is what makes it slow.
+    // If the space limits the speed, goes on no faster than in real time.
     const auto begin = Clock::now();
     while (space_.facts().speed_limit < options_.speed && seconds_since(begin) < options_.dt) {
       std::this_thread::sleep_for(between_updates);
@@ -56,8 +56,8 @@ class Attendant {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  /// Updates as long as `waits` says, and not longer than RouteOptions::wait after the last change. Who has waited in
-  /// vain does not again before something has changed.
+  /// Updates while `waits` returns true, for at most RouteOptions::wait after the last change. After a wait in vain it
+  /// does not wait again until something has changed.
   template <class Update, class Waits>
   bool wait_for(const Update& update, const Waits& waits) {
     bool changed = changed_ = update();

@@ -9,30 +9,30 @@
 namespace roam {
 namespace {
 
-/// A square that is smaller than this part of the foot's radius, or than this in metres where that is more, is not
-/// divided any further: half its diagonal is what the answer may be off by, 0.28 mm for a foot of 2 m.
+/// A square is not divided below this part of the support disc's radius, nor below this many metres. The result may be
+/// off by half the diagonal of such a square: 0.28 mm for a disc of 2 m.
 constexpr double least_half_part = 1e-4;
 constexpr double least_half = 2e-4;
 
-/// Squares that are looked at, in all, and what floor is asked for of them. A straight crack that is 2 mm narrower than
-/// a foot of 0.6 m takes some 3000 and 150.
+/// Limits of the squares and of the floor queries of one search. A straight crack 2 mm narrower than a disc of 0.6 m
+/// takes some 3000 squares and 150 queries.
 constexpr int square_limit = 1 << 15;
 constexpr int query_limit = 1 << 12;
 
-/// Known points of the floor, the last found ones.
+/// Number of floor points kept, the last ones found.
 constexpr std::size_t points_kept = 64;
 
-/// What is hidden behind walls is left out in squares of this part of the radius, and smaller ones, of which neither
-/// the middle nor a corner is in sight.
+/// Part of the radius. Squares of at most this size count as hidden behind walls if neither their middle nor a corner
+/// is in sight.
 constexpr double hidden_part = 0.125;
 
-/// The radius of what looks for walls: a ray can slip through where two walls meet, metres.
+/// Metres. Radius of the sphere that looks for walls: a ray could slip through where two walls meet.
 constexpr double sight_radius = 0.01;
 
-/// Room for the depth-first part: three brothers wait at each of at most 16 halvings.
+/// Size of the depth-first stack: three siblings wait at each of at most 16 halvings.
 constexpr std::size_t stack_size = 64;
 
-/// A square of centres, seen from the axis.
+/// A square of disc centres, relative to the axis.
 struct Square {
   double x, y, half;
 };
@@ -41,9 +41,9 @@ struct Point {
   double x, y;
 };
 
-/// Branch and bound over the centre of the disc. A point of the floor rules out all centres that are nearer to it than
-/// the radius, so a square is settled as soon as one known point is that near to all of it; else the floor nearest to
-/// its middle is asked for, and it is divided.
+/// Branch and bound over the centre of the disc. A point of the floor excludes all centres nearer to it than the
+/// radius. So a square is settled once one known point is that near to all of it. Otherwise the floor nearest to its
+/// middle is queried, and the square is divided.
 class Search {
  public:
   Search(const Space& space, const FloorPlane& plane, const SupportDisc& foot, const Vec3& axis)
@@ -56,8 +56,9 @@ class Search {
 
   enum class Answer : std::uint8_t { none, free, hidden };
 
-  /// `free`: there is a disc, or it is not settled. With `past_walls` walls are not looked for before a disc is found;
-  /// `hidden`: where one would be, a wall may stand before its centre, and it was not looked for another.
+  /// `none`: there is no disc. `free`: there is one, or the search reached a limit undecided. With `past_walls` walls
+  /// are not looked for until a disc is found. `hidden` then means that a wall may stand before that disc, or that the
+  /// search is undecided; search again without `past_walls`.
   Answer run(bool past_walls, walking::DiscFound& disc) {
     std::array<Square, stack_size> stack;
     std::size_t depth = 0;
@@ -86,14 +87,14 @@ class Search {
     return Answer::none;
   }
 
-  /// Whether there is a disc about a centre that was found for another axis.
+  /// Whether the disc found for another axis is still there.
   bool is_free(const walking::DiscFound& disc) {
     if (!disc.found) return false;
     const double x = disc.x - axis_.x, y = disc.y - axis_.y;
     return std::hypot(x, y) <= foot_.radius && !ask(x, y) && in_sight(x, y);
   }
 
-  /// Whether anything that was met is not known yet.
+  /// Whether any floor that was met is unknown space.
   [[nodiscard]] bool met_unknown() const { return unknown_; }
 
  private:
@@ -116,7 +117,7 @@ class Search {
     return place;
   }
 
-  /// Whether there is floor nearer than the radius; its nearest point is remembered.
+  /// Whether there is floor nearer than the radius; remembers its nearest point.
   bool ask(double x, double y) {
     ++queries_;
     const Clearance near = space_.floor_clearance(column_, over(x, y), foot_.radius, floor_);
@@ -166,7 +167,7 @@ DiscRoom walking::find_disc(const Space& space, const FloorPlane& plane, const S
   if (search.is_free(last)) return DiscRoom::free;
   last = {};
   Search::Answer answer = search.run(true, last);
-  // Walls only make fewer discs count: they are looked for only where there is one.
+  // Walls only exclude discs, so they are looked for only if there is a disc.
   if (answer == Search::Answer::hidden) answer = search.run(false, last);
   if (answer != Search::Answer::none) return DiscRoom::free;
   return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;

@@ -1,19 +1,19 @@
 #pragma once
 /// \file
-/// The search behind free_disc(), for a foot that moves.
+/// The search behind free_disc(), for a support disc that moves.
 
 #include "roam/support.h"
 
 namespace roam::walking {
 
-/// Where a disc was found: the next one is likely to be there too.
+/// Position where a disc was found; the next one is likely to be there too.
 struct DiscFound {
   bool found = false;
-  double x = 0.0, y = 0.0;  ///< of its centre, metres
+  double x = 0.0, y = 0.0;  ///< centre of the disc, metres
 };
 
-/// See free_disc(). `last` is where a disc was found before, if anywhere, and becomes where one is now: a body that
-/// hardly moves is answered by two queries.
+/// See free_disc(). `last` is the position of an earlier disc, if any, and is set to that of the disc found now. For a
+/// body that hardly moves, two queries suffice.
 [[nodiscard]] DiscRoom find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
                                  DiscFound& last);
 

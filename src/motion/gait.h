@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What walking remembers from one step to the next.
+/// State of walking kept from one step to the next.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace roam::walking {
 
-/// What a body measures, metres.
+/// The sizes of a body, metres.
 struct Size {
   double radius = 0.0;
   double support_radius = 0.0;
@@ -17,17 +17,17 @@ struct Size {
   friend bool operator==(const Size&, const Size&) = default;
 };
 
-/// What was found out about a foot: asked again only when something of it has changed.
+/// The last result for a support disc. It is computed again only when one of its inputs has changed.
 struct FootAnswer {
-  Vec3 place{0.0};  ///< of the body's centre, metres
+  Vec3 place{0.0};  ///< centre of the body, metres
   double height = 0.0;
   Size size;
-  FloorPlane floor;            ///< the plane over which it was asked
-  std::uint64_t revision = 0;  ///< of the space
-  bool lasts = false;          ///< it was asked, in a space that tells its changes
+  FloorPlane floor;            ///< the floor plane used
+  std::uint64_t revision = 0;  ///< revision of the space
+  bool lasts = false;          ///< there is a result, and the space reports its changes
   Carrying carrying = Carrying::no;
 
-  /// Whether the question is the same.
+  /// Whether the inputs are the same.
   [[nodiscard]] bool same_question(const FootAnswer& other) const {
     return place == other.place && height == other.height && size == other.size && floor == other.floor &&
            revision == other.revision;
@@ -35,17 +35,17 @@ struct FootAnswer {
 };
 
 struct Gait : Stance {
-  double rise_speed = 0.0;  ///< upward, relative to `ground_velocity`, m/s; 0 on the ground
-  /// With a foot of its own: the plane of the floor last seen under the axis. Means nothing before `floor_seen`.
+  double rise_speed = 0.0;  ///< m/s upward, relative to `ground_velocity`; 0 on the ground
+  /// For a body with a support disc: the plane of the floor last seen under the axis. Undefined until `floor_seen`.
   FloorPlane floor;
   bool floor_seen = false;
-  ObjectId floor_object = no_object;  ///< that of `floor`
-  FootAnswer foot;                    ///< where it was asked last
-  DiscFound disc;                     ///< where the foot last found room to fall
+  ObjectId floor_object = no_object;  ///< the object of `floor`
+  FootAnswer foot;                    ///< the last result for the support disc
+  DiscFound disc;                     ///< where the support disc last found room to fall
 
-  bool moved_along = false;  ///< move_instances() has moved it by that of the ground for the next step
+  bool moved_along = false;  ///< move_instances() has already moved it with the ground for the next step
 
-  /// Nothing carries it from now on. It keeps the velocity of the ground.
+  /// Leaves the ground, so that nothing carries the body. It keeps the velocity of the ground.
   void leave_ground() {
     footing = Footing::air;
     unknown = false;

@@ -12,18 +12,18 @@
 namespace roam::walking {
 namespace {
 
-/// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is walked on.
+/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is walked on.
 constexpr double cosine_rounding = 1e-9;
 
-/// A rim is judged by a ball of this radius, metres, set down this far inside the rim: far enough that it does not lie
-/// on the rim itself, near enough for the top of a thin wall and the nosing of a stair.
+/// Metres. A rim is judged by a ball of radius rim_ball, lowered rim_inset behind the rim. That is far enough not to
+/// lie on the rim itself. It is near enough to find the top of a thin wall and the nosing of a stair.
 constexpr double rim_ball = 0.004;
 constexpr double rim_inset = 0.012;
 
-/// Contacts that are looked at under one body. More are only met in dense noise, where the nearest decide.
+/// Greatest number of contacts examined under one body. Only dense noise has more; there the nearest decide.
 constexpr std::size_t contacts_looked_at = 24;
 
-/// A body on level ground finds it within so many skins, and a part of its stride more where the ground bends.
+/// On level ground the body finds it within this many skins; where the ground bends, a part of the stride is added.
 constexpr double near_skins = 4.0;
 constexpr double near_part = 0.125;
 
@@ -31,7 +31,7 @@ double slope_tangent(const Move& m) {
   return std::sqrt(std::max(0.0, 1.0 - m.slope_cosine * m.slope_cosine)) / m.slope_cosine;
 }
 
-/// Whether the floor behind the rim at `point`, seen from a body in the direction `normal`, can be walked on.
+/// Whether the floor behind the rim at `point` can be walked on. `normal` points from the rim to the body.
 bool floor_behind(const Move& m, const Vec3& point, const Vec3& normal) {
   const Vec3 outward(normal.x, normal.y, 0.0);
   const Vec3 inside = point - outward * (rim_inset / glm::length(outward));
@@ -61,21 +61,21 @@ Contact as_contact(const Impact& s) {
   return {{s.point, s.normal, s.feature, s.distance}, s.triangle, s.object, s.unknown};
 }
 
-/// Gravity along planes that leads down at less than the slope limit, so that they carry together. On a slope of angle
-/// a it leads down by sin(a)^2 of itself.
+/// Whether planes carry together: gravity along them leads down at less than the slope limit. On a slope of angle a it
+/// leads down by sin(a)^2 of its length.
 bool carried_by(const Move& m, const PlaneSet& planes) {
   const Vec3 down = along_planes(Vec3(0.0, 0.0, -1.0), planes);
   return -down.z <= 1.0 - m.slope_cosine * m.slope_cosine + cosine_rounding;
 }
 
-/// How far down a body is a skin from the plane that it meets after `to_ground` metres. A plane that is steeper than
-/// any rim that carries does not lift it farther than such a rim, and one that it does not come down onto not at all.
+/// Metres down to where the body is a skin from the plane that it meets after `to_ground` metres. A plane too steep to
+/// carry lifts the body at most as far as a carrying rim; a plane that faces down does not lift it.
 double to_skin(const Move& m, const Impact& met, double to_ground) {
   return met.normal.z > 0.0 ? std::max(to_ground - m.skin / met.normal.z, -m.skin / rim_cosine) : 0.0;
 }
 
-/// What is met first on the way down by `reach`, the time made metres. Mostly it is just below: a short look has few
-/// candidates, of which a long one cannot tell which comes first.
+/// The first impact on the way down by `reach`, with its time in metres. Usually the ground is just below. So a short
+/// query comes first: it has few candidates, and a long one could not tell which of them comes first.
 struct Below {
   Impact impact;
   double drop = 0.0;
@@ -111,7 +111,7 @@ std::optional<Ground> footing_here(const Move& move, const Gait& gait) {
     planes.add(c.normal);
     unknown |= c.unknown;
     highest = std::max(highest, c.point.z);
-    if (object == no_object) object = c.object;  // the nearest
+    if (object == no_object) object = c.object;  // the nearest contact
   }
   if (best) return best;
   if (planes.size() > 1 && carried_by(move, planes)) {
@@ -135,8 +135,8 @@ void stand_on(Move& move, Gait& gait, const Ground& ground) {
 
 namespace {
 
-/// Off a rim that has become too steep to stand on, onto ground at most a step below it: outward until the body is
-/// clear of the rim, and down.
+/// Steps off a rim that has become too steep to stand on, onto ground at most a step below it: outwards until the body
+/// is clear of the rim, and down.
 bool step_off(Move& move, Gait& gait, const Impact& rim) {
   const Vec3 flat(rim.normal.x, rim.normal.y, 0.0);
   const double radius = move.settings.radius, lateral = glm::length(flat);
@@ -163,7 +163,7 @@ bool step_off(Move& move, Gait& gait, const Impact& rim) {
 
 void keep_ground(Move& move, Gait& gait, double horizontal) {
   const double slope_drop = horizontal * slope_tangent(move);
-  // On a rim the body has sunk below the level that it stands on.
+  // On a rim the body has sunk below the level on which it stands.
   const double sunk = gait.footing == Footing::rim ? std::max(0.0, *gait.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
   const bool look_for_foot = has_foot(move) && !see_floor(move, gait, reach, horizontal);
@@ -172,7 +172,7 @@ void keep_ground(Move& move, Gait& gait, double horizontal) {
   std::optional<Ground> ground;
   if (s.hit) ground = footing(move, gait, s);
   if (s.hit && !ground) {
-    // What is met first is too steep, but what carries may be a hair behind it.
+    // The first impact is too steep, but ground that carries may be just behind it.
     Move lowered = move;
     lowered.place.z -= std::max(0.0, to_skin(move, s, to_ground));
     ground = footing_here(lowered, gait);
@@ -207,14 +207,14 @@ void keep_ground(Move& move, Gait& gait, double horizontal) {
 std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double seconds) {
   const double length = glm::length(motion), step = move.settings.step, skin = move.skin;
   if (!gait.firm() || !(step > 0.0) || !(length > 0.0)) return std::nullopt;
-  // From a skin above the old ground to a skin clear of the edge of a kerb of full height.
+  // From a skin above the old ground to a skin above the edge of a kerb of full height.
   const Vec3 up(0.0, 0.0, step + 3.0 * skin);
   Move trial = move;
   const Advance raised = trial.probe(up);
   const Vec3 rise = up * raised.fraction;
   if (raised.embedded || !(rise.z > 2.0 * skin)) return std::nullopt;
   trial.place += rise;
-  // Not less than what takes a body that touches a kerb of its radius' height to where the rim carries it.
+  // At least far enough for a body that touches a kerb as high as its radius to reach where the rim carries it.
   const double least = move.settings.radius * (1.0 - rim_sine) + 4.0 * skin;
   const Vec3 ahead = motion * (std::max(length, least) / length);
   const Advance forward = trial.probe(ahead);
@@ -226,7 +226,7 @@ std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
   const std::optional<Ground> ground = footing(trial, gait, landing);
   if (!ground || ground->level > *gait.level + step + 2.0 * skin) return std::nullopt;
-  // Neither over the obstacle nor higher than before: it was no step, and to creep on like this is none.
+  // It is neither over the obstacle nor higher than before: that is no step, and repeating it would only creep on.
   if (forward.touched && !(ground->level > *gait.level + 2.0 * skin)) return std::nullopt;
   const double drop = std::max(0.0, landing.time * reach - skin / landing.normal.z);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a body knows of the space around it from one step to the next, so that it need not ask again.
+/// Facts about the space around a body, kept from one step to the next to save queries.
 
 #include <cstdint>
 #include <limits>
@@ -9,53 +9,53 @@
 
 namespace roam::walking {
 
-/// What is known to be free around a place: a body of this size has a gap of at least `gap`, less what it is away from
-/// the centre, as long as the space stays as it is.
+/// A free region around a position: as long as the space does not change, a body of this size has there a gap of at
+/// least `gap` less its distance from the centre.
 struct FreeBall {
   Vec3 centre{0.0};     ///< of the body, metres
   double gap = 0.0;     ///< metres; 0: nothing is known
-  double way = 0.0;     ///< metres: `gap` is the least over a way of this length that ends at the centre
+  double way = 0.0;     ///< metres: `gap` is the least gap over a way of this length that ends at the centre
   double radius = 0.0;  ///< of the body, metres
   double height = 0.0;
 };
 
-/// What a clearance was measured of.
+/// The subject of a measured clearance.
 enum class Measured : std::uint8_t {
-  nothing,  ///< of this body in the space as it is: it is out of date
+  nothing,  ///< out of date for this body in the space as it is
   place,
-  way,  ///< the way to the place, so that it may be far below that of the place
+  way,  ///< the way to the position, so that it may be far below the clearance there
 };
 
-/// Whether the body fits where it is.
+/// Whether the body fits at its position.
 enum class Fit : std::uint8_t {
   known,
-  unproven,   ///< the space has changed, and it is not known yet
-  came_upon,  ///< the space has changed, and it does not
+  unproven,   ///< the space has changed, and it is not known whether the body fits
+  came_upon,  ///< the space has changed, and the body does not fit
 };
 
 struct Known {
-  double clearance = 0.0;  ///< certified at the place when the body came there, metres; 0: not known
-  /// An upper bound of the gap at the place, metres: to look for the nearest triangle farther off is in vain.
+  double clearance = 0.0;  ///< certified at the position when the body came there, metres; 0: not known
+  /// Upper bound of the gap at the position, metres. A search farther than this for the nearest triangle is useless.
   double nearest = std::numeric_limits<double>::infinity();
   FreeBall ball;
-  Measured measured = Measured::nothing;  ///< what `clearance` is that of
+  Measured measured = Measured::nothing;  ///< the subject of `clearance`
   Fit fit = Fit::known;
-  bool touching = false;  ///< it was in touch when it was last seen: a look ahead is likely to find that in the way
+  bool touching = false;  ///< it was in touch when last seen, so a query ahead is likely to meet the same obstacle
 
-  /// The body is elsewhere, or another.
+  /// Must be called when the body has moved or has another size.
   void forget_place() {
     clearance = 0.0;
     nearest = std::numeric_limits<double>::infinity();
     measured = Measured::nothing;
   }
-  /// The space has changed.
+  /// Must be called when the space has changed.
   void forget() {
     forget_place();
     ball = {};
   }
 };
 
-/// Where a body is, how high it is there, and what it knows of the space around.
+/// Position and height of a body, and known facts about the space around it.
 struct Whereabouts {
   Vec3 place{0.0};      ///< of the centre, metres
   double height = 0.0;  ///< metres

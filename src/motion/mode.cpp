@@ -1,4 +1,4 @@
-// Changing the mode, and coming back: from ghost mode, and from below the scene.
+// Changes of the mode, and returns: from ghost mode, and from below the scene.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -24,7 +24,7 @@ const StepReport& Walker::State::set_mode(Mode mode) {
     put({at_.place.x, at_.place.y, lowest + 0.5 * at_.height}, 0.0);
   }
   if (before == Mode::ghost && mode != Mode::ghost) come_back();
-  // Something may have come where it is, of which no step has told yet.
+  // Something may have come to its position that no step has reported yet.
   if (before != Mode::ghost && mode != Mode::ghost) look_again();
   if (mode != before) settle();
   if (held() && !report_.held) hold(hold_);
@@ -38,7 +38,7 @@ void Walker::State::come_back() {
     if (fits && walking::above_ground(*space_, body(), at_.place)) return;
     if (come_back_to(ground_, true)) return;
   }
-  // Where there is no ground it falls, and is put back.
+  // If there is no ground, the body falls and is put back.
   if (!fits && !come_back_to(safe_, false)) hold(walking::Hold::embedded);
 }
 

@@ -7,37 +7,38 @@
 namespace roam::walking {
 namespace {
 
-/// The sweep looks this many skins beyond the end, so that a body in slow motion stops at the skin instead of creeping
-/// into it step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
+/// Skins by which the sweep looks beyond the end. So a slowly moving body stops at the skin instead of creeping into it
+/// step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
 constexpr double look_ahead = 2.0;
 
-/// Where nothing is as near as clearances are told, the next look reaches farther by so many ways: the steps that a
-/// free ball may last.
+/// Ways. If nothing is within clearance_reach, the next query reaches farther by this many ways, so that its free ball
+/// lasts for that many steps.
 constexpr double ways_ahead = 8.0;
 
-/// A look reaches so many skins at least, however near clearances are told.
+/// Skins. Least reach of a query, however short clearance_reach is.
 constexpr double least_look = 4.0;
 
-/// What a gap that was found may be less than the true one (space.h): it is at least this part of it, and this much.
+/// A gap returned by the space may be less than the true one (space.h): at least this part of it, less this many
+/// metres.
 constexpr double gap_part = 7.0 / 8.0;
 constexpr double gap_tolerance = 2e-3;
 
-/// A free ball answers as long as what it tells is at least three quarters of the true gap. Be T that over the way
-/// asked for, which ends `away` from the ball's centre at most; then the gap there is at least T - away, that over the
-/// ball's own way at least T - away - way, and what was found, of which `away` is taken off, at least gap_part (T -
-/// away - way). All that is taken off must be an eighth of T at most, and T is at least gap - away.
+/// A free ball is used as long as its bound is at least three quarters of the true gap. Let T be the true gap over the
+/// way, which ends at most `away` from the ball's centre. The gap at the centre is at least T - away. Over the ball's
+/// own way it is at least T - away - way, and the gap found is at least gap_part (T - away - way). From that, `away` is
+/// subtracted. The sum of all losses must be at most an eighth of T, and T is at least gap - away.
 constexpr double told_part = 3.0 / 4.0;
 constexpr double away_weight = (1.0 + gap_part) / (gap_part - told_part) + 1.0;  // 16
 constexpr double way_weight = gap_part / (gap_part - told_part);                 // 7
 
-/// Each merge of two pieces in one direction may move the straight line by a rounding of the coordinates, 1e-9 m at
-/// 6.4e6 m: this many stay far below world_tolerance.
+/// Each merge of two pieces in one direction may shift the straight line by a rounding of the coordinates, 1e-9 m at
+/// 6.4e6 m. This many merges stay far below world_tolerance.
 constexpr int merge_limit = 64;
 
-/// Segments that one stride or one stretch of flight may add: slides, a step up (three), ground snap, crouching.
+/// Segments that one stride or one flight may add: slides, a step up (three), snapping to the ground, crouching.
 constexpr std::size_t segments_at_once = 24;
 
-/// Frequent events that are noted in one step; the rest of the list is kept for a fall and for what ends a step.
+/// Frequent events noted in one step; the rest of the list is kept for a fall and for events that end a step.
 constexpr std::size_t events_of_motion = 16;
 
 /// Whether an event may happen many times in one long step.
@@ -81,7 +82,7 @@ Advance Move::probe(const Vec3& motion) const {
   const Impact s = sweep(direction * looked);
   if (!s.hit) return a;
   a.contact = s;
-  // The plane of the contact bounds the gap from below on the whole way: it shrinks by `approach` a metre.
+  // The plane of the contact bounds the gap from below on the whole way: it shrinks by `approach` per metre.
   const double approach = std::max(-glm::dot(s.normal, direction), 0.0);
   if (s.time <= 0.0 && (s.distance < 0.0 || approach <= 0.0)) {
     a.touched = a.embedded = true;
@@ -143,7 +144,7 @@ double Move::look_along(const Vec3& motion) {
   const double gap = Nearby::gap(space, vicinity, {body(), place, motion}, look);
   if (gap > free_gap) {
     ball = {place + motion, gap, length, settings.radius, height};
-    // What is near may be so at the far end of the way.
+    // The near object may be near only at the far end of the way.
     if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + length);
   } else {
     ball = {};
@@ -160,7 +161,7 @@ double Move::clearance_over(const Vec3& motion) {
 double Move::measured(const Vec3& motion) {
   const double gap = gap_over(motion);
   if (gap >= -world_tolerance) return settings.radius + gap;
-  // In touch, a clearance is more exact than a look.
+  // In touch, a clearance is more exact than a gap.
   const bool fits = space.clearance(body(), place, motion, 0.0).distance >= -world_tolerance;
   return fits ? settings.radius - world_tolerance : 0.0;
 }
@@ -223,7 +224,7 @@ void Move::touch(const Impact& contact, double gap) {
   c.object = contact.object;
   c.unknown = contact.unknown;
   report.met_unknown |= c.unknown;
-  // The last touched stands last, and once.
+  // The last touched contact stands last, and only once.
   InlineList<Contact, 8>& list = report.contacts;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i].triangle != c.triangle || list[i].feature != c.feature) continue;

@@ -29,10 +29,10 @@ double InstanceMotion::bulge(const Vec3& point, const Vec3& way) const {
 
 namespace {
 
-/// Rounding of a place and a way that are turned, of their lengths: as in a query of Instances.
+/// Rounding of a turned position and way, relative to their lengths, as in a query of Instances.
 constexpr double turn_rounding = 0x1p-48;
 
-/// The gap over a way, metres, at most `reach`; none where it may not be free, or is too far for a query.
+/// The gap over a way, metres, at most `reach`; nothing if the way may not be free or is too long for a query.
 std::optional<double> gap_over(const Space& space, const Query& way, double reach) {
   if (way.body.radius > Space::reach_limit || largest(way.motion) > Space::motion_limit) return std::nullopt;
   const double gap = space.gap(way, reach);
@@ -42,7 +42,7 @@ std::optional<double> gap_over(const Space& space, const Query& way, double reac
   return std::nullopt;
 }
 
-/// The same between a body that goes by `way` and the instance that is shifted meanwhile.
+/// The same between a body that moves by `way` and the instance that is shifted meanwhile.
 std::optional<double> gap_to_instance(const InstanceMotion& shift, const Body& body, const Vec3& place, const Vec3& way,
                                       double reach) {
   const Vec3 from = shift.from.to_instance(place), to = shift.to.to_instance(place + way);
@@ -51,16 +51,16 @@ std::optional<double> gap_to_instance(const InstanceMotion& shift, const Body& b
   return gap_over(*shift.world, {grown, from, to - from}, reach);
 }
 
-/// A body that is squeezed out between an instance and the rest goes at most so many times as fast as the instance.
+/// A body squeezed out between an instance and the rest moves at most this many times as fast as the instance.
 constexpr double steepest_squeeze = 4.0;
 
-/// Whether the instance stays out of the body's reach: it stays in a ball about its origin that goes along.
+/// Whether the instance stays out of the body's reach. It stays in a ball about its origin that moves with it.
 bool is_far(const InstanceMotion& shift, const Body& body, const Vec3& place) {
   const Box bounds = shift.world->bounds();
   if (bounds.empty()) return true;
   const double ball = glm::length(glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper)));
   const double gone = glm::length(shift.to.position - shift.from.position);
-  // A metre is far more than rounding and what storing moves.
+  // One metre is far more than rounding and storage errors.
   return glm::length(place - shift.from.position) > ball + gone + body.radius + body.half_height + 1.0;
 }
 
@@ -81,7 +81,7 @@ bool Walker::State::is_concerned(const walking::InstanceMotion& shift) const {
 }
 
 std::optional<walking::Response> Walker::State::response(const Space& rest, const walking::InstanceMotion& shift) {
-  // A part may need two segments: a rest and the way.
+  // A part may need two segments: one of rest and one of motion.
   const bool has_room = !shifted_ || report_.segments.size() + 2 <= decltype(report_.segments)::capacity;
   const double reach = settings_.clearance_reach;
   const auto along = [&](const Vec3& way) -> std::optional<walking::Response> {
@@ -98,7 +98,7 @@ std::optional<walking::Response> Walker::State::response(const Space& rest, cons
   const bool drifts = gait_.object == shift.instance && !gait_.grounded();
   const Vec3 carried = shift.carried(at_.place) - at_.place;
   const Vec3 own = stands ? carried : drifts ? gait_.ground_velocity * shift.seconds : Vec3(0.0);
-  // As far as the rest of the scene lets it, a skin away, and along what is in the way.
+  // Moves as far as the rest of the scene allows, a skin away, and then along the obstacle.
   walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
   const auto towards = [&](const Vec3& wish) -> std::optional<walking::Response> {
     if (largest(wish) > walking::longest_way) return std::nullopt;
@@ -109,7 +109,7 @@ std::optional<walking::Response> Walker::State::response(const Space& rest, cons
     const Vec3 left = wish - first, &normal = part.contact.normal;
     const Vec3 slide = left - normal * glm::dot(left, normal);
     if (const auto to = along(first + slide)) return to;
-    // Squeezed out between the two: along the one, as fast as the other comes on.
+    // Squeezed out between the two: along the obstacle, as fast as the instance approaches.
     const Vec3 seen = shift.from.to_instance(at_.place);
     const double near = std::min(glm::length(wish) + skin_, Space::reach_limit);
     const Clearance pusher = shift.world->clearance(body(), seen, near);
@@ -137,7 +137,7 @@ void Walker::State::take(const walking::InstanceMotion& shift, const walking::Re
     at_.place += to.way;
     ridden_ += to.way;
   }
-  // What was known is of the scene as it was.
+  // Known facts are about the scene as it was.
   at_.known.forget();
   if (gait_.object != shift.instance) return;
   gait_.moved_along = true;
@@ -159,13 +159,13 @@ void Walker::State::append(const walking::InstanceMotion& shift, const walking::
     segments.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
     rested_ = infinity;
   } else if (!segments.empty()) {
-    // Straight on: a millionth of a millionth of the way is no bend.
+    // Straight on: a deviation of 1e-12 of the way is no bend.
     Segment& last = segments.back();
     const Vec3 before = segments.size() > 1 ? segments[segments.size() - 2].position : report_.from;
     const Vec3 gone = last.position - before;
     const double begun = segments.size() > 1 ? segments[segments.size() - 2].time : 0.0, length = glm::length(gone);
     const double straight = 1e-12 * length * glm::length(to.way);
-    // As fast as before, too: the time of a segment is that of an even motion.
+    // The speed must be the same too, because a segment stands for uniform motion.
     const double even = length * shift.seconds - glm::length(to.way) * (last.time - begun);
     const bool goes_on = last.time == shift.begin && std::abs(even) <= 1e-9 * length * shift.seconds;
     if (goes_on && glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
@@ -188,24 +188,26 @@ void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {
 
 namespace {
 
-/// Metres. A body that goes along with what turns leaves its arc by no more, where the parts are few enough.
+/// Metres. Greatest deviation from its arc of a body that moves with a turning instance, as long as most_parts
+/// suffices.
 constexpr double largest_bulge = 2e-5;
 
-/// Of a body's radius: a part of a movement is no longer, so that a body is pushed when it is reached.
+/// Part of the body's radius. No part of a movement is longer, so that a body is pushed when it is reached.
 constexpr double part_of_radius = 0.25;
 
-/// Parts of one movement, at most: what a report has room for.
+/// Greatest number of parts of one movement, limited by the room in a report.
 constexpr int most_parts = 48;
 
-/// A part is halved so often before an instance stops.
+/// A part is halved down to this share before an instance stops.
 constexpr double least_share = 1.0 / 8.0;
 
-/// The pose after a part of a movement.
+/// The pose after a part of a movement, `seconds` long.
 Pose after(const Pose& pose, const Velocity& velocity, double seconds) {
   return {pose.position + velocity.linear * seconds, pose.heading + velocity.turning * seconds};
 }
 
-/// Whether a walker's space is that one, or a part of it; where a Filtered leaves out the instance, `seen` is false.
+/// Whether the walker's space is `instances`, or filters of it. If a Filtered leaves out the instance, `seen` is set to
+/// false.
 bool moves_in(const Space& space, const Instances& instances, ObjectId instance, bool& seen) {
   const Space* inner = &space;
   while (const auto* filtered = dynamic_cast<const Filtered*>(inner)) {
@@ -241,7 +243,7 @@ class Movement {
     parts_ = std::clamp(std::ceil(std::max(turns, way / (part_of_radius * radius))), 1.0, double(most_parts));
   }
 
-  /// Moves them; what stopped the instance, if anything.
+  /// Moves all of them. Returns the body that stopped the instance, if any.
   std::optional<Stopped> run() {
     const double usual = dt_ / parts_;
     double done = 0.0, seconds = usual;
@@ -276,7 +278,7 @@ class Movement {
             seconds};
   }
 
-  /// All bodies and the instance, or none of them; then the number of the body that cannot.
+  /// Moves all bodies and the instance, or none of them; then returns the number of the body that cannot move.
   std::optional<std::size_t> go(double begin, double seconds) {
     const walking::InstanceMotion part = shift(begin, seconds);
     for (Met& it : met_) {

@@ -13,20 +13,21 @@ namespace {
 
 constexpr std::size_t contacts_looked_at = 48;
 
-/// Skins: a triangle that is as near as that is touched.
+/// In skins: a triangle this near counts as touched.
 constexpr double touched_skins = 4.0;
 
-/// The ray between two points of contact goes on for this part of the radius behind the farther one: a door in a wall,
-/// not a groove.
+/// The ray between two points of contact extends by this part of the radius behind the farther one, so that a groove
+/// does not count as a door.
 constexpr double depth_part = 0.5;
 
-/// A contact is ahead when its normal leans against the way by more than this (cosine): not the wall walked along.
+/// Cosine. A contact is ahead if its normal leans against the way by more than this; a wall beside the way does not
+/// count.
 constexpr double against_the_way = 0.05;
 
-/// A contact bounds a gap when its normal leans into it by more than this (cosine).
+/// Cosine. A contact bounds a gap if its normal leans into the gap by more than this.
 constexpr double facing = 0.05;
 
-/// A post, and no floor or ceiling, is what is touched with a normal that leans up or down by less than this (sine).
+/// Sine. A contact is a post if its normal leans up or down by less than this; otherwise it is a floor or a ceiling.
 constexpr double post = 0.7;
 
 /// The unit vectors of a blocked way.
@@ -43,7 +44,7 @@ bool open_between(const Space& space, const Vec3& a, const Vec3& b, const Vec3& 
 }
 
 /// Whether two contacts bound a gap along `across`: they lie on either side of the body and face each other. Two
-/// heights of one post lie on either side as well, but they face the same way.
+/// heights of one post may also lie on either side, but they face the same way.
 bool face_each_other(const Contact& a, const Contact& b, const Vec3& place, const Vec3& across) {
   const double side_of_a = glm::dot(a.point - place, across);
   const double side_of_b = glm::dot(b.point - place, across);
@@ -96,7 +97,7 @@ std::optional<Opening> measure_opening(const Walker& walker, const Vec3& ahead) 
       const Contact &a = contacts[i], &b = contacts[j];
       if (std::min(glm::dot(a.normal, ahead), glm::dot(b.normal, ahead)) > -against_the_way) continue;
       const Vec3 apart = b.point - a.point;
-      // Two posts are touched anywhere along their height; they need not stand side by side.
+      // Two posts may be touched at any height; they need not stand side by side.
       const double lean =
           std::max(std::abs(glm::dot(a.normal, frame.upward)), std::abs(glm::dot(b.normal, frame.upward)));
       if (lean < post && face_each_other(a, b, place, frame.sideways)) {
@@ -104,8 +105,8 @@ std::optional<Opening> measure_opening(const Walker& walker, const Vec3& ahead) 
         const double width = glm::length(level);
         consider(a, b, {Opening::Kind::door, 0.5 * (a.point + b.point), width, level / width});
       }
-      // The floor is touched below the body, and what hangs too low ahead of it: one above the other, not two posts
-      // whose contacts lean a little up and down.
+      // The floor is touched below the body, and a low obstacle ahead of it. One must be above the other, to exclude
+      // two posts whose contacts lean a little up and down.
       const double height = std::abs(glm::dot(apart, frame.upward));
       if (height > std::abs(glm::dot(apart, frame.sideways)) && face_each_other(a, b, place, frame.upward)) {
         consider(a, b, {Opening::Kind::lintel, 0.5 * (a.point + b.point), height, frame.upward});

@@ -9,10 +9,10 @@
 namespace roam::walking {
 namespace {
 
-/// Halvings after which the speed is as exact as a double.
+/// Halvings until the speed is as exact as a double.
 constexpr int halvings = 64;
 
-/// Evenly from one speed to another in `change` seconds, and at that speed for the rest of `seconds`: metres.
+/// Metres covered in `seconds`: uniform change from one speed to another in `change` seconds, then constant speed.
 double gone(double from, double to, double change, double seconds) {
   const double changing = std::min(change, seconds);
   const double reached = change > 0.0 ? from + (to - from) * (changing / change) : to;
@@ -27,7 +27,7 @@ double change_seconds(double from, double to, const WalkerInput& limits) {
   return std::abs(to - from) / rate(from, to, limits);
 }
 
-/// Seconds until `way` metres are gone: evenly from one speed to another in `change` seconds, and on at that speed.
+/// Seconds to cover `way` metres: uniform change from one speed to another in `change` seconds, then constant speed.
 double seconds_until(double way, double from, double to, double change) {
   const double changing = 0.5 * (from + to) * change;
   if (way >= changing) return to > 0.0 ? change + (way - changing) / to : change;
@@ -106,7 +106,7 @@ Vec3 Walker::State::pace() const {
   if (!report_.blocked && !report_.has(EventKind::slid) && !report_.has(EventKind::slowed)) return pace;
   const double speed = glm::length(moved), most = glm::length(wished_);
   if (!(speed > 0.0 && most > 0.0)) return Vec3(0.0);
-  // Along what it slides, and no more of it than of the way.
+  // Along the slide, and no larger part of it than the body made of its way.
   const Vec3 along = moved / speed;
   return along * std::clamp(glm::dot(pace, along), 0.0, glm::length(pace) * std::min(1.0, speed / most));
 }

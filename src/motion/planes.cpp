@@ -5,7 +5,7 @@
 namespace roam::walking {
 namespace {
 
-/// Two planes whose normals differ by less than this (sine of the angle) have no line in common worth the name.
+/// Sine. Two planes whose normals differ by a smaller angle have no usable common line.
 constexpr double same_plane_sine = 1e-6;
 
 bool leads_into_none(const Vec3& v, const PlaneSet& planes, double tolerance) {
@@ -20,7 +20,7 @@ bool leads_into_none(const Vec3& v, const PlaneSet& planes, double tolerance) {
 Vec3 along_planes(const Vec3& wish, const PlaneSet& planes) {
   const double tolerance = parallel_tolerance * glm::length(wish);
   if (leads_into_none(wish, planes, tolerance)) return wish;
-  // Of projections onto subspaces the longest is the nearest to the wish.
+  // Among projections onto subspaces the longest is the nearest to the wish.
   Vec3 best(0.0);
   double best_length = 0.0;
   const auto consider = [&](const Vec3& v) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a wish leads when planes stand in its way.
+/// The motion that is left of a wish when planes block it.
 
 #include <array>
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace roam::walking {
 
-/// Part of a wish's length by which it may lead into a plane and still count as along it. Far above rounding (1e-16)
-/// and so small that the skin, at least 0.1 mm, outlasts 100 m of such motion.
+/// Part of a wish's length by which it may lead into a plane and still count as along it. It is far above rounding
+/// (1e-16) and so small that the skin, at least 0.1 mm, outlasts 100 m of such motion.
 constexpr double parallel_tolerance = 1e-6;
 
-/// The planes that a body touches at one place, as unit normals that point to the body.
+/// The planes that a body touches at one position, as unit normals that point to the body.
 class PlaneSet {
  public:
-  /// A body in a corner of real geometry touches three planes; bumps of a stored wall add a few that are nearly
-  /// parallel to those. What comes beyond is left out, which blocks the body sooner, never later.
+  /// A body in a corner of real geometry touches three planes; bumps of a stored wall add a few nearly parallel ones.
+  /// Further planes are dropped. This blocks the body sooner, never later.
   static constexpr std::size_t capacity = 8;
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -34,8 +34,8 @@ class PlaneSet {
 };
 
 /// The vector nearest to `wish` that leads into none of the planes: the wish itself, its projection on one plane
-/// (slide), on the line that two share (crease), or nothing (three planes). It depends on the wish alone, not on what
-/// was tried before, so that many contacts in a row wear nothing off.
+/// (slide) or on the line of two (crease), or zero (three planes). It depends only on the wish and not on earlier
+/// attempts. So many contacts in a row do not wear it down.
 [[nodiscard]] Vec3 along_planes(const Vec3& wish, const PlaneSet& planes);
 
 }  // namespace roam::walking

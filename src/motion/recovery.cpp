@@ -9,13 +9,14 @@
 namespace roam::walking {
 namespace {
 
-/// Part of the centre's certified distance from everything that the sphere on the way has: it must start free.
+/// Part of the centre's certified distance from everything that is the sphere's radius: the sphere must start free.
 constexpr double inner_part = 0.9;
 
-/// Pushes out of the deepest contact. A box-like niche needs about one a wall, an acute corner a few dozen.
+/// Greatest number of pushes out of the deepest contact. A box-like niche needs about one per wall, an acute corner a
+/// few dozen.
 constexpr int push_limit = 48;
 
-/// Marches end after this many places; a march across a solid of one body's height takes some ten.
+/// Greatest number of positions in a march; a march across a solid as thick as the body's height takes about ten.
 constexpr int march_limit = 256;
 
 double gap(const Space& space, const Body& body, const Vec3& place, double reach) {
@@ -33,8 +34,8 @@ std::optional<Vec3> push_out(const Space& space, const Body& body, const Vec3& p
   return std::nullopt;
 }
 
-/// The first free place along `direction`. A gap grows by at most the way gone, so a body `depth` deep is not free
-/// before it has gone that far.
+/// The first free position along `direction`. A gap grows at most as fast as the body moves. So a body that overlaps by
+/// `depth` is not free before it has moved that far.
 std::optional<Vec3> march(const Space& space, const Body& body, const Vec3& place, const Vec3& direction, double limit,
                           double skin) {
   double gone = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Ways out for a body that does not fit where it is.
+/// Ways out for a body that does not fit at its position.
 
 #include <optional>
 
@@ -8,19 +8,19 @@
 
 namespace roam::walking {
 
-/// Whether a body that falls from `place` comes down on something, known or not.
+/// Whether a body that falls from `place` lands on something, known or unknown.
 [[nodiscard]] bool above_ground(const Space& space, const Body& body, const Vec3& place);
 
-/// `checked`: only ways on which a sphere about the body's centre, of nine tenths of the centre's own distance from
-/// everything, meets nothing, so that the centre stays on its side of every wall. A body whose centre lies on a
-/// triangle has no such way. `any`: through walls too.
+/// `checked` allows only ways along which a sphere about the body's centre meets nothing, so that the centre stays on
+/// its side of every wall. The sphere's radius is nine tenths of the centre's distance from everything. A body whose
+/// centre lies on a triangle has no such way. `any` also allows ways through walls.
 enum class Way : std::uint8_t { checked, any };
-/// What the place must have below it: `ground`, as above_ground() says.
+/// What must be below the position found; `ground` as for above_ground().
 enum class Below : std::uint8_t { anything, ground };
 
-/// The nearest place found, at most `limit` metres away, where the body fits with its skin. Looked for by pushing the
-/// body out of what it touches, and along the 26 directions to the neighbours of a cube's centre, on each of which no
-/// free place is skipped.
+/// The nearest position found, at most `limit` metres away, where the body fits with its skin. The search pushes the
+/// body out of its contacts, and also goes in the 26 directions from a cube's centre to its neighbours; in each of
+/// these it skips no free position.
 [[nodiscard]] std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit,
                                                double skin, Way way, Below below = Below::anything);
 

@@ -14,25 +14,25 @@
 namespace roam {
 namespace {
 
-/// Of the way that free motion would bring in the time of patience; see RouteOptions::patience.
+/// Part of the way that free motion would cover during the time of patience; see RouteOptions::patience.
 constexpr double progress_part = 0.05;
 constexpr std::uint64_t least_patience_steps = 8;
 
-/// Metres: nearer to a waypoint than this is at it. Ten times the rounding of coordinates at 6.4e6 m.
+/// Metres. A body this close to a waypoint is at it. Ten times the rounding of coordinates at 6.4e6 m.
 constexpr double at_waypoint = 1e-8;
 
-/// Metres above the feet: a waypoint that a tall person's path has so high is one of a low body too, where it is in
-/// sight.
+/// Metres above the feet. A waypoint of a tall person's path may be this high and still count for a low body that sees
+/// it.
 constexpr double tall_person = 2.0;
 
-/// Cosine of the turn, less than half a degree, that a limited body does not slow down for.
+/// Cosine of a turn of less than half a degree, for which a limited body does not slow down.
 constexpr double straight_on = 0.99997;
 
-bool within_limit(const Vec3& v) {  // false for what is not a number
+bool within_limit(const Vec3& v) {  // false for NaN
   return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
 }
 
-/// Whether a body is at home in a box: in it, or not farther out than its own size.
+/// Whether a body is in a box, or at most its own size outside.
 bool inside(const Vec3& p, const Box& box, const Body& body) {
   return box.grown(Vec3(2.0 * body.radius, 2.0 * body.radius, body.height())).holds(p);
 }
@@ -41,14 +41,14 @@ bool above_or_below(const Vec3& p, const Box& box) {
   return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y;
 }
 
-/// From the body to the waypoint; walking has no say in the height.
+/// From the body to the waypoint; for walking without the height.
 Vec3 way_to(const Vec3& waypoint, const Walker& walker) {
   Vec3 way = waypoint - walker.position();
   if (walker.mode() == Mode::walk) way.z = 0.0;
   return way;
 }
 
-/// Whether only the space's speed limit, and nothing that is touched, keeps the body from going on.
+/// Whether only the space's speed limit, and no contact, keeps the body from going on.
 bool waits_for_space(const Vec3& way, const StepReport& report) {
   const Contact* c = most_against(report, way);
   return report.has(EventKind::slowed) &&
@@ -158,8 +158,8 @@ bool Route::limited() const {
   return walking::limits({.acceleration = options_.acceleration, .braking = options_.braking});
 }
 
-/// Metres to where the body is to be at rest, the next waypoint being `way` off: farther than it takes to brake counts
-/// as that far.
+/// Metres to where the body must be at rest, if the next waypoint is `way` off. Not computed farther than the braking
+/// distance.
 double Route::until_rest(const Vec3& way) const {
   const double enough = options_.speed * options_.dt + 0.5 * options_.speed * options_.speed / options_.braking;
   double sum = glm::length(way);
@@ -215,7 +215,7 @@ void Route::judge(const StepReport& report, double distance_before, double free_
   if (walker_->mode() == Mode::fly && inside_ && !inside_now) return finish(Outcome::left_scene);
   inside_ = inside_ || inside_now;
   if (coming_down_) {
-    // Without ground it may also be caught between slopes, and then goes on from there.
+    // Without ground the body may also be caught between slopes; then it goes on from there.
     coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
     start_window();
     return;
@@ -239,13 +239,13 @@ void Route::judge(const StepReport& report, double distance_before, double free_
   }
 }
 
-/// Whether the body came nearer in the window, or slides to where it will.
+/// Whether the body came nearer during the window, or slides along an obstacle.
 bool Route::gets_on() const {
   const double least = progress_part * window_free_;
   const double nearer = window_best_ - glm::length(way_to(waypoints_[next_], *walker_));
   Vec3 moved = walker_->position() - window_from_;
   if (walker_->mode() == Mode::walk) moved.z = 0.0;
-  // A way that leads aside by so much of free motion comes nearer by the square of that.
+  // A slide that covers this part of free motion comes nearer by the square of that part.
   return nearer >= least || (glm::length(moved) >= least && nearer >= progress_part * least);
 }
 

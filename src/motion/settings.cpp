@@ -13,7 +13,7 @@
 namespace roam {
 namespace {
 
-/// Far above every use, and low enough that nothing overflows.
+/// Limits far above any use, and low enough that nothing overflows.
 constexpr double length_limit = Space::reach_limit / 4.0;
 constexpr double speed_limit = 1e4;
 constexpr double factor_limit = 1e3;
@@ -28,7 +28,7 @@ struct Range {
 
 void demand(const char* what, double value, const char* unit, const Range& range, const char* hint) {
   const bool above = range.open ? value > range.lower : value >= range.lower;
-  if (above && value <= range.upper) return;  // written so that NaN is refused
+  if (above && value <= range.upper) return;  // written so that NaN fails
   std::string text = std::string("the walker's ") + what + " is " + number_text(value) + " " + unit + "; it must be " +
                      (range.open ? "more than " : "at least ") + number_text(range.lower) + " and at most " +
                      number_text(range.upper) + " " + unit;

@@ -6,10 +6,10 @@
 namespace roam::walking {
 namespace {
 
-/// Metres outside a region at which it is left: a body that goes to and fro over the border is not to change with it.
+/// Metres outside a region at which it is left, so that a body moving about the border does not keep changing.
 constexpr double leaving = 0.05;
 
-/// The smaller body lies in the larger one, and so does its way from the larger one's centre to its own.
+/// The smaller body lies in the larger one, and so does its motion from the larger one's centre to its own.
 void narrow(Move& m, const Sizes& sizes, double radius) {
   const double by = m.settings.radius - radius, before = m.settings.height;
   sizes.present = sized(sizes.given, {radius, m.settings.support_radius});
@@ -19,12 +19,12 @@ void narrow(Move& m, const Sizes& sizes, double radius) {
   m.note(EventKind::narrowed);
 }
 
-/// Becomes larger when the larger body, with the same lowest point, is certified free; else with one that is higher by
-/// what a round body gains on the slope it stands on.
+/// Becomes larger if the larger body with the same lowest point is certified free. Otherwise tries a body raised by as
+/// much as a round body gains on the slope that it stands on.
 void widen(Move& m, const Gait& gait, const Sizes& sizes, double radius) {
   const WalkerSettings larger = sized(sizes.given, {radius, m.settings.support_radius});
   const double height = m.height < m.settings.height ? m.height : larger.height;
-  if (2.0 * radius > height) return;  // crouched: not before it stands
+  if (2.0 * radius > height) return;  // crouched: waits until the body stands
   const Body body = Body::capsule(radius, height);
   const Vec3 raised(0.0, 0.0, 0.5 * (height - m.height));
   Vec3 lift(0.0);
@@ -34,7 +34,7 @@ void widen(Move& m, const Gait& gait, const Sizes& sizes, double radius) {
     lift.z = m.skin + (radius - m.settings.radius) * steepness;
     if (m.probe(lift).touched || !m.space.fits(body, m.place + lift + raised)) return;
   }
-  // The old body's way up lies in the new one.
+  // The motion of the old body up lies in the new one.
   if (lift.z + raised.z > 0.0) m.go(lift + raised);
   const double gap = m.space.clearance(body, m.place, m.settings.clearance_reach).distance;
   sizes.present = larger;
@@ -75,7 +75,7 @@ Size wanted(const Sizes& sizes, const Vec3& centre, const Vec3& feet) {
 void adapt(Move& m, const Gait& gait, const Sizes& sizes) {
   if (sizes.settled()) return;
   const Size want = wanted(sizes, m.place, m.place - Vec3(0.0, 0.0, 0.5 * m.height));
-  // The foot touches nothing; but over a crack it stays as large as it is.
+  // The support disc touches nothing. But over a crack it does not shrink.
   const double foot = m.settings.support_radius;
   if (want.support_radius > foot || (want.support_radius < foot && gait.footing != Footing::foot)) {
     sizes.present.support_radius = want.support_radius;
@@ -90,7 +90,7 @@ bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion) {
     return true;
   }
   Box way;
-  // Who slides ends anywhere as far away as that.
+  // A sliding body may end anywhere within this distance.
   const Vec3 reach(glm::length(motion));
   for (const double below : {0.0, 0.5 * move.height}) {
     way.include(move.place - Vec3(0.0, 0.0, below) - reach);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which size a body has where, and becoming another size on the spot.
+/// Sizes of a body by region, and changing the size on the spot.
 
 #include <span>
 
@@ -10,31 +10,31 @@
 
 namespace roam::walking {
 
-/// The settings of a body that has another size: a capsule keeps its height, a sphere stays one.
+/// The settings of a body with another size: a capsule keeps its height, a sphere stays a sphere.
 [[nodiscard]] WalkerSettings sized(const WalkerSettings& given, const Size& size);
 
-/// The sizes of a walker, as it keeps them.
+/// The sizes that a walker keeps.
 struct Sizes {
-  const WalkerSettings& given;  ///< when it was made
-  const Size& outside;          ///< of all regions
+  const WalkerSettings& given;  ///< as the walker was made
+  const Size& outside;          ///< outside all regions
   std::span<const SizeRegion> regions;
-  std::span<char> inside;   ///< of each region: whether the body counts as in it
-  WalkerSettings& present;  ///< those that the move goes by
+  std::span<char> inside;   ///< for each region, whether the body counts as inside
+  WalkerSettings& present;  ///< the settings in use
 
-  /// Whether the body can have no other size now than it has.
+  /// Whether the body can have no other size at present.
   [[nodiscard]] bool settled() const {
     return regions.empty() && present.radius == outside.radius && present.support_radius == outside.support_radius;
   }
 };
 
-/// The size that is wanted of a body with this centre and lowest point. Comes to be in a region, and leaves it, here.
+/// The size wanted for a body with this centre and lowest point. Updates `inside`.
 [[nodiscard]] Size wanted(const Sizes& sizes, const Vec3& centre, const Vec3& feet);
 
-/// Gives the body the size that is wanted where it is: smaller at once, larger when it fits. Its lowest point stays,
-/// but on a slope it may rise as far as the larger body needs.
+/// Gives the body the size wanted at its position: a smaller one at once, a larger one when it fits. The lowest point
+/// stays, except that on a slope it may rise as far as the larger body needs.
 void adapt(Move& move, const Gait& gait, const Sizes& sizes);
 
-/// Whether a motion comes so near to a region that the body may become another size on it.
+/// Whether a motion comes so near to a region that the body may change its size.
 [[nodiscard]] bool near_region(const Sizes& sizes, const Move& move, const Vec3& motion);
 
 }  // namespace roam::walking

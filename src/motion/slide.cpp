@@ -20,7 +20,7 @@ Ending slide(Move& move, const Vec3& velocity, double dt) {
     if (a.embedded) return Ending::embedded;
     move.touch(a.contact, a.gap);
     move.ease_off(a);
-    // A plane is stale once the body has left it by more than the skin: should it still be there, it is met again.
+    // A plane is stale once the body has moved by more than the skin; if it is still there, it is met again.
     if (glm::length(move.place - before) > move.skin) planes.clear();
     planes.add(a.contact.normal);
     v = along_planes(velocity, planes);

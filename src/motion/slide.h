@@ -6,11 +6,11 @@
 
 namespace roam::walking {
 
-/// A slide ends after this many contacts, and what is left of its motion is dropped. Corners need 3, a facetted curve
-/// one for each facet that is passed in one step.
+/// A slide ends after this many contacts, and the rest of its motion is dropped. Corners need 3; a facetted curve needs
+/// one for each facet passed in one step.
 constexpr int slide_limit = 16;
 
-/// Moves by `velocity` for `dt` seconds and slides along what is met.
+/// Moves by `velocity` for `dt` seconds and slides along obstacles.
 Ending slide(Move& move, const Vec3& velocity, double dt);
 
 }  // namespace roam::walking

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double most_columns = 4096.0;
 
-/// Storeys of one column that are looked at.
+/// Greatest number of storeys examined per column.
 constexpr int most_floors = 64;
 
-/// Metres below a floor from where the next one is looked for.
+/// Metres below a floor where the search for the next one starts.
 constexpr double below_floor = 1e-3;
 
-/// Where a body that is put down on `floor` comes to stand.
+/// The position where a body put down on `floor` comes to stand.
 std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings, const Vec3& floor) {
   Walker walker(space, settings, Mode::fly, floor + Vec3(0.0, 0.0, 0.5 * settings.height));
   if (walker.held() || walker.set_mode(Mode::walk).met_unknown) return std::nullopt;

@@ -19,14 +19,13 @@
 namespace roam {
 namespace {
 
-/// The skin of a lossless world, metres: a thousand times what rounding moves a body at 6.4e6 m, and less than anybody
-/// sees.
+/// Metres. The skin of a lossless world: a thousand times the rounding at 6.4e6 m, and too small to be seen.
 constexpr double least_skin = 1e-4;
 
-/// Pieces of one flight among regions: each half a radius.
+/// Greatest number of pieces of one flight among regions, each half a radius long.
 constexpr int flight_limit = 4096;
 
-/// Where a body that does not fit at `place` is freed to.
+/// The position to which a body that does not fit at `place` is freed.
 std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& place, double skin) {
   return walking::nearest_free(space, body, place, body.height(), skin, walking::Way::checked);
 }
@@ -46,7 +45,7 @@ Body Walker::State::body() const { return Body::capsule(settings_.radius, at_.he
 
 Vec3 Walker::State::feet() const { return at_.place - Vec3(0.0, 0.0, 0.5 * at_.height); }
 
-/// Makes the wish no faster than the space can follow.
+/// Limits the wish to the space's speed limit.
 void Walker::State::slow_down(WalkerInput& input) {
   const double limit = space_->facts().speed_limit, speed = glm::length(input.velocity);
   if (!(speed > limit)) return;
@@ -86,8 +85,8 @@ void Walker::State::finish() {
     at_.known.forget_place();
   } else if (at_.known.measured == walking::Measured::nothing ||
              (at_.known.measured == walking::Measured::way && at_.place == report_.from)) {
-    // Who rests is told the clearance of the place once, and no more that of the way there. Who is held has one, too,
-    // where it fits: over nothing to stand on.
+    // A resting body reports the clearance of its position, and not that of the way there. A held body has a clearance
+    // too if it fits: it is over nothing to stand on.
     walking::Move m = under_way();
     m.measure();
     at_ = m;
@@ -113,7 +112,7 @@ void Walker::State::put(const Vec3& place, double time) {
   at_.place = place;
   at_.known.forget();
   const Segment segment{at_.place, at_.height, settings_.radius, time, 0.0, true};
-  // Where it was put before, and did not fit, it was not.
+  // A position to which it was put before, and where it did not fit, is replaced.
   if (!report_.segments.empty() && report_.segments.back().teleport) {
     report_.segments.back() = segment;
   } else {
@@ -149,7 +148,7 @@ void Walker::State::look_again() {
   bool stays = !changed;
   switch (hold_) {
     case walking::Hold::none:
-      // Something may have come where it is.
+      // Something may have come to its position.
       if (embedded()) fit_in();
       return;
     case walking::Hold::waits:
@@ -182,7 +181,7 @@ void Walker::State::fit_in() {
     report_.events.push({EventKind::crouched, at_.place});
   };
   if (fits_low(lowered)) return crouch_at(lowered);
-  // The centre may be that of a body that crouched.
+  // The centre may be that of a crouched body.
   if (fits_low(at_.place) && !way_out(*space_, body(), at_.place, skin_)) return crouch_at(at_.place);
   free_body();
 }
@@ -191,7 +190,7 @@ void Walker::State::free_body() {
   at_.known.forget();
   const std::optional<Vec3> free = way_out(*space_, body(), at_.place, skin_);
   if (!free) return hold(walking::Hold::embedded);
-  // Put exactly in touch, a body is a hair too near: that is set right without a word.
+  // A body put exactly in touch is too near by a rounding; that is corrected without an event.
   const bool worth_saying = glm::length(*free - at_.place) > 2.0 * skin_ + walking::hit_tolerance;
   put(*free, report_.elapsed);
   if (worth_saying) report_.events.push({EventKind::freed, at_.place});
@@ -234,7 +233,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     }
   } else {
     const bool changed = revision() != looked_at_;
-    // A way that is found free, from where the body is, proves that nothing has come there.
+    // A free way that starts at the body's position proves that nothing has come there.
     const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
     if (!held() && changed && way * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
@@ -299,7 +298,7 @@ walking::Ending Walker::State::move_for(const WalkerInput& input, double dt) {
 
 walking::Sizes Walker::State::sizes() { return {given_, outside_, regions_, inside_, settings_}; }
 
-/// The size that is wanted where the body is, as if it had been put there.
+/// Takes the size wanted at the body's position, as if it had been put there.
 void Walker::State::take_size_here() {
   at_.known.forget_place();
   std::fill(inside_.begin(), inside_.end(), char{0});
@@ -347,7 +346,7 @@ bool Walker::State::resize(double radius, double support_radius) {
     walking::Move m = under_way();
     walking::adapt(m, gait_, sizes);
     at_ = m;
-    // The new body may fit where something came upon the old one.
+    // The new body may fit where something met the old one.
     if (revision() != looked_at_) look_again();
     resized_ = true;
   }
@@ -355,7 +354,7 @@ bool Walker::State::resize(double radius, double support_radius) {
   return walking::wanted(sizes, at_.place, feet()) == walking::Size{settings_.radius, settings_.support_radius};
 }
 
-/// `lift`: how far the centre lies above `at`, part of the height.
+/// `lift`: height of the centre above `at`, as a part of the body's height.
 const StepReport& Walker::State::place(const Vec3& at, double lift) {
   if (!is_finite(at)) throw Error("the place to put the walker to is not a finite point");
   begin();
@@ -376,7 +375,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   if (mode_ != Mode::ghost) fit_in();
   if (!held() && space_->fits(body(), at_.place)) remember_safe();
   settle();
-  at_.known.forget_place();  // what is told is the clearance there, wherever the body came from
+  at_.known.forget_place();  // the report gives the clearance of the position, wherever the body came from
   finish();
   return report_;
 }

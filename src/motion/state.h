@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a Walker is made of.
+/// The internal state of a Walker.
 
 #include <cstdint>
 #include <limits>
@@ -20,11 +20,11 @@ namespace roam {
 
 namespace walking {
 
-/// Why a body cannot move.
+/// The reason why a body cannot move.
 enum class Hold : std::uint8_t {
-  none,          ///< it can
-  embedded,      ///< it does not fit, and no checked way leads out
-  waits,         ///< the same, and what it is in is not known yet
+  none,          ///< not held
+  embedded,      ///< it overlaps something, and no checked way leads out
+  waits,         ///< the same, and it overlaps unknown space
   no_ground,     ///< it would fall out of the scene, from where it fell before
   over_nothing,  ///< it would fall out of the scene: nothing is below
 };
@@ -33,7 +33,7 @@ enum class Hold : std::uint8_t {
 
 class Walker::State {
  public:
-  /// A body that has not been placed yet.
+  /// Creates a body that has not been placed yet.
   State(const Space& space, const WalkerSettings& settings, Mode mode);
 
   [[nodiscard]] Body body() const;
@@ -43,37 +43,37 @@ class Walker::State {
   [[nodiscard]] bool held() const { return hold_ != walking::Hold::none; }
   [[nodiscard]] const Space& space() const { return *space_; }
 
-  // What move_instances() does to a body, in this order (move_instances.cpp).
+  // Effects of move_instances() on a body, in this order (move_instances.cpp).
 
-  /// Begins a report of what moves the body from outside.
+  /// Begins a report of motion caused from outside.
   void begin_shifts();
-  /// Whether the body goes along with the instance or is in its way; false for a ghost and for a body that is held.
+  /// Whether the body moves with the instance or is in its way. False for a ghost and for a held body.
   [[nodiscard]] bool is_concerned(const walking::InstanceMotion& shift) const;
-  /// Where the body goes while an instance is shifted; none: it has nowhere to go. `rest`: the space without that
-  /// instance.
+  /// The response of the body while an instance is shifted; nothing if it has nowhere to go. `rest`: the space without
+  /// that instance.
   [[nodiscard]] std::optional<walking::Response> response(const Space& rest, const walking::InstanceMotion& shift);
   void take(const walking::InstanceMotion& shift, const walking::Response& to);
-  /// `ground_velocity`: at its feet, for a body that stands.
+  /// `ground_velocity`: at the body's feet, for a body that stands.
   void end_shifts(const Vec3& ground_velocity, double dt);
 
-  /// The plane that a body goes by which is carried by its foot.
+  /// The floor plane used for a body that its support disc carries.
   [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
 
  private:
   friend class Walker;
 
   const StepReport& step(const WalkerInput& input, double dt);
-  /// `lift`: how far the centre lies above `at`, part of the height.
+  /// `lift`: height of the centre above `at`, as a part of the body's height.
   const StepReport& place(const Vec3& at, double lift);
   const StepReport& set_mode(Mode mode);
   void set_regions(std::span<const SizeRegion> regions);
   bool resize(double radius, double support_radius);
 
-  /// Adds the way of a shift to the report.
+  /// Adds the motion of a shift to the report.
   void append(const walking::InstanceMotion& shift, const walking::Response& to);
-  /// The way of the last call, metres.
+  /// The motion of the last call, metres.
   [[nodiscard]] Vec3 moved() const;
-  /// Of the space; 0 where it has none.
+  /// Revision of the space; 0 if it has none.
   [[nodiscard]] std::uint64_t revision() const { return space_->facts().revision.value_or(0); }
   [[nodiscard]] walking::Move under_way();
   [[nodiscard]] walking::Sizes sizes();
@@ -101,34 +101,35 @@ class Walker::State {
   void finish();
 
   const Space* space_;
-  WalkerSettings given_;     ///< when it was made
-  WalkerSettings settings_;  ///< of its present size
+  WalkerSettings given_;     ///< as made
+  WalkerSettings settings_;  ///< at its present size
   std::vector<SizeRegion> regions_;
-  std::vector<char> inside_;  ///< of each region: whether the body counts as in it
-  walking::Size outside_;     ///< outside all regions
+  std::vector<char> inside_;  ///< for each region, whether the body counts as inside
+  walking::Size outside_;     ///< size outside all regions
   double skin_ = 0.0;
   double slope_cosine_ = 0.0;
   Mode mode_ = Mode::fly;
   StepReport report_;
   walking::Gait gait_;
   walking::Whereabouts at_;
-  Vec3 wished_{0.0};      ///< velocity on average over the last step, m/s
-  Vec3 in_the_end_{0.0};  ///< the velocity that the wish had become then
+  Vec3 wished_{0.0};      ///< mean wished velocity over the last step, m/s
+  Vec3 in_the_end_{0.0};  ///< wished velocity at the end of that step, m/s
   Vicinity vicinity_;
-  walking::Refuge safe_;    ///< last place where the body stood or, where it has not stood yet, fitted
-  walking::Refuge ground_;  ///< last place with something below: of the ghost, and of walking before another mode
+  walking::Refuge safe_;    ///< last position where the body stood; until it has stood, where it fitted
+  walking::Refuge ground_;  ///< last position with something below: for the ghost, and for walking before another mode
   walking::Hold hold_ = walking::Hold::none;
-  bool was_blocked_ = false;   ///< at the end of the last step, and has not been put elsewhere since
-  bool was_put_back_ = false;  ///< and has not been put elsewhere since
-  Vec3 ridden_{0.0};           ///< metres that move_instances() has moved it since the last step
-  Vec3 rode_{0.0};             ///< the same before the last call, where that was a step
-  /// Certified of the rest since the last segment of a shift, of the instance alone, metres; infinite: there was none.
+  bool was_blocked_ = false;   ///< at the end of the last step, and it has not been put elsewhere since
+  bool was_put_back_ = false;  ///< and it has not been put elsewhere since
+  Vec3 ridden_{0.0};           ///< metres by which move_instances() has moved it since the last step
+  Vec3 rode_{0.0};             ///< the same before the last call, if that was a step
+  /// Metres. Certified clearance of the rest since the last segment of a shift, to the instance alone; infinite if
+  /// there was no rest.
   double rested_ = std::numeric_limits<double>::infinity();
-  bool shifted_ = false;         ///< something has moved it since begin_shifts()
-  bool fitted_ = false;          ///< at begin_shifts() it was known to fit, or to be held
+  bool shifted_ = false;         ///< an instance has moved it since begin_shifts()
+  bool fitted_ = false;          ///< at begin_shifts() it was known to fit or to be held
   bool resized_ = false;         ///< another size may be wanted than when the body was held
-  std::uint64_t known_at_ = 0;   ///< the revision of the space of which at_.known is
-  std::uint64_t looked_at_ = 0;  ///< the revision of the space in which the body is known to fit, or to be held
+  std::uint64_t known_at_ = 0;   ///< revision of the space that at_.known is about
+  std::uint64_t looked_at_ = 0;  ///< revision of the space in which the body is known to fit or to be held
 };
 
 }  // namespace roam

@@ -12,7 +12,7 @@
 namespace roam::walking {
 namespace {
 
-/// The rise of all `grounds` together along the horizontal `v`: the steepest decides.
+/// The horizontal `v` with the rise over all `grounds` together: the steepest decides.
 Vec3 over_grounds(const Vec3& v, const PlaneSet& grounds) {
   double rise = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < grounds.size(); ++i) {
@@ -21,8 +21,8 @@ Vec3 over_grounds(const Vec3& v, const PlaneSet& grounds) {
   return {v.x, v.y, grounds.size() > 0 ? rise : 0.0};
 }
 
-/// What a steep plane is to a walker: a vertical wall. A ceiling, or an overhang that is met by rising, has no side to
-/// slide along and stands in the way as it is met.
+/// To a walker a steep plane is a vertical wall. A ceiling, or an overhang met while rising, has no side to slide along
+/// and blocks the motion straight.
 Vec3 as_wall(const Vec3& normal, const Vec3& v) {
   const Vec3 flat(normal.x, normal.y, 0.0);
   const double length = glm::length(flat);
@@ -47,7 +47,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   grounds.add(gait.ground);
   Vec3 v = velocity;
   double left = seconds;
-  Vec3 in_vain(0.0);  // the motion that led nowhere from where the body is
+  Vec3 in_vain(0.0);  // the motion that led nowhere from the present position
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
     const Vec3 before = move.place;
     const Vec3 motion = over_grounds(v, grounds) * left;
@@ -55,7 +55,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
       if (move.place == origin) move.block(move.report.contacts.back().point);
       break;
     }
-    const bool looks = !move.known.touching;  // else a second try may find free what the first did not
+    const bool looks = !move.known.touching;  // otherwise a second try may find free what the first did not
     const Advance a = move.advance(motion, left);
     left -= a.fraction * left;
     if (!a.touched) break;
@@ -69,7 +69,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
     in_vain = looks && move.place == before ? motion : Vec3(0.0);
     const Vec3& normal = a.contact.normal;
     const double apart = normal.x * v.x + normal.y * v.y;
-    // What leads along a slope leads into it where the ground goes down: there it goes on level.
+    // A motion along a slope leads into the ground where it bends down: there it continues level.
     const bool underfoot = normal.z > 0.0 && apart >= -parallel_tolerance * wish;
     if (underfoot || footing(move, gait, a.contact)) {
       grounds.add(underfoot && apart < 0.0 ? normal - v * (apart / glm::dot(v, v)) : normal);
@@ -95,8 +95,9 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   }
   const Vec3 gone = move.place - origin;
   keep_ground(move, gait, glm::length(Vec3(gone.x, gone.y, 0.0)));
-  // What rolls off a rim goes on down as it came, at most as steeply as a rim carries: thrown off level it would cross
-  // cracks that it does not bridge. What its foot carries no more has no rim below it that could show it the way.
+  // A body that rolls off a rim goes on down at its present slope, at most as steep as a rim that carries. Thrown off
+  // level it would cross cracks that it does not bridge. A body that loses its support disc has no rim below to guide
+  // it.
   if (!gait.grounded() && seconds > 0.0) {
     const double steepest = -wish * rim_tangent;
     const double down = was_carried ? steepest : std::max((move.place.z - origin.z) / seconds, steepest);

@@ -11,19 +11,19 @@
 namespace roam::walking {
 namespace {
 
-/// Rounding of a unit normal's z, so that a ramp exactly at the slope limit is floor.
+/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is floor.
 constexpr double cosine_rounding = 1e-9;
 
-/// Metres. Floor that is this near to the axis, seen from above, is under it: a ray can slip through where triangles
-/// meet without sharing an edge, and storing moves both by up to half a millimetre.
+/// Metres. Floor this near to the axis, seen from above, counts as under it. A ray can slip through where triangles
+/// meet without a common edge, and storage moves both by up to half a millimetre.
 constexpr double under_axis = 2e-3;
 
-/// A foot that is smaller than the body is as large as the body, or a crack could be too narrow for the one to fall in
-/// and too wide for the other to be carried by its rims.
+/// A support disc smaller than the body counts as large as the body. Otherwise a crack could be too narrow for the disc
+/// to fall in and too wide for the body to be carried by its rims.
 double foot_radius(const WalkerSettings& settings) { return std::max(settings.support_radius, settings.radius); }
 
-/// Storing moves the floor that is seen and the floor around, and tilts the plane that goes from one to the other: what
-/// is as high or low as carries is no higher or lower for that.
+/// Storage moves the floor under the axis and the floor around, and tilts the plane between them. The band is wider by
+/// that much, so that floor that carries stays in it.
 double stored_band(double skin) { return carrying_band + 2.0 * skin; }
 
 SupportDisc foot_of(const WalkerSettings& settings, double skin, double height) {
@@ -31,21 +31,21 @@ SupportDisc foot_of(const WalkerSettings& settings, double skin, double height) 
   return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height), band};
 }
 
-/// How high the centre is of a body that touches the plane, but for its skin, at a place.
+/// Height of the centre of a body at `place` that is a skin above the plane.
 double centre_over(const Move& m, const FloorPlane& plane, const Vec3& place) {
   const double r = m.settings.radius;
   return plane.level(place) + (r + m.skin) / plane.normal.z + 0.5 * m.height - r;
 }
 
-/// The nearest floor beside the axis: a level plane through it.
+/// The nearest floor beside the axis, as a level plane.
 struct Beside {
   bool found = false;
-  bool unknown = false;  ///< what is nearest is not known yet: no plane
+  bool unknown = false;  ///< the nearest floor is unknown space, so it gives no plane
   FloorPlane plane;
   ObjectId object = no_object;
 };
 
-/// Looked for within the foot, between two heights.
+/// Searched within the support disc, between two heights.
 Beside plane_beside(const Move& m, const Vec3& axis, double lower, double upper) {
   const Vec3 middle(axis.x, axis.y, 0.5 * (lower + upper));
   Floor floor;
@@ -63,7 +63,7 @@ bool has_floor(const Space& space, double slope_degrees, double band, const Floo
   return space.floor_clearance({0.0, band}, middle, under_axis, floor).found;
 }
 
-/// The same as carrying(), which is asked where it was not asked just now. The answer stays in the gait.
+/// carrying() with the last result kept in the gait.
 bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& place) {
   const Size size{m.settings.radius, m.settings.support_radius};
   const std::optional<std::uint64_t> revision = m.space.facts().revision;
@@ -76,7 +76,7 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
   return gait.foot.carrying != Carrying::no;
 }
 
-/// Stands on the plane, where it was found to carry. The plane is remembered where it is that of a floor.
+/// Stands on the plane that carries. The plane is remembered if it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
   if (gait.footing != Footing::foot) m.note(EventKind::bridged);
   stand_on(
@@ -108,20 +108,20 @@ bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }
 
 bool see_floor(const Move& m, Gait& gait, double reach, double horizontal) {
   const double r = m.settings.radius;
-  // A round body on a slope is that much higher over the axis than where it touches.
+  // On a slope the lowest point of a round body is this much higher over the floor below its axis.
   const double lifted = (r + m.skin) * (1.0 / std::max(gait.ground.z, m.slope_cosine) - 1.0);
   const Vec3 from(m.place.x, m.place.y, m.feet() + r);
   const Impact s = m.space.ray(from, Vec3(0.0, 0.0, -(r + reach + lifted)));
   if (!s.hit || s.normal.z < m.slope_cosine - cosine_rounding) return false;
   if (s.unknown) {
-    // It carries as floor does, but what it hides need not be at its height.
+    // It carries like floor, but the floor that it hides may be at another height.
     forget_other_storeys(m, gait);
     return true;
   }
   gait.floor.point = s.point;
   gait.floor_object = s.object;
   if (s.feature == Feature::face || !gait.floor_seen) {
-    // What is seen at once has the roughness of the floor in it: it counts the more the longer it lasts.
+    // A single observation contains the roughness of the floor, so it is weighted by the distance covered.
     const double part = gait.floor_seen ? horizontal / (horizontal + r) : 1.0;
     gait.floor.normal = glm::normalize(gait.floor.normal + part * (s.normal - gait.floor.normal));
   }
@@ -139,13 +139,13 @@ bool carry(Move& m, Gait& gait, double drop, double reach) {
     gait.floor_object = beside.object;
     is_floor = !beside.unknown;
     if (beside.unknown) {
-      // What was put beside the unknown waits at its height until it is known, unless there is ground to stand on.
+      // A body placed beside the unknown waits at its height until that is known, unless there is ground to stand on.
       if (std::isfinite(drop)) return false;
       plane.point = Vec3(m.place.x, m.place.y, m.feet() - m.skin);
     }
   }
   const double lift = centre_over(m, plane, m.place) - m.place.z, rest = rest_part * 2.0 * m.skin;
-  // What it stands on is no lower; or the plane is of another storey.
+  // The body's own ground is not lower, or the plane belongs to another storey.
   if (-drop >= lift - rest || lift < -reach || lift > m.settings.step + m.settings.radius) return false;
   if (!carries(m, gait, plane, m.place)) return false;
   if (std::abs(lift) > rest) m.advance(Vec3(0.0, 0.0, lift), 0.0);

@@ -8,7 +8,7 @@
 namespace roam {
 namespace {
 
-/// The sum and the length of a step, piece by piece.
+/// Adds the length of a step to the sum, piece by piece.
 double plus_length(double sum, const StepReport& report) {
   Vec3 at = report.from;
   for (const Segment& c : report.segments) {
@@ -35,7 +35,7 @@ void Tally::add_step(const StepReport& report) {
 }
 
 void Tally::add_placement(const StepReport& report) {
-  // A body that does not fit where it is has no clearance, and makes no move.
+  // A body that does not fit has no clearance and makes no move.
   if (!(report.least_axis_clearance > 0.0)) return;
   const bool first = !(least_axis_clearance > 0.0);
   least_axis_clearance = first ? report.least_axis_clearance : std::min(least_axis_clearance, report.least_axis_clearance);

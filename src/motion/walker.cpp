@@ -6,7 +6,7 @@
 namespace roam {
 namespace {
 
-/// Settings that may be used.
+/// The settings, after check().
 const WalkerSettings& checked(const WalkerSettings& settings) {
   check(settings);
   return settings;

@@ -10,7 +10,7 @@
 namespace roam::walking {
 namespace {
 
-/// Strides in one step, at most; a step of minutes ends early instead of running on. 10 s of flight are 300.
+/// Greatest number of strides in one step; a step of minutes ends early instead of running on. 10 s of flight take 300.
 constexpr int stride_limit = 4096;
 
 bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.space.bounds().lower.z; }
@@ -29,14 +29,14 @@ void jump(Move& move, Gait& gait) {
 
 Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& last, const Sizes& sizes) {
   const double end = move.time + dt;
-  double left = dt, careful = 0.0;  // seconds, the second: for which strides are fine
+  double left = dt, careful = 0.0;  // seconds; `careful`: time left for fine strides
   for (int count = 0; left > 0.0; ++count) {
     if (count >= stride_limit || !move.has_room()) return Ending::throttled;
     adapt(move, gait, sizes);
     const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
     const bool striding = gait.grounded();
-    // What the body has taken along from moving ground, where move_instances() has not moved it by that.
+    // Velocity taken along from moving ground, unless move_instances() has already moved the body by it.
     const Vec3 drift = striding || gait.moved_along ? Vec3(0.0) : gait.ground_velocity;
     const bool drifts = drift != Vec3(0.0);
     const Vec3 in_the_air = drifts ? velocity + Vec3(drift.x, drift.y, 0.0) : velocity;
@@ -58,7 +58,7 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
         continue;
       }
       careful -= seconds;
-      // What stops it here would stop it again.
+      // The obstacle that stops it here would stop it again.
       if (move.report.blocked && gait.grounded() && at_same_place(move, was)) break;
     } else {
       const bool flown = fly_on(move, gait, in_the_air, seconds);

@@ -42,7 +42,7 @@ SceneIdentity identity_of(std::span<const Mesh> meshes) {
       Triangle triangle = mesh.triangle(i);
       for (Vec3& corner : triangle) {
         identity.bounds.include(corner);
-        // -0 and 0 are one place.
+        // -0 and 0 are the same coordinate.
         corner += 0.0;
       }
       XXH3_128bits_update(state.get(), triangle.data(), sizeof(triangle));

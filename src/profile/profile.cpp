@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* suffix = ".roam";
 constexpr const char* extension = ".json";
-/// Characters of a file name, less than any file system's limit of 255 by what is put behind it.
+/// Characters of a file name. Every file system allows 255; the rest is for what is appended.
 constexpr std::size_t name_limit = 200;
 constexpr std::array<const char*, 3> methods{"paper", "interval", "roaming"};
 constexpr std::array<Mode, 2> modes{Mode::walk, Mode::fly};
@@ -46,7 +46,7 @@ void demand_foot(const std::string& member, double radius) {
   }
 }
 
-/// What a Walker would say of such a body.
+/// Throws what a Walker would throw for such a body.
 void demand_body(const std::string& member, const Profile& profile, double radius) {
   WalkerSettings body;
   body.radius = radius;
@@ -61,7 +61,7 @@ void demand_body(const std::string& member, const Profile& profile, double radiu
   }
 }
 
-/// Members of an object of the file, and which of them is wrong.
+/// Members of a JSON object, read with errors that name the member.
 class Members {
  public:
   Members(const Json& json, std::string path) : json_(json), path_(std::move(path)) {
@@ -122,7 +122,7 @@ class Members {
     }
     return place;
   }
-  /// A value for a message: what is long is cut, what holds others only named.
+  /// A value for a message: long text is cut, lists and objects are only named.
   static std::string shown(const Json& value) {
     constexpr std::size_t most = 40;
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
@@ -199,7 +199,7 @@ Profile parsed(const Json& json) {
   return p;
 }
 
-/// The scene's name without a slash behind it, as near to how it was given as can be.
+/// The scene's path without a trailing slash, changed as little as possible.
 std::filesystem::path named(const std::filesystem::path& scene) {
   if (scene.empty()) throw Error("the path of the scene whose profile is meant is empty; name its file or folder");
   const auto trimmed = [](const std::filesystem::path& path) {
@@ -290,7 +290,7 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
                             unknown ? "set Profile::scene to identity_of the meshes or the store it was trained on"
                                     : "correct the profile"));
   }
-  // Names of objects come from files and may be any bytes.
+  // Names of objects come from files and may hold any bytes.
   files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -300,7 +300,7 @@ std::optional<Profile> find_profile(std::span<const std::filesystem::path> scene
   const std::filesystem::path file = profile_path(scenes);
   std::error_code none;
   const auto status = std::filesystem::symlink_status(file, none);
-  // A file that is there and may not be seen is an error, which reading it tells.
+  // A file that exists but cannot be read is an error, which load_profile throws.
   if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
   return load_profile(file);
 }

@@ -16,29 +16,30 @@
 namespace roam {
 namespace {
 
-/// Of half an opening's width: the body that is offered. The width is measured to a few millimetres.
+/// Part of half an opening's width: the radius that is offered. The width is measured to a few millimetres.
 constexpr double room_part = 0.97;
-/// Metres that a foot is made larger than the disc that falls through.
+/// Metres by which the support disc is made larger than the largest disc that falls through.
 constexpr double support_margin = 0.02;
-/// Metres to which that disc is measured.
+/// Metres: precision to which that disc is measured.
 constexpr double disc_precision = 1e-3;
-/// Metres below the floor last stood on firmly, from where on a body that is stuck has sunk into something.
+/// Metres below the last firm floor at which a stuck body counts as sunk into something.
 constexpr double sunk = 0.02;
 
-/// Of a unit normal's z, so that a ramp exactly at the slope limit is floor.
+/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is floor.
 constexpr double cosine_rounding = 1e-9;
-/// Of the radius: who has moved less stands where it stood.
+/// Part of the radius: a body that has moved less is still at its place.
 constexpr double moved_part = 0.1;
-/// Who tries a foot walks at this speed, m/s, in steps of so many seconds, and not for longer than a minute.
+/// Trials of a support disc walk at this speed (m/s), in steps of trial_step seconds, for at most trial_limit steps: a
+/// minute.
 constexpr double trial_speed = 1.4;
 constexpr double trial_step = 1.0 / 60.0;
 constexpr int trial_limit = 3600;
-/// Metres from where it was to go.
+/// Metres: a body this close to its target has arrived.
 constexpr double arrived = 1e-3;
 
 bool is_sphere(const WalkerSettings& settings) { return settings.height <= 2.0 * settings.radius; }
 
-/// The body of another radius with the same lowest point, and its centre.
+/// The body with another radius and the same lowest point, and its centre.
 struct Placed {
   Body body;
   Vec3 centre{0.0};
@@ -50,8 +51,8 @@ Placed resized(const Walker& walker, double radius) {
   return {Body::capsule(radius, height), feet + Vec3(0.0, 0.0, 0.5 * height)};
 }
 
-/// Whether a body goes from `place` sideways until it is in line with `middle`, and then ahead until it is through, as
-/// it is or lifted by a step. Where it ends: nothing when it does not.
+/// Whether a body can go sideways until it is in line with `middle`, and then ahead until it is through, with or
+/// without a lift by one step. Returns where it ends, or nothing.
 std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const Vec3& middle, const Vec3& ahead) {
   const Vec3 sideways(-ahead.y, ahead.x, 0.0);
   const Vec3 aside = sideways * glm::dot(middle - small.centre, sideways);
@@ -69,7 +70,7 @@ std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const
   return std::nullopt;
 }
 
-/// Whether there is floor under the axis, and not only under a rim that still carries: from there one sees its plane.
+/// Whether there is floor under the axis itself. A rim alone may still carry the body, but shows no plane of the floor.
 bool floor_below(const Walker& walker) {
   const double radius = walker.body().radius;
   const double slope = walker.settings().slope_degrees * std::numbers::pi / 180.0;
@@ -79,8 +80,8 @@ bool floor_below(const Walker& walker) {
   return floor.hit && floor.normal.z >= std::cos(slope) - cosine_rounding;
 }
 
-/// A walker with this foot that was put to `from` and has gone straight to where the axis is that of `to`. Nothing when
-/// it does not get there, or is not carried there: by its foot, and over floor that is known.
+/// A walker with this support disc, moved straight from `from` until its axis is at `to`. Nothing if it does not
+/// arrive, or if its support disc does not carry it there over known floor.
 std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& from, const Vec3& to) {
   WalkerSettings settings = walker.settings();
   settings.support_radius = foot;
@@ -166,7 +167,7 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
   const Vec3 ahead = flat / length;
   const double radius = walker.body().radius;
   const auto opening = measure_opening(walker, ahead);
-  // Low openings are crouching's.
+  // Low openings are left to crouching.
   if (!opening || opening->kind == Opening::Kind::lintel) return std::nullopt;
   const double fits = room_part * 0.5 * opening->width;
   if (fits >= radius || fits < limits_.radius_min) return std::nullopt;
@@ -193,7 +194,8 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
   if (!firm_ || !lost_) return std::nullopt;
   double low = std::max(walker.body().radius, walker.settings().support_radius), high = limits_.support_max;
   if (high <= low) return std::nullopt;
-  // Not even the largest: a pit, a cliff. Else it knows the plane of the floor, and is carried where it is.
+  // Not even the largest disc carries: a pit or a cliff. Otherwise this walker knows the plane of the floor and stands
+  // at the place of the loss.
   const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
   if (!largest) return std::nullopt;
   while (high - low > disc_precision) {

@@ -10,15 +10,15 @@
 namespace roam::store {
 namespace {
 
-/// Of a file of codes. Some 1000 of them: more have not built the same store.
+/// Limit in bytes of a file of codes: about 1000 codes. No store has more builders.
 constexpr std::uint64_t codes_limit = 64 * 1024;
 constexpr std::size_t code_digits = 64;
-/// A code, and the line feed.
+/// A code and a line feed.
 constexpr std::size_t code_line = code_digits + 1;
-/// The last line of a file that has a code begins with this.
+/// Start of the last line of a file with a code.
 constexpr std::string_view code_start = "hmac ";
 
-/// `purpose` and `name` say what the code is of: no code stands for anything else.
+/// `purpose` and `name` state what the code is for, so that it is valid for nothing else.
 std::string code(const StoreKey& key, std::string_view purpose, const std::string& name, std::string_view text = {}) {
   std::string all(purpose);
   all.append("\n").append(name).append("\n").append(text);
@@ -29,7 +29,7 @@ std::string code_of_manifest(const StoreKey& key, const std::string& manifest) {
   return code(key, "roam manifest 1", manifest);
 }
 
-/// The codes in a file of them: each a line.
+/// The codes in a file, one per line.
 std::vector<std::string> codes_in(const std::vector<std::byte>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::vector<std::string> codes;
@@ -60,7 +60,7 @@ void add_code(const Folder& store, const std::string& manifest, const StoreKey& 
   make_folder_in(store, "codes");
   const std::string file = codes_file(manifest);
   std::string text;
-  // What is damaged, or more than there can be, is written anew.
+  // A file that is damaged or too large is written anew.
   if (size_of(store, file).value_or(codes_limit) < codes_limit - code_line) {
     for (const std::string& other : codes_in(read_file(store, file, codes_limit))) text += other + "\n";
   }

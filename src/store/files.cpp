@@ -21,7 +21,7 @@
 #include "roam/error.h"
 #include "store/manifest.h"
 
-// Everything in a store is little endian, and is read and written as it lies in memory.
+// All data of a store is little endian; bytes on disk and in memory are the same.
 static_assert(std::endian::native == std::endian::little, "stores are read and written by little-endian machines only");
 
 namespace roam::store {
@@ -52,7 +52,7 @@ std::string sha256_of_file(const Folder& store, const std::string& name,
 
 namespace {
 
-/// The folder of a store's file, for a WholeFile.
+/// The folder of a store's file, opened for a WholeFile.
 Descriptor folder_to_write(const Folder& store, const std::string& name) {
   Descriptor folder = open_folder(store, split(name).first);
   if (!folder.is_open()) fail("write", store, name, errno);
@@ -118,7 +118,7 @@ std::vector<std::byte> read_file(const Folder& store, const std::string& name, s
 void make_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return;
-  // Each by itself: one that is not synced may be gone after a power cut, with all that is in it.
+  // Each level is synced by itself: a folder that is not synced may be lost in a power cut, with all its contents.
   fs::path path;
   for (const fs::path& name : folder) {
     path /= name;
@@ -169,10 +169,10 @@ std::string PackWriter::commit() { return file_.commit_by_hash(); }
 
 namespace {
 
-/// What a lock's file may hold: the number of a process and a line feed.
+/// Greatest size of a lock file: the number of a process and a line feed.
 constexpr std::size_t lock_bytes = 24;
 
-/// The number of the process that a lock's file names; empty: none. Nothing where it is no file of a lock.
+/// The number of the process in a lock file; empty if there is none. Nothing if the file is not a lock file.
 std::optional<std::string> process_in(int descriptor) {
   std::array<char, lock_bytes + 1> text{};
   const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
@@ -182,18 +182,18 @@ std::optional<std::string> process_in(int descriptor) {
   return process;
 }
 
-/// Whether nobody but its parent knows the process any more, who has not asked how it ended.
+/// Whether the process is a zombie: it has ended, and its parent has not yet asked for its status.
 bool is_dead(long process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
   std::string line;
   std::getline(file, line);
-  const auto name_end = line.rfind(')');  // a name may hold anything, and the state comes after it and a blank
+  const auto name_end = line.rfind(')');  // the state follows the name and a blank; the name may hold any characters
   if (name_end == std::string::npos || name_end + 2 >= line.size()) return false;
   const char state = line[name_end + 2];
   return state == 'Z' || state == 'X';
 }
 
-/// Whether it is certain that no such process runs here.
+/// Whether it is certain that no such process runs on this machine.
 bool has_ended(const std::string& process) {
   const long number = process.empty() ? 0 : std::strtol(process.c_str(), nullptr, 10);
   if (number <= 0 || number > std::numeric_limits<pid_t>::max()) return false;
@@ -227,14 +227,14 @@ BuildLock::BuildLock(const Folder& store) {
   if (::fstat(lock.number(), &status) != 0 || status.st_nlink == 0) {
     throw LockedError(fmt::format("{} was given up by another build just now; build again", store.string()), false);
   }
-  // It is the one file that is written in place.
+  // The lock is the only file written in place, so it must have no other name.
   if (status.st_nlink > 1 || !process) {
     throw Error(fmt::format("cannot lock {}: {}; remove it", (store / name).string(),
                             process ? "other names, perhaps outside of the store, lead to the same file"
                                     : "it is not what a build leaves there"));
   }
   const std::string own = std::to_string(::getpid()) + "\n";
-  // Only for people, and for has_ended: whoever comes next reads it.
+  // Only for messages and has_ended, in the next process that tries.
   if (::ftruncate(lock.number(), 0) == 0) static_cast<void>(!::pwrite(lock.number(), own.data(), own.size(), 0));
   descriptor_ = std::move(lock);
 }

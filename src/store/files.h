@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files that are whole or not there, and what names and checks them.
+/// Files that are either whole or absent; their names and their checks.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,12 +24,12 @@ using files::sync_folder;
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
-/// Of a file's content; `tick` is called with the bytes of each piece that was read, and may throw.
+/// SHA-256 of a file's content. `tick` is called with the size of each piece read, and may throw.
 [[nodiscard]] std::string sha256_of_file(const Folder& store, const std::string& name,
                                          const std::function<void(std::uint64_t)>& tick = {});
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
-/// A file of a store in the making: a WholeFile that is hashed while it is written. Throws FileError.
+/// A file of a store being built: a WholeFile that is hashed while it is written. Throws FileError.
 class NewFile {
  public:
   NewFile(const Folder& store, const std::string& name);
@@ -37,7 +37,8 @@ class NewFile {
   void write(std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t size() const { return size_; }
   void commit();
-  /// Named by its content: the final path's folder, SHA-256, the final path's extension. Returns the digits.
+  /// Commits under a name made of the final path's folder, the SHA-256 and the final path's extension. Returns the
+  /// digits.
   std::string commit_by_hash();
 
  private:
@@ -51,32 +52,32 @@ class NewFile {
 };
 
 void write_file(const Folder& store, const std::string& name, std::string_view text);
-/// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
+/// The content of a file. Throws FileError if it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
-/// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
+/// Makes a folder and its missing parents, and syncs the parent of each one made. Throws roam::Error.
 void make_folder(const std::filesystem::path& folder);
 
-// Where things are in a store.
+// Names of files in a store.
 inline constexpr const char* current_file = "CURRENT";
 inline constexpr const char* lock_file = "LOCK";
-[[nodiscard]] std::string spare_file(const std::string& hash);     ///< spare/<hash>.json, the manifest once more
+[[nodiscard]] std::string spare_file(const std::string& hash);     ///< spare/<hash>.json, a second copy of the manifest
 [[nodiscard]] std::string pack_file(const std::string& hash);      ///< packs/<hash>.pack
 [[nodiscard]] std::string part_file(const std::string& hash);      ///< parts/<hash>.part
 [[nodiscard]] std::string manifest_file(const std::string& hash);  ///< manifests/<hash>.json
 
 /// Whether a text is `count` lower-case hexadecimal digits.
 [[nodiscard]] bool is_digits(std::string_view text, std::size_t count);
-/// Whether a name, in whatever folder, is 64 digits and the extension.
+/// Whether a name, in any folder, consists of 64 digits and the extension.
 [[nodiscard]] bool is_named_by_hash(std::string_view name, std::string_view extension);
 
-/// A pack in the making: a header, then blobs, each at a multiple of pack_alignment.
+/// A pack being built: a header, then blobs, each at a multiple of pack_alignment.
 class PackWriter {
  public:
   explicit PackWriter(const Folder& store);
-  /// Returns its offset.
+  /// Appends a blob. Returns its offset.
   std::uint64_t add(std::span<const std::byte> blob);
   [[nodiscard]] std::uint64_t size() const { return file_.size(); }
-  /// Returns the SHA-256 that names it.
+  /// Returns the SHA-256 that is the pack's name.
   std::string commit();
 
  private:
@@ -85,22 +86,21 @@ class PackWriter {
 inline constexpr std::uint64_t pack_alignment = 8;
 inline constexpr std::uint64_t pack_header_bytes = 64;
 
-/// The files of a folder. Keeps the descriptors of the packs that were read from, up to half of what the process may
-/// have open.
+/// The files of a folder. Keeps the descriptors of packs open after the first read, up to half of the process's limit.
 [[nodiscard]] std::shared_ptr<StoreBytes> files_of(const Folder& folder);
 
-/// Another process holds the lock of a store.
+/// Thrown when another process holds the lock of a store.
 class LockedError : public Error {
  public:
   LockedError(const std::string& what, bool ended) : Error(what), holder_ended(ended) {}
-  bool holder_ended;  ///< the process that the lock names runs here no more
+  bool holder_ended;  ///< the process named in the lock no longer runs on this machine
 };
 
-/// One process at a time builds a store: a lock on <store>/LOCK that ends with the process. A file that no build left
-/// there is refused.
+/// The right to build a store, held by one process at a time: a lock on <store>/LOCK that ends with the process. A file
+/// there that no build has left is refused.
 class BuildLock {
  public:
-  /// Tries once. Throws LockedError naming the other process, and FileError.
+  /// Tries once. Throws LockedError, which names the other process, and FileError.
   explicit BuildLock(const Folder& store);
   BuildLock(const BuildLock&) = delete;
   BuildLock& operator=(const BuildLock&) = delete;

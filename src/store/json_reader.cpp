@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Keeps the place, and hands on.
+/// Tracks the position and forwards events to the reader.
 class Events {
  public:
   explicit Events(JsonReader& reader) : reader_(reader) {}
@@ -35,7 +35,7 @@ class Events {
   bool key(std::string& name) {
     place_.path.resize(level_[depth_ - 1].path);
     if (!place_.path.empty()) place_.path += '/';
-    // What would look like a path of several members is none of ours, nor what is long.
+    // No known member is long or contains '/' or '*', which would look like a path of several members.
     const bool plain = name.size() <= longest_member && name.find_first_of("/*") == std::string::npos;
     place_.path += plain ? name : "?";
     return true;
@@ -61,7 +61,7 @@ class Events {
  private:
   static constexpr std::size_t longest_member = 64;
   struct Level {
-    std::size_t path = 0;  ///< size of the path to this list or object
+    std::size_t path = 0;  ///< length of the path to this list or object
     bool list = false;
   };
 
@@ -70,7 +70,7 @@ class Events {
     reader_.value(place_, value);
     return true;
   }
-  /// Something comes: in a list it is an element.
+  /// Called before each value: if it is in a list, it is the next element.
   void enter() {
     if (depth_ == 0 || !level_[depth_ - 1].list) return;
     place_.path.resize(level_[depth_ - 1].path);
@@ -91,10 +91,10 @@ class Events {
   std::size_t depth_ = 0;
 };
 
-/// Bytes. The parser keeps a token several times.
+/// Bytes. The parser keeps several copies of a token.
 constexpr std::size_t most_token = 1U << 20;
 
-/// Of text that is JSON; of other text at least that of what comes before its first mistake.
+/// The longest token of a JSON text; for any other text at least the longest before the first error.
 std::size_t longest_token(std::string_view text) {
   std::size_t longest = 0, begin = 0;
   bool quoted = false;
@@ -127,7 +127,7 @@ void JsonReader::read(std::string_view text) {
 
 namespace {
 
-/// Counts what a tree of values takes.
+/// Counts the memory of a tree of values.
 class Weighed : public JsonReader {
  public:
   using JsonReader::JsonReader;
@@ -140,7 +140,7 @@ class Weighed : public JsonReader {
   void object_ends(const JsonPlace&) override {}
 
  private:
-  /// With its name, in lists that grow.
+  /// Includes the member's name and the growth of lists.
   static constexpr std::uint64_t most_of_a_value = 192;
 };
 
@@ -170,7 +170,7 @@ bool JsonMembers::is(const char* name, std::string_view tail, std::uint64_t part
   const std::string_view own(name);
   if (!member_.starts_with(own)) return false;
   if (member_.substr(own.size()) != tail) {
-    // What should be one value is something else.
+    // Here should be a single value.
     if (member_.size() == own.size() || member_[own.size()] == '/') bad(name);
     return false;
   }
@@ -191,7 +191,7 @@ void JsonMembers::text(const char* name, std::string& out) {
   if (!is(name)) return;
   std::string& found = *as<std::string*>(name);
   reader_.keep(found.size());
-  out = found;  // a copy of its own size
+  out = found;  // copied, so that it takes only its own size
 }
 
 void JsonMembers::digits(const char* name, std::size_t count, std::string& out) {
@@ -221,7 +221,7 @@ void JsonMembers::whole(const char* name, std::uint32_t& out) {
 
 namespace {
 
-/// NaN where the value is none.
+/// NaN if the value is not a number.
 double number_in(const JsonValue* value) {
   if (value == nullptr) return std::numeric_limits<double>::quiet_NaN();
   if (const auto* n = std::get_if<double>(value)) return *n;
@@ -243,7 +243,7 @@ void JsonMembers::truth(const char* name, bool& out) {
 }
 
 void JsonMembers::box(const char* name, Box& out) {
-  // The lists that hold the numbers.
+  // The two levels of lists that hold the numbers.
   if (!ends_ && value_ == nullptr && member_.starts_with(name)) {
     const std::string_view tail = member_.substr(std::string_view(name).size());
     if (tail.empty() || tail == "/*") {
@@ -262,7 +262,7 @@ void JsonMembers::box(const char* name, Box& out) {
 }
 
 void JsonMembers::list(const char* name) {
-  // Its elements are no business of this.
+  // Elements of the list are handled elsewhere.
   const bool inside = !ends_ && member_.size() > std::string_view(name).size() && member_.starts_with(name);
   if (inside) {
     ++bit_;

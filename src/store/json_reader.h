@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Reads JSON of a known shape straight into structs, within limits of depth and memory: a text from a stranger costs
-/// no more than what is kept of it. Nothing in between is built, and nothing that ends a read allocates.
+/// Reader of JSON of a known shape, straight into structs, within limits of depth and memory. An untrusted text costs
+/// no more than the data kept from it. No tree is built in between.
 
 #include <array>
 #include <cstddef>
@@ -15,52 +15,52 @@
 
 namespace roam::store {
 
-/// A text, or what is kept of it, takes more memory than it may.
+/// Thrown when a text, or the data kept from it, takes more memory than allowed.
 class TooLarge : public Error {
  public:
   TooLarge(const std::string& name, std::uint64_t memory);
 };
 
-/// Where something stands in a text: the members that lead to it, '*' for an element of a list, e.g. "shards/*/bytes".
+/// Position in a text: the path of members, with '*' for an element of a list, e.g. "shards/*/bytes".
 struct JsonPlace {
   static constexpr std::size_t most_depth = 8;
 
   std::string path;
-  std::array<std::uint64_t, most_depth> index{};  ///< in each list that it is in
+  std::array<std::uint64_t, most_depth> index{};  ///< index in each enclosing list
   std::size_t lists = 0;
 
-  /// Its number in the list that it is in, or, for 1, in the list that this is in.
+  /// Its index in the innermost list; for outward = 1, that list's index in the next one.
   [[nodiscard]] std::uint64_t number(std::size_t outward = 0) const {
     return outward < lists ? index[lists - 1 - outward] : 0;
   }
 };
 
-/// What is neither a list nor an object; null is std::monostate. A text may be moved away.
+/// A value that is neither a list nor an object; null is std::monostate. A string may be moved from.
 using JsonValue = std::variant<std::monostate, bool, std::uint64_t, std::int64_t, double, std::string*>;
 
-/// Takes what a text holds, in its order.
+/// Receives the contents of a text in order.
 class JsonReader {
  public:
-  /// Of `name`, which is for people. `memory`: bytes that what is kept may take.
+  /// `name` of the text, for messages. `memory`: limit of the bytes kept.
   JsonReader(std::string name, std::uint64_t memory) : name_(std::move(name)), memory_(memory) {}
   virtual ~JsonReader() = default;
   JsonReader(const JsonReader&) = delete;
   JsonReader& operator=(const JsonReader&) = delete;
 
-  /// Throws TooLarge, roam::Error for what is no JSON or is nested deeper than JsonPlace allows, and what the functions
-  /// below throw.
+  /// Throws TooLarge; roam::Error if the text is not JSON or nested deeper than JsonPlace allows; and whatever the
+  /// functions below throw.
   void read(std::string_view text);
 
-  // Any of these may throw.
+  // Callbacks; each may throw.
   virtual void value(const JsonPlace& at, JsonValue value) = 0;
   virtual void list_begins(const JsonPlace& at) = 0;
   virtual void object_begins(const JsonPlace& at) = 0;
   virtual void object_ends(const JsonPlace& at) = 0;
 
-  /// Counts what is kept from now on. Throws where that is too much.
+  /// Adds to the bytes kept from now on. Throws TooLarge beyond the limit.
   void keep(std::uint64_t bytes);
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
-  /// Throws: "<name> is damaged: <what>; ..."
+  /// Throws roam::Error: "<name> is damaged: <what>; ..."
   [[noreturn]] void refuse(const std::string& what) const;
 
  private:
@@ -68,15 +68,15 @@ class JsonReader {
   std::uint64_t memory_, kept_ = 0;
 };
 
-/// Throws TooLarge, or roam::Error, for a text of which a whole nlohmann::ordered_json would take more than `memory`.
+/// Throws TooLarge if the text as a nlohmann::ordered_json would take more than `memory`, and roam::Error if it is not
+/// JSON.
 void check_json(std::string_view text, const std::string& name, std::uint64_t memory);
 
-/// Puts the members of one kind of object where they belong, and notes which have come. A list of the members, each by
-/// its name and where it goes, is gone through twice: for each value, and, at the end of the object, for what is
-/// missing.
+/// Stores the members of one kind of object and notes which have come. The caller passes through a list of all members,
+/// each with its name and destination: once for each value, and once at the end of the object, to find missing ones.
 class JsonMembers {
  public:
-  /// For a value; or, where `value` is null, for a list that begins.
+  /// For a value; if `value` is null, for the beginning of a list.
   JsonMembers(JsonReader& reader, std::uint64_t& seen, const char* what, std::string_view member, const JsonPlace& at,
               JsonValue* value)
       : reader_(reader), seen_(seen), what_(what), member_(member), at_(&at), value_(value) {}
@@ -85,7 +85,7 @@ class JsonMembers {
       : reader_(reader), seen_(seen), what_(what), ends_(true) {}
 
   void text(const char* name, std::string& out);
-  /// Of so many hexadecimal digits.
+  /// A text of `count` hexadecimal digits.
   void digits(const char* name, std::size_t count, std::string& out);
   void hash(const char* name, std::uint64_t& out);  ///< 16 digits
   void whole(const char* name, std::uint64_t& out);
@@ -97,13 +97,13 @@ class JsonMembers {
   [[noreturn]] void bad(const char* name) const;
 
  private:
-  /// Whether the value is of this member, of which `parts` values are expected; `part` is its number.
+  /// Whether the value belongs to this member, which expects `parts` values; `part` is the index of this one.
   bool is(const char* name, std::string_view tail = {}, std::uint64_t part = 0, int parts = 1);
   template <class T>
   [[nodiscard]] T& as(const char* name) const;
 
   JsonReader& reader_;
-  std::uint64_t& seen_;  ///< a bit for each value of each member
+  std::uint64_t& seen_;  ///< one bit for each value of each member
   const char* what_;
   std::string_view member_;
   const JsonPlace* at_ = nullptr;

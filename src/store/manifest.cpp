@@ -68,7 +68,7 @@ void refuse_to_open(const std::filesystem::path& folder) {
   if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a symbolic link, which no store has");
   if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
   const bool has_manifest = !fs::is_empty(folder / "manifests", none) && !none;
-  // A build that is killed just before it writes CURRENT has written its manifest, and has its plan still.
+  // A build killed just before it writes CURRENT has written its manifest and still has its plan.
   if (fs::exists(folder / "scratch/plan.json", none) || (!has_manifest && fs::is_directory(folder / "scratch", none))) {
     throw NotComplete(fmt::format(
         "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
@@ -82,7 +82,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     try {
       return bytes.whole(file, limit);
     } catch (const FileError& error) {
-      // What may not be read, or only not now, is not damaged.
+      // A file that cannot be read, perhaps only now, is not damaged.
       if (error.number == ENOENT) throw RootDamage(store, what, file + " is not there");
       if (error.number == EFBIG && limit == current_limit) {
         throw RootDamage(store, what, file + " is larger than any of its kind");
@@ -102,7 +102,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     try {
       content = whole(file, memory, manifest_name);
     } catch (const Error&) {
-      // Another may have been published since CURRENT was read, and this one removed.
+      // Another manifest may have been published since CURRENT was read, and this one removed.
       std::string now = text_of(whole(current_file, current_limit, current_file));
       if (now == current) throw;
       current = std::move(now);

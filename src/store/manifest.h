@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a store consists of: the root of everything else in it.
+/// The manifest of a store: the root from which all its files are found.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,21 +14,21 @@
 
 namespace roam::store {
 
-/// Of what is written now. Readers refuse newer ones.
+/// Version of the format that is written. Newer ones are refused.
 inline constexpr std::uint32_t format_version = 1;
 
 /// A page of a shard's pack.
 struct PageRef {
-  Box box;  ///< of its tiles' boxes
+  Box box;  ///< the box of its tiles' boxes
   std::uint64_t offset = 0;
   std::uint32_t bytes = 0;
   std::uint64_t hash = 0;  ///< XXH3
   std::uint32_t tiles = 0;
 };
 
-/// A shard: one pack. The file shards/<key>.json of a build in progress holds exactly this; the manifest lists them.
+/// A shard: one pack. A build in progress keeps each in a file shards/<key>.json; the manifest lists them all.
 struct ShardInfo {
-  std::string key;   ///< 64 digits; says of what it was made: see build/plan.h
+  std::string key;   ///< 64 digits that identify its inputs: see build/plan.h
   std::string pack;  ///< SHA-256 of the pack, 64 digits: packs/<pack>.pack
   std::uint64_t bytes = 0;
   std::uint64_t triangles = 0, tiles = 0;
@@ -39,33 +39,34 @@ struct ShardInfo {
   std::vector<PageRef> pages;
 };
 
-/// A part of the scene. See part.h for its file.
+/// A part of the scene. part.h describes its file.
 struct PartInfo {
   std::string name;         ///< e.g. "Data/Tile_+000_+001", unique in a store
-  std::string fingerprint;  ///< changes when its files or the import's options do
+  std::string fingerprint;  ///< changes when the part's files or the import's options change
   std::string file;         ///< SHA-256 of the part file, 64 digits
-  std::uint64_t bytes = 0;  ///< of the part file
+  std::uint64_t bytes = 0;  ///< size of the part file
   std::uint64_t triangles = 0, objects = 0;
 };
 
 struct Manifest {
   std::uint32_t format = format_version;
   bool lossless = false;
-  std::string options;  ///< how the scene was read, for people and to compare: see build/plan.h
+  std::string options;  ///< how the scene was read, for people and for comparison: see build/plan.h
   Box bounds;
   std::uint64_t geometry_hash = 0;
-  std::vector<PartInfo> parts;    ///< in the order of the scene: a triangle's number in the scene follows from it
-  std::vector<ShardInfo> shards;  ///< in the order of the curve; pages are numbered through in this order
+  std::vector<PartInfo> parts;    ///< in the order of the scene, which determines a triangle's number in the scene
+  std::vector<ShardInfo> shards;  ///< in the order of the curve, which also numbers the pages
   std::vector<std::string> notes;
 };
 
-/// Of a newer format than format_version.
+/// Thrown for a format newer than format_version.
 class NewerFormat : public Error {
  public:
   using Error::Error;
 };
 
-/// CURRENT or the manifest that it names is not there or not what was written: nothing else of the store can be found.
+/// Thrown when CURRENT or the manifest that it names is missing or altered: then no other file of the store can be
+/// found.
 class RootDamage : public Error {
  public:
   RootDamage(const std::string& store, std::string damaged, std::string reason);
@@ -73,17 +74,17 @@ class RootDamage : public Error {
   std::string why;
 };
 
-/// Of a folder whose first build has not ended: it is to become a store.
+/// Thrown for a folder whose first build has not ended.
 class NotComplete : public Error {
  public:
   using Error::Error;
 };
 
-// JSON text; the same manifest is the same text.
+// As JSON text; equal manifests give equal texts.
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 [[nodiscard]] std::string to_text(const ShardInfo& shard);
-/// Both check everything: roam::Error says what is wrong, with `name` for the file. They take no more than `memory`
-/// bytes, whatever the text is; `kept`: how many of them an open store keeps, or a little less.
+/// Both check everything; roam::Error says what is wrong, with `name` for the file. They take at most `memory` bytes
+/// for any text. `kept`: about how many of them an open store keeps, or a little less.
 [[nodiscard]] Manifest parse_manifest(std::string_view text, const std::string& name,
                                       std::uint64_t memory = Store::usual_memory, std::uint64_t* kept = nullptr);
 [[nodiscard]] ShardInfo parse_shard(std::string_view text, const std::string& name,
@@ -91,21 +92,21 @@ class NotComplete : public Error {
 /// Throws NewerFormat.
 void check_format(std::uint32_t version, const std::string& name);
 
-/// Whether a folder holds what a store consists of, though CURRENT may be gone.
+/// Whether a folder contains parts of a store, even if CURRENT is missing.
 [[nodiscard]] bool holds_store(const std::filesystem::path& folder);
-/// What is to be said of a folder that Store::is_store is false of. Throws RootDamage where it was a store, NotComplete
-/// where it is to become one, roam::Error where it is none.
+/// Explains why a folder is not a store. Call it only if Store::is_store is false. Throws RootDamage if it was a store,
+/// NotComplete if it is being built, and roam::Error otherwise.
 [[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
 
-/// CURRENT, its manifest, checked against its name. Throws RootDamage, NewerFormat, and roam::Error where a file cannot
-/// be read, or takes more than `memory` bytes.
+/// Reads CURRENT and its manifest, and checks the manifest against its name. Throws RootDamage, NewerFormat, and
+/// roam::Error if a file cannot be read or takes more than `memory` bytes.
 [[nodiscard]] Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string* hash = nullptr,
                                      std::uint64_t* text_bytes = nullptr, std::uint64_t memory = Store::usual_memory,
                                      std::uint64_t* kept = nullptr);
-/// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename, the folder synced. Returns the hash.
+/// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename and with the folder synced. Returns the hash.
 std::string publish(const Folder& store, const Manifest& manifest);
 
-/// TriangleId of a store: page (numbered through), tile in the page, triangle in the tile.
+/// A store's TriangleId: the page (numbered across all shards), the tile in the page, and the triangle in the tile.
 inline constexpr int triangle_bits = 14, tile_bits = 10;
 [[nodiscard]] constexpr TriangleId stored_id(std::uint64_t page, std::uint32_t tile, std::uint32_t triangle) {
   return page << (triangle_bits + tile_bits) | TriangleId{tile} << triangle_bits | triangle;

@@ -1,4 +1,4 @@
-// The manifest as text, and back.
+// Conversion between manifests and text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,16 +41,16 @@ Json json_of(const ShardInfo& shard) {
           {"pages", std::move(pages)}};
 }
 
-/// Of a list that grows: what it has and, for a moment, what it had.
+/// Cost of an element of a growing list: its place, and for a moment the one before.
 template <class T>
 constexpr std::uint64_t element_cost = 3 * sizeof(T);
 
-/// A shard, or one of a manifest.
+/// Reads a shard, on its own or within a manifest.
 class ShardReader {
  public:
   explicit ShardReader(JsonReader& reader) : reader_(reader) {}
 
-  /// `member`: the path from the shard on.
+  /// `member`: the path relative to the shard.
   void value(ShardInfo& shard, std::string_view member, const JsonPlace& at, JsonValue* value) {
     constexpr std::string_view pages = "pages/*";
     if (member == pages) reader_.refuse("a page is no object");
@@ -95,7 +95,7 @@ class ShardReader {
   }
 
  private:
-  /// What an open store keeps of each, too.
+  /// Also what an open store keeps for each page.
   static constexpr std::uint64_t page_cost = 96;
 
   static void list(JsonMembers& m, ShardInfo& shard) {
@@ -122,7 +122,7 @@ class ShardReader {
 
   JsonReader& reader_;
   std::uint64_t seen_ = 0, page_seen_ = 0;
-  std::uint64_t tiles_ = 0;  ///< of the pages
+  std::uint64_t tiles_ = 0;  ///< sum over the pages
 };
 
 class ShardText : public JsonReader {
@@ -188,10 +188,10 @@ class ManifestText : public JsonReader {
 
  private:
   static constexpr std::string_view shards = "shards/*";
-  /// Digits, and what an open store keeps of each.
+  /// The digits, plus what an open store keeps for each.
   static constexpr std::uint64_t part_cost = 2 * 80 + 128, shard_cost = 2 * 80 + 128;
 
-  /// From the shard on.
+  /// The path relative to the shard.
   static std::string_view rest(std::string_view path) { return path.substr(std::min(path.size(), shards.size() + 1)); }
   void add(std::uint64_t& sum, std::uint64_t triangles, const char* of) const {
     if (triangles > UINT64_MAX - sum) refuse(fmt::format("the triangles of the {} are more than there can be", of));
@@ -214,7 +214,7 @@ class ManifestText : public JsonReader {
     } else {
       JsonMembers members(*this, seen_, "the manifest", path, at, value);
       list(members);
-      // What a newer one says otherwise is no damage.
+      // A newer format may differ in other members, so it is checked first: that is no damage.
       if (path == "format") check_format(manifest.format, manifest_name_);
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A store that is open: what Store::state() is, for the rooms that read tiles and pages themselves.
+/// Store::State: an open store, for rooms that read tiles and pages themselves.
 
 #include <cstdint>
 #include <map>
@@ -15,7 +15,7 @@
 namespace roam {
 
 struct Store::State {
-  /// A page of the index, numbered as stored_id numbers it.
+  /// A page of the index; stored_id uses the same number.
   struct Page {
     std::uint32_t shard = 0;
     store::PageRef ref;
@@ -27,11 +27,11 @@ struct Store::State {
   StoreInfo info;
   std::vector<Page> pages;
   std::vector<std::string> packs;                  ///< file of each shard, as StoreBytes names it
-  std::map<std::uint64_t, std::uint32_t> part_of;  ///< part hash to number, see SourceNumber
-  std::uint64_t memory = 0;                        ///< bytes that all of this takes at most, what is recent included
-  std::vector<std::uint64_t> first;                ///< number in the scene of each part's first triangle
+  std::map<std::uint64_t, std::uint32_t> part_of;  ///< number of the part for each part hash, see SourceNumber
+  std::uint64_t memory = 0;                        ///< greatest number of bytes of all of this, including `recent`
+  std::vector<std::uint64_t> first;                ///< for each part, the number of its first triangle in the scene
 
-  /// What reports have read, a little of it. Under the lock.
+  /// A small cache for reports. Guarded by the mutex.
   struct Recent;
   mutable std::mutex mutex;
   mutable std::unique_ptr<Recent> recent;

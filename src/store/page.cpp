@@ -28,7 +28,7 @@ struct Header {
 static_assert(sizeof(Header) == 128);
 constexpr char magic_number[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
 
-/// Metres. Boxes hold what is stored too, which may lie a little beyond the limit of what is read.
+/// Metres. Boxes also hold stored triangles, which may lie slightly beyond the limit for source coordinates.
 constexpr double farthest_off = coordinate_limit * 1.001;
 
 bool finite(const double (&v)[3]) {
@@ -73,7 +73,8 @@ bool holds(const StepBox& outer, const StepBox& inner) {
   return true;
 }
 
-/// Children come after their parents, every node and every tile belongs to one, and every box is in its parent's.
+/// Checks that children come after their parents, that each node and each tile has one parent, and that each box lies
+/// in its parent's.
 const char* check_tree(const PageView& view) {
   const std::size_t count = view.nodes.size();
   std::array<std::uint8_t, page_tiles> depth{};
@@ -103,12 +104,12 @@ const char* check_tree(const PageView& view) {
       tiles.set(node.first_leaf + c);
     }
     for (int k = 0; k < 3; ++k) {
-      // Of 2^29 steps, and 255 of them shifted still fit.
+      // The grid has 2^29 steps; 255 of them, shifted, still fit.
       if (node.shift[k] > 22 || node.origin[k] < 0 || node.origin[k] > (1 << 29)) return "a node's box is out of range";
     }
   }
   if (nodes.count() != count || tiles.count() != view.tiles.size()) return "a node or a tile has no parent";
-  std::array<StepBox, page_tiles> all;  // of the tiles below a node
+  std::array<StepBox, page_tiles> all;  // for each node, the box of the tiles below it
   for (std::size_t i = count; i-- > 0;) {
     const Node& node = view.nodes[i];
     for (std::uint32_t c = 0; c < node.child_count; ++c) {
@@ -185,7 +186,7 @@ const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes
     if (const char* problem = check_entry(t, pack_bytes)) return problem;
     all.include(box_of(t));
   }
-  // Only the grid of these very boxes: then all steps fit their integers.
+  // Only the grid of these very boxes is accepted: then all steps fit their integers.
   const index::Grid grid = index::Grid::over(all);
   if (grid.origin != view.grid.origin || grid.step != view.grid.step) return "its grid is not that of its tiles";
   return check_tree(view);

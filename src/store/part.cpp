@@ -30,7 +30,7 @@ static_assert(sizeof(Header) == 48);
 
 class Writer {
  public:
-  /// Seven bits a byte, low ones first; the last has the high bit clear.
+  /// Seven bits per byte, low ones first; the last byte has its high bit clear.
   void number(CurveKey value) {
     for (; value >= 128; value >>= 7) put(static_cast<std::uint8_t>(value | 128U));
     put(static_cast<std::uint8_t>(value));
@@ -46,13 +46,13 @@ class Writer {
   void put(std::uint8_t value) { bytes.push_back(std::byte{value}); }
 };
 
-/// Bytes. More than the names of a hundred million objects.
+/// Bytes. More than the names of a hundred million objects need.
 constexpr std::uint64_t most_content = 1ull << 32;
 
-/// Of bytes that a frame may look back, which whoever reads it must keep: as many as encode_part's look back.
+/// Log2 of the window of a zstd frame in bytes, which the reader must keep; encode_part uses the same.
 constexpr int window_log = 21;
 
-/// The numbers and texts of a part's content, which comes out of a zstd frame piece by piece.
+/// The numbers and texts of a part's content, decompressed piece by piece from a zstd frame.
 class Content {
  public:
   Content(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t size)
@@ -79,7 +79,7 @@ class Content {
     if (value > UINT64_MAX) ok_ = false;
     return static_cast<std::uint64_t>(value);
   }
-  /// Of the text only so much as may be kept.
+  /// Reads a text and keeps at most its first longest_name bytes.
   void text(std::string& start) {
     start.clear();
     for (std::uint64_t size = count(); ok_ && size > 0;) {
@@ -95,21 +95,21 @@ class Content {
     }
   }
   [[nodiscard]] bool ok() const { return ok_; }
-  /// Whether all of it was taken, and it was one frame, and nothing follows.
+  /// Whether all content was read, in one frame, with nothing after it.
   [[nodiscard]] bool complete() { return ok_ && at_ == end_ && !unpack() && !broken_ && ended_ && left_ == 0; }
 
  private:
-  /// More content; false at its end, and where it cannot be unpacked.
+  /// Decompresses more content. False at the end, and if that fails.
   bool unpack() {
     while (!broken_) {
       if (in_.pos == in_.size) {
         in_ = {packed_.data(), more_(packed_), 0};
-        // What a frame still owes it gives without more bytes.
+        // An ended input may still leave output in the decompressor.
         if (in_.size == 0 && (ended_ || starved_)) return false;
         starved_ = in_.size == 0;
       }
       if (ended_) {
-        broken_ = true;  // something follows
+        broken_ = true;  // there are bytes after the frame
         break;
       }
       ZSTD_outBuffer out{content_.data(), content_.size(), 0};
@@ -128,10 +128,10 @@ class Content {
 
   const std::function<std::size_t(std::span<std::byte>)>& more_;
   const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> zstd_;
-  std::uint64_t left_;  ///< of the content
+  std::uint64_t left_;  ///< content bytes not yet decompressed
   std::vector<std::byte> packed_, content_;
   ZSTD_inBuffer in_{nullptr, 0, 0};
-  std::size_t at_ = 0, end_ = 0;  ///< in content_
+  std::size_t at_ = 0, end_ = 0;  ///< range in content_
   bool ok_ = true, ended_ = false, broken_ = false, starved_ = false;
 };
 
@@ -188,7 +188,7 @@ void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, co
   if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > most_content) {
     refuse("its header is not what it should be");
   }
-  // Each takes two bytes at least.
+  // Each object and each cell takes at least two bytes.
   if (header.objects > header.content_bytes / 2 || header.cells > std::min(header.content_bytes / 2, most_cells)) {
     refuse("its counts are out of range");
   }

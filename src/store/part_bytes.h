@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The bytes of a part file of an open store, for visit_part.
+/// Source of the bytes of a part file of an open store, for visit_part.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 
 namespace roam::store {
 
-/// Hands out the bytes of a part file in turn, and hashes them.
+/// Returns the bytes of a part file piece by piece and hashes them.
 class PartBytes {
  public:
   PartBytes(const Store::State& store, const PartInfo& part)
@@ -32,7 +32,7 @@ class PartBytes {
     at_ += out.size();
     return out.size();
   }
-  /// Whether all that was handed out is what was written.
+  /// Whether the bytes returned are the whole file as it was written.
   [[nodiscard]] bool is_whole() { return at_ == part_.bytes && hash_.digits() == part_.file; }
   [[nodiscard]] std::string name() const { return store_.name + "/" + file_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What reports have read of a store: a little of it, so that they need not read the same again.
+/// A small cache of a store's contents that reports have read.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace roam {
 
 namespace store {
 
-/// The source numbers of a tile in a quarter of the memory, where they are of one part and below 2^32.
+/// The source numbers of a tile, in a quarter of the memory if they are of one part and below 2^32.
 class TileNumbers {
  public:
   explicit TileNumbers(std::vector<SourceNumber> numbers) {
@@ -50,10 +50,10 @@ class TileNumbers {
 struct Store::State::Recent {
   explicit Recent(const State& state) : store(state), reader(state) {}
 
-  /// Bytes that are kept at most. The largest page and the largest tile's numbers fit together.
+  /// Limit in bytes. The largest page and the largest tile's numbers fit in together.
   static constexpr std::size_t most = 1U << 20;
 
-  /// The numbers of a tile's triangles. Throws what TileReader does, and no_such() where there is no such tile.
+  /// The numbers of a tile's triangles. Throws what TileReader throws, and no_such() if there is no such tile.
   template <class NoSuch>
   [[nodiscard]] const store::TileNumbers& numbers_of(std::uint64_t page, std::uint32_t tile, const NoSuch& no_such) {
     const TriangleId id = store::stored_id(page, tile, 0);
@@ -77,18 +77,18 @@ struct Store::State::Recent {
     }
     return kept;
   }
-  /// The name of the object of a triangle of a part. Throws roam::Error for a part file that is damaged.
+  /// The name of the object of a part's triangle. Throws roam::Error if the part file is damaged.
   [[nodiscard]] std::string object(std::uint32_t part, std::uint64_t triangle);
 
  private:
-  /// An object whose part has more of them than are kept.
+  /// One object of a part that has too many of them to keep.
   struct Object {
     std::uint32_t part;
-    std::uint64_t first, end;  ///< of its triangles
+    std::uint64_t first, end;  ///< range of its triangles
     std::string name;
   };
 
-  /// The numbers of tiles go first: there are many of them, and none helps with another.
+  /// Frees the numbers of tiles first: there are many of them, and none helps with another.
   void make_room(std::size_t size) {
     for (; used + size > most && !oldest.empty(); oldest.pop_front()) {
       const auto gone = numbers.find(oldest.front());
@@ -106,10 +106,10 @@ struct Store::State::Recent {
 
   const State& store;
   store::TileReader reader;
-  std::size_t used = 0;  ///< bytes, or a little more
+  std::size_t used = 0;  ///< bytes, or slightly more
   std::map<std::uint64_t, store::LoadedPage> pages;
-  std::map<TriangleId, store::TileNumbers> numbers;  ///< of a tile, by the id of its first triangle
-  std::deque<TriangleId> oldest;                     ///< of these, the first that came first
+  std::map<TriangleId, store::TileNumbers> numbers;  ///< for each tile, by the id of its first triangle
+  std::deque<TriangleId> oldest;                     ///< their keys, oldest first
   std::map<std::uint32_t, store::PartFile> parts;
   std::vector<Object> objects;
 };

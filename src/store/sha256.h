@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// SHA-256 of what comes piece by piece.
+/// SHA-256 of data that comes piece by piece.
 
 #include <cstddef>
 #include <memory>
@@ -15,7 +15,7 @@ class Sha256 {
   Sha256();
   ~Sha256();
   void add(std::span<const std::byte> bytes);
-  /// 64 hexadecimal digits of all that was added. Once.
+  /// 64 hexadecimal digits of all bytes added. May be called once.
   [[nodiscard]] std::string digits();
 
  private:
@@ -25,7 +25,7 @@ class Sha256 {
 
 /// HMAC-SHA256, 64 hexadecimal digits.
 [[nodiscard]] std::string hmac_sha256(std::span<const std::byte> key, std::span<const std::byte> text);
-/// Whether two texts are the same, in a time that does not tell where they differ.
+/// Whether two texts are equal. The time does not depend on where they differ.
 [[nodiscard]] bool same_digits(std::string_view a, std::string_view b);
 
 }  // namespace roam::store

@@ -1,4 +1,4 @@
-// Where a triangle of a store comes from.
+// The source of a store's triangle: part, object and number in the scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace roam {
 namespace {
 
-/// Bytes that the objects of a part take at most where they are kept.
+/// Greatest size in bytes of a part's objects that are kept.
 constexpr std::size_t most_of_a_part = 256U << 10;
 
 struct Source {
@@ -19,7 +19,7 @@ struct Source {
   std::uint64_t number;
 };
 
-/// The lock of the store is held.
+/// Needs the lock of the store.
 Source source_of(const Store::State& s, TriangleId triangle) {
   const std::uint64_t page = triangle >> (store::triangle_bits + store::tile_bits);
   const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));

@@ -23,7 +23,7 @@ std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, st
   try {
     return open(store::files_of(folder), folder.string(), memory);
   } catch (const store::RootDamage& damage) {
-    // Other programs too call files CURRENT.
+    // Other programs also have files called CURRENT.
     if (store::holds_store(folder) || damage.what_is_damaged != store::current_file) throw;
     throw Error(fmt::format("{} is no store: its file CURRENT is none of a store", folder.string()));
   }
@@ -97,7 +97,7 @@ void Store::for_each_triangle(const Box& box,
     }
     return false;
   };
-  /// What `read` reads; nothing where it cannot be had and that was told.
+  /// The result of `read`; nothing if it failed and `missing` was called.
   const auto had = [&](const auto& read) -> std::optional<decltype(read())> {
     if (!missing) return read();
     try {
@@ -140,7 +140,7 @@ std::vector<Vec3> Store::sample(std::uint64_t count) const {
   std::vector<Vec3> places;
   const std::uint64_t tiles = state_->info.tiles;
   count = std::min(count, tiles);
-  std::uint64_t first = 0;  // tile of the page
+  std::uint64_t first = 0;  // number of the page's first tile
   for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
     const std::uint64_t end = first + state_->pages[p].ref.tiles;
     std::optional<store::LoadedPage> page;

@@ -1,4 +1,4 @@
-// The bytes of a store that is a folder.
+// Access to the bytes of a store in a folder.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text that lives for ever. strerror's may be overwritten by the next call.
+/// A static text; strerror's may be overwritten by the next call.
 const char* reason(int error) {
   switch (error) {
     case ENOENT:
@@ -71,19 +71,19 @@ class Files : public StoreBytes {
   }
 
  private:
-  /// Locks a manifest until this goes: as long as it is locked no builder removes it, nor what it names. Where it is
-  /// removed before, or cannot be opened, whoever reads it then learns that.
+  /// Locks a manifest for the life of this object: no builder removes a locked manifest, nor files that it names. If it
+  /// was removed before or cannot be opened, the next read of it fails.
   void hold(const std::string& manifest) {
     Descriptor opened = open_file(folder_, manifest, O_RDONLY);
     if (!opened.is_open()) return;
-    // Builders lock it for no longer than it takes to remove it. Some file systems know no locks.
+    // Builders lock it only as long as removal takes. Some file systems have no locks.
     while (::flock(opened.number(), LOCK_SH) != 0 && errno == EINTR) {
     }
     const std::lock_guard lock(mutex_);
     held_ = std::move(opened);
   }
 
-  /// The descriptor of a file that stays open until this goes; -1: none.
+  /// The descriptor of a file kept open for the life of this object; -1: none.
   [[nodiscard]] int find(const std::string& file) {
     const std::lock_guard lock(mutex_);
     const auto it = open_.find(file);
@@ -94,16 +94,16 @@ class Files : public StoreBytes {
     if (open_.size() < most_open_ && open_.emplace(file, opened.number()).second) (void)opened.release();
   }
 
-  /// Whether no name leads to the file any more, or the network has lost it.
+  /// Whether the file has no name any more, or the network has lost it.
   [[nodiscard]] static bool is_removed(int descriptor) {
     struct stat status {};
     return ::fstat(descriptor, &status) != 0 || status.st_nlink == 0;
   }
-  /// A pack that was repaired is another file of the same name. Where there is none, the old one is read on.
+  /// A repaired pack is another file of the same name. If there is none, the old file is still read.
   void open_again(const std::string& file, int kept) const {
     const Descriptor opened = open_file(folder_, file, O_RDONLY);
     if (!opened.is_open()) return;
-    ::dup3(opened.number(), kept, O_CLOEXEC);  // whoever reads from the old one just now is not disturbed
+    ::dup3(opened.number(), kept, O_CLOEXEC);  // atomic, so that concurrent reads of the old file are not disturbed
   }
 
   static const char* fill(int descriptor, std::uint64_t offset, std::span<std::byte> out) {
@@ -122,7 +122,7 @@ class Files : public StoreBytes {
   std::size_t most_open_ = 512;
   std::mutex mutex_;
   std::unordered_map<std::string, int> open_;
-  Descriptor held_;  ///< the manifest
+  Descriptor held_;  ///< the locked manifest
 };
 
 }  // namespace

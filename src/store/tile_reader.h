@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading pages and tiles at leisure, for reports and verification: it allocates, waits and throws.
+/// Reader of pages and tiles for reports and verification: it allocates, blocks and throws.
 
 #include <cstddef>
 #include <functional>
@@ -16,13 +16,13 @@
 
 namespace roam::store {
 
-/// A page that was read and checked.
+/// A page, read and checked.
 struct LoadedPage {
   std::unique_ptr<index::Block[]> memory;
   PageView view;
 };
 
-/// A tile that was read, checked and decoded.
+/// A tile, read, checked and decoded.
 struct LoadedTile {
   std::unique_ptr<index::Block[]> memory;
   index::Tile tile;
@@ -30,19 +30,19 @@ struct LoadedTile {
   std::span<const index::FineLeaf> fine;
 };
 
-/// A page or a tile of a store that cannot be read or is not what was written.
+/// Thrown when a page or a tile cannot be read or is altered.
 class Unusable : public Error {
  public:
   Unusable(const std::string& store, const std::string& what, const char* reason);
-  std::string why;  ///< the cause alone; what() names store, page or tile, and place too
+  std::string why;  ///< the cause alone; what() also names the store, the page or tile, and its position
 };
 
-/// One thread at a time.
+/// Reads pages and tiles of one store. For one thread at a time.
 class TileReader {
  public:
   explicit TileReader(const Store::State& store) : store_(store) {}
 
-  // All throw Unusable, or roam::Error that names page or tile, place and cause.
+  // All throw Unusable, or roam::Error that names the page or tile, its position and the cause.
   [[nodiscard]] LoadedPage page(std::uint64_t number);
   [[nodiscard]] LoadedTile tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
   [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
@@ -59,8 +59,8 @@ class TileReader {
 [[nodiscard]] std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box);
 [[nodiscard]] std::string name_of(std::uint64_t page, const Box& box);
 
-/// The corners of triangle `triangle` of a leaf, in the scene's frame, each coordinate correctly rounded from the
-/// stored one. `fine` is the leaf's low bits or null.
+/// The corners of triangle `triangle` of a leaf in the scene's frame, with each stored coordinate correctly rounded.
+/// `fine`: the leaf's low bits, or null.
 [[nodiscard]] Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine,
                                        int triangle);
 

@@ -39,7 +39,7 @@ class Verifier {
     }
     report_.bytes = done_;
     report_.tiles = tiles_;
-    // Threads come in any order; reports do not.
+    // Threads report in any order; the result is sorted.
     std::sort(report_.damage.begin(), report_.damage.end(), [](const StoreDamage& a, const StoreDamage& b) {
       return std::tie(a.what, a.why) < std::tie(b.what, b.why);
     });
@@ -47,12 +47,12 @@ class Verifier {
   }
 
  private:
-  /// Every byte of every file that the manifest names is hashed.
+  /// Sums up the sizes of all files that the manifest names; every byte of them is hashed.
   void check_files() {
     for (const PartInfo& part : state_.manifest.parts) total_ += size_in(part_file(part.file));
     for (const ShardInfo& shard : state_.manifest.shards) total_ += size_in(pack_file(shard.pack));
   }
-  /// What is read of a file: what the manifest says of it may be anything.
+  /// The size on disk, because the manifest may say anything.
   [[nodiscard]] std::uint64_t size_in(const std::string& file) const {
     try {
       return size_of(folder_, file).value_or(0);
@@ -75,7 +75,7 @@ class Verifier {
     report_.damage.push_back(std::move(what));
   }
 
-  /// Stores of before there were spares have none.
+  /// Older stores have no spare manifest.
   void check_spare() {
     const std::string& hash = state_.info.hash;
     const std::string file = spare_file(hash);
@@ -114,9 +114,9 @@ class Verifier {
       if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
     } catch (const Error& error) {
       damage({file, error.what(), shard.bounds});
-      return;  // not there at all
+      return;  // missing or unreadable
     }
-    // Also where the pack is not whole: so one knows which of its tiles are.
+    // Pages are checked even in a damaged pack, to find out which tiles are usable.
     TileReader reader(state_);
     ShardInfo counted;
     bool counts = true;

@@ -13,10 +13,10 @@ namespace {
 struct Sample {
   double time;
   SupportPlane plane;
-  double distance;  ///< m, not yet less the error bound
+  double distance;  ///< m, without the error bound
   double slope;     ///< m for the whole motion
 
-  /// Half the derivative of the squared distance: a polygon over time, so that a secant finds its root.
+  /// Half the derivative of the squared distance. It is piecewise linear in time, so that a secant finds its root.
   [[nodiscard]] double pull() const { return distance > 0.0 ? distance * slope : slope; }
 };
 
@@ -48,8 +48,8 @@ Approach approach(const Body& body, const Vec3& motion, const LocalTriangle& tri
   if (right.slope <= 0.0) return answer(right, right.distance);
   const Crossing lower = narrow(
       left, right, advance_limit, sample,
-      // The secant is exact once both samples share a feature; the crossing and the middle make sure that no side of
-      // the bracket stands still for long.
+      // The secant is exact once both samples share a feature. The crossing and the midpoint ensure that neither side
+      // of the bracket stands still for long.
       [&](int step, const Crossing& c) {
         const double guess[] = {secant(left, right), c.time, 0.5 * (left.time + right.time)};
         return guess[step % 3];

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// The least of a convex function of time, from samples that each bring a plane which bounds it from below.
+/// The minimum of a convex function of time, bracketed by samples whose planes bound it from below.
 
 namespace roam::certified {
 
-/// Where the planes of two samples cross, the left falling and the right not: between them nothing is less than
-/// `distance`. A sample has a `time`, the `distance` there and the `slope` of its plane.
+/// The crossing of the planes of two samples, of which `left` falls and `right` does not. Between the samples the
+/// function is at least `distance`. A sample has a `time`, the `distance` there and the `slope` of its plane.
 struct Crossing {
   template <class Sample>
   Crossing(const Sample& left, const Sample& right) {
@@ -18,9 +18,9 @@ struct Crossing {
   double distance;
 };
 
-/// Narrows a bracket of two samples until `is_tight(lower)` or `limit` times, and returns the lower bound between them.
-/// `guess(step, lower)` is where to look next; a time that is not inside of the bracket is left out. `sample(time)`
-/// looks.
+/// Narrows a bracket of two samples until `is_tight(lower)`, at most `limit` times. Returns the lower bound between
+/// them. `guess(step, lower)` proposes the time of the next sample; a time outside the open bracket is skipped.
+/// `sample(time)` evaluates.
 template <class Sample, class Look, class Guess, class IsTight>
 Crossing narrow(Sample& left, Sample& right, int limit, const Look& sample, const Guess& guess,
                 const IsTight& is_tight) {

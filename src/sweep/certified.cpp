@@ -16,8 +16,8 @@ SweepResult hit_at(double time, const SupportPlane& plane, double distance) {
 
 SweepResult miss(double t_end, double distance) { return {.hit = false, .time = t_end, .distance = distance}; }
 
-/// Where to look next: when the distance to the feature that is closest now would reach the radius, or its least if
-/// it never does. A guess that costs or saves time, but no truth: any plane certifies what it certifies.
+/// The time of the next sample: when the distance to the feature that is closest now would reach the radius, or its
+/// minimum if it never does. A guess affects only speed, because every plane is a valid bound.
 double aim(const SupportPlane& plane, double time, double radius, const Vec3& motion) {
   const double distance = plane.value(time * motion), slope = glm::dot(plane.normal, motion);
   Vec3 turning = motion;
@@ -51,7 +51,7 @@ SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& tri
     gap = line.at(time);
     if (gap <= 0.0) return hit_at(time, plane, time == 0.0 ? gap : 0.0);
     if (line.slope >= 0.0) return miss(t_end, time == t_begin ? gap : 0.0);
-    // Of the tolerance, the bound and the rounding of the closest points are spent already.
+    // The tolerance has already paid for the error bound and the rounding of the closest points.
     if (gap <= std::max(arrival_factor * doubt, hit_tolerance - (hit_factor - arrival_factor) * doubt)) break;
     // The line certifies everything before its root; its rounding is part of the bound.
     const double next = line.at_zero / -line.slope;

@@ -1,56 +1,57 @@
 #pragma once
 /// \file
-/// The certified sweep in local coordinates: what the public functions and the world both call for one triangle.
+/// The certified sweep of one triangle in local coordinates, called by the public functions and by the world.
 ///
-/// The frame's origin is the start of the motion, so that no digits are lost to a far origin. Every function is pure,
-/// allocates nothing and needs finite input with lengths up to length_limit; nothing is checked here.
+/// The frame's origin is the start of the motion, so that no digits are lost to a far origin. Every function is pure
+/// and allocates nothing. Input must be finite with lengths up to length_limit; nothing is checked here.
 
 #include "roam/sweep.h"
 
 namespace roam::certified {
 
-/// Metres. Squares of squares of lengths stay finite well beyond it.
+/// Metres. Fourth powers of lengths stay finite well beyond it.
 inline constexpr double length_limit = 1e12;
 
 /// A triangle seen from the start of the motion.
 struct LocalTriangle {
   Vec3 corner[3];             ///< metres, relative to the start of the motion
-  double corner_error = 0.0;  ///< metres: every coordinate is at most so far from the truth
+  double corner_error = 0.0;  ///< metres: greatest error of each coordinate
 };
 
-/// First impact between t_begin, up to which the motion is already known to be free, and t_end; both in [0, 1].
+/// First impact between t_begin and t_end, both in [0, 1]; the motion up to t_begin must be known to be free.
 ///
-/// `body.radius` is what is kept free, any inflation included. A hit is answered once the certified gap is
-/// <= hit_tolerance less the error bounds, so that the true distance at `time` is <= radius + hit_tolerance, or once
-/// rounding errors allow no further advance: within radius + hit_resolution(). 0 goes as close as they allow.
-/// `distance` of a hit is >= 0, but negative for a body that touches or is embedded when t_begin is 0. Of a miss it
-/// is a bound that costs nothing and may be 0; approach() gives a tight one.
+/// `body.radius` includes any inflation. A hit is returned once the certified gap is <= hit_tolerance less the error
+/// bounds, so that the true distance at `time` is <= radius + hit_tolerance. It is also returned once rounding errors
+/// allow no further advance; then the distance is within radius + hit_resolution(). A hit_tolerance of 0 goes as close
+/// as rounding allows. The `distance` of a hit is >= 0, except for a body that touches or overlaps when t_begin is 0:
+/// then it is <= 0. The `distance` of a miss is a lower bound that costs nothing and may be 0; approach() gives a tight
+/// one.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                                 double t_end, double hit_tolerance) noexcept;
 
-/// Whether the triangle's own plane shows that the body is clear of it on the whole motion: a sweep would miss.
-/// False says nothing.
+/// True if the triangle's own plane proves that the body is clear of the triangle during the whole motion: a sweep
+/// would miss. False proves nothing.
 [[nodiscard]] bool plane_separates(const Body& body, const Vec3& motion, const LocalTriangle& triangle) noexcept;
 
 /// Closest point and certified signed gap of `body` resting at the frame's origin.
 [[nodiscard]] Proximity proximity(const Body& body, const LocalTriangle& triangle) noexcept;
 
-/// Where a moving body comes closest to a triangle.
+/// The closest approach of a moving body to a triangle.
 struct Approach {
   double time = 0.0;    ///< in [t_begin, t_end]: a time of least gap
-  Proximity proximity;  ///< measured at `time`; but `distance` is a certified lower bound over [t_begin, t_end]
+  Proximity proximity;  ///< measured at `time`, except `distance`: a certified lower bound over [t_begin, t_end]
 };
 
-/// The least signed gap over [t_begin, t_end]. `distance` is tight to approach_tolerance of the clearance, or to the
-/// error bound where that is more.
+/// The least signed gap over [t_begin, t_end]. `distance` is tight to approach_tolerance of the distance between axis
+/// and triangle, or to the error bound if that is larger.
 [[nodiscard]] Approach approach(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                                 double t_end) noexcept;
 
-/// Relative. How tight the answer of approach() is.
+/// Relative tightness of the result of approach().
 inline constexpr double approach_tolerance = 1e-10;
 
-/// Metres. How far from the radius a hit of tolerance 0 may be, beyond the triangle's own corner_error: the error
-/// bound at t_end times hit_factor.
+/// Metres. Upper bound of the distance from the radius at which a hit of tolerance 0 may be, beyond the triangle's own
+/// corner_error: hit_factor times the error bound at t_end.
 [[nodiscard]] double hit_resolution(const Body& body, const Vec3& motion, const LocalTriangle& triangle,
                                     double t_end) noexcept;
 

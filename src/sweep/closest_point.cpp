@@ -9,8 +9,8 @@
 namespace roam::certified {
 namespace {
 
-/// Of squared distances, relative. Up to here a foot computed from the corners' shares counts as the foot of the
-/// perpendicular. Only speed depends on it: beyond it the edges are tried as well.
+/// Relative, for squared distances. Up to this factor a point computed from barycentric shares counts as the foot of
+/// the perpendicular. Only speed depends on it: beyond it the edges are tried as well.
 constexpr double face_trust = 1.0 + 1e-9;
 
 void improve(Closest& best, const Closest& other) {
@@ -38,8 +38,8 @@ Closest at_any_edge(const Obstacle& o, const Vec3& p) {
   return best;
 }
 
-/// The face, for a point that seems to be over it. The corners' shares tell a point that is surely on the triangle:
-/// of a sliver they are mostly rounding, and then an edge may be closer. A triangle without a normal has none.
+/// The face, for a point that seems to be over it. The corners' shares give a point that is certainly on the triangle.
+/// For a sliver they are mostly rounding, and an edge may be closer. A triangle without a normal has no face.
 Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, double c_share) {
   const Vec3& normal = o.face_normal();
   const double height = glm::dot(normal, p - o.corner[0]);
@@ -53,8 +53,8 @@ Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, doub
   return {height < 0.0 ? -normal : normal, 1.0, squared, p - height * normal, Feature::face};
 }
 
-/// The axis, without its ends, against one edge. Where their closest points are not inside the axis, an end of the
-/// axis is closer to the triangle and `best` has it already.
+/// The axis, without its ends, against one edge. If their closest points are not inside the axis, an end of the axis is
+/// closer to the triangle and `best` already has it.
 void improve_with_axis_and_edge(const Obstacle& o, int i, const Vec3& centre, Closest& best) {
   const Vec3 x = centre - o.corner[i];
   const Vec3& e = o.edge[i];
@@ -85,8 +85,8 @@ Vec3 perpendicular_to_edge(const Obstacle& o, int i, const Vec3& x) noexcept {
   const Vec3& e = o.edge[i];
   const double inverse = 1.0 / o.edge_squared[i];
   const Vec3 once = x - e * (glm::dot(x, e) * inverse);
-  // The first pass leaves an error relative to |x|, the second relative to what the first left (Kahan and Parlett's
-  // "twice is enough": Parlett, "The Symmetric Eigenvalue Problem", 6.9).
+  // The first pass leaves an error relative to |x|, the second one relative to the rest of the first (Kahan and
+  // Parlett's "twice is enough": Parlett, "The Symmetric Eigenvalue Problem", 6.9).
   return once - e * (glm::dot(once, e) * inverse);
 }
 
@@ -106,7 +106,7 @@ Closest closest_to_point(Obstacle& o, const Vec3& p) noexcept {
   const double c_share = ap_ab * bp_ac - bp_ab * ap_ac;
   const double b_share = cp_ab * ap_ac - ap_ab * cp_ac;
   const double a_share = bp_ab * cp_ac - cp_ab * bp_ac;
-  // Strictly outside the face: all three shares are 0 for a segment, whose every edge is then tried by at_face.
+  // Strictly outside the face: for a segment all three shares are 0, and at_face then tries every edge.
   if (c_share < 0.0 && ap_ab >= 0.0 && bp_ab <= 0.0) return at_edge(o, 0, p);
   if (b_share < 0.0 && ap_ac >= 0.0 && cp_ac <= 0.0) return at_edge(o, 2, p);
   if (a_share < 0.0 && bp_ac >= bp_ab && cp_ab >= cp_ac) return at_edge(o, 1, p);
@@ -121,12 +121,12 @@ Closest closest_to_axis(Obstacle& o, const Vec3& centre) noexcept {
   const double lowest = std::min({o.corner[0].z, o.corner[1].z, o.corner[2].z});
   Closest best;
   best.squared = std::numeric_limits<double>::infinity();
-  // An end of the axis can only be closest to what lies beyond it.
+  // An end of the axis can only be closest to triangles that reach beyond it.
   if (highest > top) best = closest_to_point(o, centre + up);
   if (lowest < bottom) improve(best, closest_to_point(o, centre - up));
   if (highest < bottom || lowest > top) return best;
   for (int i = 0; i < 3; ++i) improve_with_axis_and_edge(o, i, centre, best);
-  // Rounding can hide an edge that lies as high as an end.
+  // Rounding can hide an edge at the same height as an end.
   if (best.squared == std::numeric_limits<double>::infinity()) {
     best = closest_to_point(o, centre + up);
     improve(best, closest_to_point(o, centre - up));

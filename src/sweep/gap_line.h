@@ -11,7 +11,7 @@
 
 namespace roam::certified {
 
-/// The bound of docs/algorithm.md for a body that starts at the frame's origin.
+/// The bound of docs/algorithm.md, "Error bound", for a body that starts at the frame's origin.
 [[nodiscard]] inline ErrorBound error_bound(const Body& body, const Vec3& motion, const LocalTriangle& triangle) {
   const auto taxicab = [](const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); };
   const double corners =
@@ -22,8 +22,8 @@ namespace roam::certified {
           relative * taxicab(motion)};
 }
 
-/// A lower bound of the gap between body and triangle, affine in time, with the error bound subtracted: wherever it
-/// is >= 0, the body is free in exact arithmetic.
+/// A lower bound of the gap between body and triangle, affine in time, with the error bound subtracted. Where it is >=
+/// 0, the body is free in exact arithmetic.
 struct GapLine {
   GapLine(const SupportPlane& plane, double radius, const Vec3& motion, const ErrorBound& error)
       : at_zero(plane.offset - radius - error.at_start), slope(glm::dot(plane.normal, motion) - error.per_time) {}

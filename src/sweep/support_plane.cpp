@@ -17,13 +17,13 @@ Vec3 unit(const Vec3& x) {
   return squared > shortest_squared ? x * (1.0 / std::sqrt(squared)) : Vec3(0.0);
 }
 
-/// A unit vector perpendicular to `x`, horizontal if `x` is not vertical; some unit vector for zero.
+/// A unit vector perpendicular to `x`, horizontal if `x` is not vertical; for zero, any unit vector.
 Vec3 any_perpendicular(const Vec3& x) {
   const Vec3 level = unit({x.y, -x.x, 0.0});
   return level == Vec3(0.0) ? Vec3(1.0, 0.0, 0.0) : level;
 }
 
-/// Keeps the best of the planes that it is shown. Every direction stands for itself and its opposite.
+/// Keeps the best of the considered planes. Every direction stands for itself and its opposite.
 struct BestPlane {
   Obstacle& obstacle;
   Vec3 centre;
@@ -49,8 +49,8 @@ struct BestPlane {
   }
 };
 
-/// The greatest of all planes that a pair of features can have: for disjoint bodies the normal of the closest pair is
-/// among them, and for those that meet the facets of their Minkowski sum (Gottschalk et al., "OBBTree", 1996).
+/// The greatest of the planes of all pairs of features. For disjoint bodies these include the normal of the closest
+/// pair; for overlapping ones, the facets of their Minkowski sum (Gottschalk et al., "OBBTree", 1996).
 void consider_every_pair_of_features(BestPlane& best) {
   Obstacle& o = best.obstacle;
   const Vec3 up(0.0, 0.0, o.half_height);
@@ -88,8 +88,8 @@ int Obstacle::longest_edge() const noexcept {
 void Obstacle::find_face_normal() noexcept {
   face_normal_known_ = true;
   face_normal_ = unit(glm::cross(edge[0], edge[1]));
-  // Along the longest edge even a small tilt costs much. For a sliver, whose cross product is mostly rounding, this
-  // leaves a normal that is as good as the sliver is thin.
+  // Along the longest edge even a small tilt costs much. The cross product of a sliver is mostly rounding; after this
+  // step its normal is as good as the sliver is thin.
   if (face_normal_ != Vec3(0.0)) face_normal_ = unit(perpendicular_to_edge(*this, longest_edge(), face_normal_));
 }
 
@@ -101,7 +101,8 @@ SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexce
     const double farthest = std::max({glm::dot(n, o.corner[0]), glm::dot(n, o.corner[1]), glm::dot(n, o.corner[2])});
     plane.normal = n;
     plane.offset = -farthest - span_along_axis(o, n);
-    // Lower bound and distance agree: no other plane can be better. They never do where the axis pierces the face.
+    // Lower bound and distance agree, so no other plane can be better. They never agree where the axis pierces the
+    // face.
     if (plane.value(centre) >= std::sqrt(closest.squared) - slack) return plane;
   }
   BestPlane best{o, centre};
@@ -109,7 +110,7 @@ SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexce
   plane.normal = best.normal;
   plane.offset = best.offset;
   if (best.value <= 0.0) {
-    // They meet: the point that matters is the one that is left last on the way out, and stays closest beyond.
+    // They overlap: the relevant point is the last one left on the way out, which stays closest beyond.
     const Closest last = closest_to_axis(o, centre + (slack - 2.0 * best.value) * best.normal);
     plane.point = last.point;
     plane.feature = last.feature;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The supporting plane that separates a body's axis from a triangle best.
+/// The supporting plane that best separates a body's axis from a triangle.
 
 #include <glm/geometric.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace roam::certified {
 
-/// The triangle, and the half height of the body's axis: what stays the same while the body moves.
+/// The triangle and the half height of the body's axis: all that stays the same while the body moves.
 class Obstacle {
  public:
   Obstacle(const Vec3 (&corners)[3], double half_height_m) noexcept;
@@ -20,7 +20,7 @@ class Obstacle {
 
   /// Index of the longest edge.
   [[nodiscard]] int longest_edge() const noexcept;
-  /// Unit, perpendicular to the longest edge; zero for a segment or a point.
+  /// Unit vector, perpendicular to the longest edge; zero for a triangle that is a segment or a point.
   [[nodiscard]] const Vec3& face_normal() noexcept {
     if (!face_normal_known_) find_face_normal();
     return face_normal_;
@@ -37,15 +37,15 @@ class Obstacle {
 struct SupportPlane {
   Vec3 normal;
   double offset;  ///< metres: -max_i normal . corner_i - half_height * |normal.z|
-  Vec3 point;     ///< of the triangle: the one that is closest, or the last to be left when the axis meets it
+  Vec3 point;     ///< on the triangle: the closest point, or the last one left when the axis meets the triangle
   Feature feature;
-  Vec3 straight;  ///< the distance does not change for motion along it: the edge that is closest, or the axis; or zero
+  Vec3 straight;  ///< motion along it does not change the distance: the closest edge, or the axis, or zero
 
   [[nodiscard]] double value(const Vec3& centre) const { return glm::dot(normal, centre) + offset; }
 };
 
-/// The plane of greatest value for a body at `centre`: its value is the signed distance of axis and triangle, less at
-/// most about `slack` (metres) for rounding. Any plane that comes out is a valid bound; slack decides when more work
+/// The plane of greatest value for a body at `centre`. Its value is the signed distance of axis and triangle, less at
+/// most about `slack` (metres) for rounding. Every plane returned is a valid bound; `slack` only decides when more work
 /// is spent on a better one.
 [[nodiscard]] SupportPlane support_plane(Obstacle& obstacle, const Vec3& centre, double slack) noexcept;
 

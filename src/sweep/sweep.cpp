@@ -13,7 +13,7 @@
 namespace roam {
 namespace {
 
-/// Written so that NaN is refused.
+/// Written so that NaN fails.
 bool within_limit(double length) { return length <= certified::length_limit; }
 
 bool within_limit(const Vec3& x) {

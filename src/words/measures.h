@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places and lengths as people read them.
+/// Positions and lengths as text for people.
 
 #include <fmt/format.h>
 

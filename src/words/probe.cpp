@@ -15,7 +15,7 @@ using Kind = ProbeLimit::Kind;
 
 namespace {
 
-/// Which way it is measured.
+/// The measured extent: the height if `direction` is steep, else the width.
 const char* extent(const ProbeLimit& limit) { return std::abs(limit.direction.z) > 0.7 ? "high" : "wide"; }
 
 }  // namespace
@@ -62,16 +62,16 @@ std::string text_of(const ProbeLimit& limit) {
 
 namespace {
 
-/// Metres: an end that stands farther than that from the place that was asked for is told, both of them.
+/// Metres. An end that was moved farther than this is mentioned, with both positions.
 constexpr double moved_aside = 0.05;
-constexpr double tall = 2.0;  ///< eyes are at most that far above the feet
+constexpr double tall = 2.0;  ///< m: eyes are at most this far above the feet
 
 std::string body_text(const ProbedSize& size) {
   if (size.height <= 2.0 * size.radius) return fmt::format("a sphere of radius {:.3g} m", size.radius);
   return fmt::format("a body of radius {:.3g} m and height {:.3g} m", size.radius, size.height);
 }
 
-/// "the narrowest place is ..." of a way that is wide enough.
+/// "the narrowest place is ...", for a way that is wide enough.
 std::string narrowest(const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   if (!answer.limit) return fmt::format("nothing on it leaves less than {}", metres(2.0 * p.radius));
@@ -91,7 +91,7 @@ std::string narrowest(const ProbeAnswer& answer) {
                      where);
 }
 
-/// Of what nobody was found to pass.
+/// No way was found for any size.
 std::string no_way(const ProbeAnswer& answer) {
   const ProbedSize& size = answer.size;
   return fmt::format(
@@ -101,7 +101,7 @@ std::string no_way(const ProbeAnswer& answer) {
       size.height > 2.0 * size.radius ? fmt::format(" and a height of {:.3g} m", size.height) : "");
 }
 
-/// What stops the body.
+/// The obstacle that stops the body.
 std::string stopped_by(const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   if (!answer.limit) {
@@ -158,26 +158,26 @@ std::string stopped_by(const ProbeAnswer& answer) {
                      missing);
 }
 
-/// Of a search that came to its most places.
+/// The search reached its limit of places.
 std::string ended(const Passage& p) {
   return fmt::format(
       " the search ended after {} places, the most that are looked at. A wider spacing (--spacing) looks at fewer.",
       p.places);
 }
 
-/// What is certified of ways, to a millimetre that is not too few.
+/// The certified upper bound on the radius of ways, rounded up to millimetres.
 std::string certified(const Passage& p) {
   return fmt::format("That none for a radius over {:.3f} m exists is certified", std::ceil(1e3 * p.bound - 1e-6) / 1e3);
 }
 
-/// How sure a no is.
+/// How certain a "no" is.
 std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
   if (!p.complete && !answer.proven) return " A wider way may exist:" + ended(p);
   if (!p.complete) return fmt::format(" {}; of narrower ones not all were looked for:", certified(p)) + ended(p);
   if (is_shut(answer)) return " That is certified.";
-  // Within what the proof leaves open, the body's radius may lie.
+  // The proof leaves an interval open, and the body's radius may lie in it.
   if (p.found && (answer.proven || p.proven)) return fmt::format(" {}.", certified(p));
   const double overlooked = 0.7 * question.spacing;
   if (answer.proven)
@@ -186,14 +186,14 @@ std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
                      p.found ? " wider" : "", question.spacing, overlooked);
 }
 
-/// Where the walker was, as all places are told: of the feet, flying of the centre.
+/// The walker's last position, reported like all positions: of the feet when walking, of the centre when flying.
 std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) {
   Vec3 place = answer.walk->at;
   if (question.mode == Mode::walk) place.z -= 0.5 * answer.size.height;
   return at(place);
 }
 
-/// Where an end had to be taken elsewhere.
+/// Says that an end had to be moved.
 std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode mode) {
   const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
   if (mode == Mode::fly ? glm::distance(asked, stands) > moved_aside : aside > moved_aside) {

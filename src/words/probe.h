@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a probe found, in plain words: its sentences, and what they share with its table and its pictures.
+/// Sentences about the result of a probe, and words that its table and pictures share.
 
 #include <string>
 
@@ -8,23 +8,23 @@
 
 namespace roam::words {
 
-/// The answer in words: yes or no, by which way, or what stops the body, where, and how sure that is; one to four
-/// sentences.
+/// The result in one to four sentences: yes or no, along which way, or what stops the body, where, and how certain that
+/// is.
 [[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 
-/// What decides, in a few words, with its size: "door 0.520 m wide".
+/// The decisive obstacle and its size in a few words: "door 0.520 m wide".
 [[nodiscard]] std::string text_of(const ProbeLimit& limit);
 
-/// Whether it is the start or the target that decides.
+/// True if the start or the target is the decisive place.
 [[nodiscard]] bool is_end(ProbeLimit::Kind kind);
 /// "start" or "target".
 [[nodiscard]] const char* end_name(ProbeLimit::Kind kind);
 
-/// That nobody who was looked for passes is certified.
+/// True if it is certified that no body of the sizes searched for can pass.
 [[nodiscard]] bool is_shut(const ProbeAnswer& answer);
-/// The search ended before it came to an answer.
+/// True if the search ended without a result.
 [[nodiscard]] bool is_unknown(const ProbeAnswer& answer);
-/// Over the side of the scene one falls too.
+/// True if the body falls; in a walk, leaving the side of the scene counts as a fall.
 [[nodiscard]] bool falls(const ProbeWalk& walk, Mode mode);
 
 }  // namespace roam::words

@@ -14,16 +14,16 @@ namespace roam::words {
 
 namespace {
 
-/// Contradictions that are told in full; of more only the number.
+/// Contradictions described in full; further ones are only counted.
 constexpr std::size_t most_told = 2;
-/// A part that was left out is told of when it has more than this part of the places of the largest that was not.
+/// A part left out is mentioned if it has more than 1 / worth_telling of the places of the largest part.
 constexpr std::size_t worth_telling = 10;
-/// Openings that stop the chosen body, likewise.
+/// Openings that stop the chosen body and are described; further ones are only counted.
 constexpr std::size_t most_stops = 3;
-/// Parts that are told of one by one; of more only the number.
+/// Parts described one by one; further ones are only counted.
 constexpr std::size_t most_parts = 3;
 
-/// "a radius of 0.3 m", and the foot, where there is one.
+/// "a radius of 0.300 m", with the support disc if there is one.
 std::string body_words(double radius, double support_radius) {
   if (support_radius > radius)
     return fmt::format("a radius of {:.3f} m on a foot (support radius) of {:.3f} m", radius, support_radius);
@@ -41,7 +41,7 @@ const Decisive* decisive(const Training& training, Decisive::Kind kind) {
   return nullptr;
 }
 
-/// What limits a body, as two parts of a sentence: "the opening 0.752 m wide at (1.00, 2.00, 3.00)".
+/// The opening that limits a body, as part of a sentence: "the opening 0.752 m wide at (1.00, 2.00, 3.00)".
 std::string opening_words(const Training& training) {
   const Decisive* opening = decisive(training, Decisive::Kind::opening);
   return opening ? fmt::format("the opening {:.3f} m wide at {}", opening->width, at(opening->point))
@@ -54,9 +54,9 @@ std::string split_words(const Training& training) {
                : std::string("the widest crack");
 }
 
-/// What carries none that is smaller.
+/// The lower end of the interval: the crack into which smaller bodies fall.
 struct LowerEnd {
-  double radius = 0.0;  ///< m; infinite where none was found that is carried
+  double radius = 0.0;  ///< m; infinite if no body that was tried is carried
   std::string why;
 };
 
@@ -102,7 +102,8 @@ std::string feasible_words(const Training& training) {
   return text;
 }
 
-/// Of a body that is too wide for some paths, chosen for the others: how many those are, and what stops it on the rest.
+/// For a body too wide for some paths and chosen for the others: how many paths it serves, and what stops it on the
+/// rest.
 std::string for_most_words(const Training& training) {
   std::vector<std::string> stops;
   std::size_t served = 0;
@@ -147,7 +148,7 @@ std::string size_words(const ConnectedPart& part) {
   return part.area > 0.0 ? fmt::format("{:.0f} m2", part.area) : fmt::format("{} places", part.places);
 }
 
-/// Which parts were left out and why, and what of those that were not was not looked at.
+/// Parts that were left out, with the reason, and parts that were only partly searched.
 std::string parts_words(const std::vector<ConnectedPart>& parts) {
   std::string text;
   std::size_t left_out = 0, told = 0;
@@ -249,7 +250,7 @@ std::string interval_answer(const Training& training, const TrainOptions& option
   return training.trench ? text + trench_words(*training.trench) : text;
 }
 
-/// How the procedure ended.
+/// How the paper's procedure ended.
 std::string paper_words(const PaperResult& result, const Training& training) {
   using Ending = PaperResult::Ending;
   const auto fell = [&] {

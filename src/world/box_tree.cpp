@@ -43,7 +43,7 @@ std::vector<BoxTree::Item> BoxTree::items() const {
   return all;
 }
 
-// Halves the items at the median along their longest extent, again and again.
+// Halves the items recursively at the median along their longest extent.
 void BoxTree::build(std::vector<Item> items) {
   nodes_.clear();
   unused_.clear();
@@ -89,8 +89,8 @@ std::uint32_t BoxTree::make(const Node& node) {
   return index;
 }
 
-// Beside the leaf to which the way down adds least surface (Goldsmith and Salmon, "Automatic creation of object
-// hierarchies for ray tracing", 1987).
+// Puts the new leaf beside the one to which the path adds least surface (Goldsmith and Salmon, "Automatic creation of
+// object hierarchies for ray tracing", 1987).
 void BoxTree::insert(const Item& item) {
   ++size_;
   const std::uint32_t leaf = make({item.box, none, none, none, item.number, 0});

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// A tree over the boxes of many worlds: which of them can concern a query, nearest first.
+/// A tree over the boxes of many worlds. It finds those that may concern a query, nearest first.
 ///
-/// It only leaves out what is certainly out of reach, by a millimetre (box_slack), which is far more than the rounding
-/// of anything here: coordinates are at most 1e9 m, and motions 1e6 m.
+/// It drops only boxes that are out of reach by at least a millimetre (box_slack). This is far more than any rounding
+/// here: coordinates are at most 1e9 m, and motions 1e6 m.
 
 #include <algorithm>
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace roam {
 
-/// Metres. Boxes are this much larger than they need be.
+/// Metres. Boxes are tested this much larger than they are.
 inline constexpr double box_slack = 1e-3;
 
-/// The times, of a motion, between which something may be within reach; nothing when begin > end.
+/// The times of a motion between which something may be within reach; empty if begin > end.
 struct Interval {
   double begin = 0.0, end = 1.0;
   [[nodiscard]] bool empty() const { return begin > end; }
 };
 
-/// A point moved from `from` by `motion`, with all that is at most `reach` from it along each axis (m).
+/// A point that moves from `from` by `motion`, with everything at most `reach` from it along each axis (m).
 struct Sweep {
   Vec3 from, motion, reach;
 
-  /// When it may meet the box (Kay and Kajiya, "Ray tracing complex scenes", 1986). A time that is off by rounding
-  /// moves the point by less than box_slack.
+  /// The times at which it may meet the box (Kay and Kajiya, "Ray tracing complex scenes", 1986). The rounding of a
+  /// time moves the point by less than box_slack.
   [[nodiscard]] Interval meets(const Box& box) const {
     Interval when;
     for (int k = 0; k < 3; ++k) {
@@ -58,22 +58,22 @@ struct Sweep {
 
 class BoxTree {
  public:
-  /// A box, and what it is of.
+  /// A box and the number of its owner.
   struct Item {
     Box box;
     std::uint32_t number;
   };
 
-  /// Takes the items `put`, each in place of the one of the same number, and forgets those numbered `erased`; no number
-  /// is named twice. A few changes cost a walk down the tree each; many, or a tree that has become too deep, make it
-  /// anew.
+  /// Puts the items of `put`, each in place of the item with the same number, and removes the numbers in `erased`. No
+  /// number may occur twice. A few changes cost a walk down the tree each. Many changes, or a tree that has become too
+  /// deep, rebuild it.
   void change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased);
 
-  /// The box of all items; empty when there is none.
+  /// The box of all items; empty if there are none.
   [[nodiscard]] Box bounds() const { return root_ == none ? Box{} : nodes_[root_].box; }
 
-  /// Visits the items that the sweep may meet, earliest first, as far as `until` (a time, which the visitor may
-  /// lessen): visit(number, when).
+  /// Visits the items that the sweep may meet, earliest first, up to the time `until`, which the visitor may lower:
+  /// visit(number, when).
   template <class Visit>
   void along(const Sweep& sweep, const double& until, Visit&& visit) const {
     traverse(
@@ -84,8 +84,8 @@ class BoxTree {
         [&](const Interval& when) { return when.begin <= until; }, visit);
   }
 
-  /// Visits the items that the sweep may meet, those nearest to its start first. `sweep` is looked at again for each,
-  /// and the visitor may lessen its reach: visit(number, when).
+  /// Visits the items that the sweep may meet, those nearest to its start first: visit(number, when). `sweep` is read
+  /// again for each item, so that the visitor may lower its reach.
   template <class Visit>
   void near(const Sweep& sweep, Visit&& visit) const {
     traverse(
@@ -101,17 +101,17 @@ class BoxTree {
     Box box;
     std::uint32_t parent = none;
     std::uint32_t left = none, right = none;  ///< none: a leaf
-    std::uint32_t number = none;              ///< of a leaf
-    std::uint32_t height = 0;                 ///< of the tree below it
+    std::uint32_t number = none;              ///< if it is a leaf
+    std::uint32_t height = 0;                 ///< height of the tree below the node
     [[nodiscard]] bool leaf() const { return left == none; }
   };
   struct Key {
     Interval when;
     double order;
   };
-  /// A tree of more levels is made anew. Halving 2^32 items makes 33.
+  /// A tree with more levels is rebuilt. Halving 2^32 items takes 33.
   static constexpr std::uint32_t deepest_tree = 40;
-  /// Changes, as a part of all items, from which on a new tree costs less than to mend the old one.
+  /// If more than 1 / many_part of the items change, a new tree costs less than repairing the old one.
   static constexpr std::size_t many_part = 4;
 
   template <class Look, class Still, class Visit>
@@ -129,7 +129,7 @@ class BoxTree {
       const Node& node = nodes_[entry.node];
       if (!still(entry.when)) continue;
       if (node.leaf()) {
-        // The visitor may have learned more since the box was looked at.
+        // The visitor may have lowered its limits since the box was pushed.
         if (const Key again = look(node.box); !again.when.empty()) visit(node.number, again.when);
         continue;
       }
@@ -154,10 +154,10 @@ class BoxTree {
   [[nodiscard]] std::uint32_t leaf_of(std::uint32_t number) const;
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> unused_;  ///< nodes
-  std::vector<std::uint32_t> leaves_;  ///< by number; none where it is not there
+  std::vector<std::uint32_t> unused_;  ///< free nodes
+  std::vector<std::uint32_t> leaves_;  ///< by number; none if there is no such item
   std::uint32_t root_ = none;
-  std::size_t size_ = 0;  ///< items
+  std::size_t size_ = 0;  ///< number of items
 };
 
 }  // namespace roam

@@ -21,7 +21,8 @@ namespace {
 
 using index::BuiltTile;
 
-/// Hands the fraction done to the caller's callback, one thread at a time, and turns its "no" into an exception.
+/// Reports the fraction done to the caller's callback, one thread at a time. If the callback returns false, it throws
+/// Cancelled.
 class Progress {
  public:
   explicit Progress(const std::function<bool(double)>& report) : report_(report) {}
@@ -43,7 +44,7 @@ class Progress {
   bool cancelled_ = false;
 };
 
-/// Of the whole build, by time: sorting the triangles along the curve; the tiles are the rest.
+/// Part of the build's time for sorting the triangles along the curve; the tiles take the rest.
 constexpr double partition_share = 0.2;
 
 /// The box of both the source triangles and the stored ones.
@@ -66,7 +67,7 @@ std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partiti
   return tiles;
 }
 
-/// Moves all tiles into one set of arenas, in the order that the tree over them wants.
+/// Moves all tiles into one set of arenas, in the order of the tree over them.
 void assemble(WorldData& data, std::vector<BuiltTile>& built) {
   data.reach = {};
   for (const BuiltTile& t : built) data.reach.include(grown(t));
@@ -100,7 +101,7 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
   data.ids.allocate(ids);
   for (std::size_t i = 0; i < top.nodes.size(); ++i) data.blocks.items[i].node = top.nodes[i];
   tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t i) {
-    const BuiltTile moved = std::move(*source[i]);  // its memory goes as soon as it is copied
+    const BuiltTile moved = std::move(*source[i]);  // freed as soon as it is copied
     const index::Tile& t = data.tiles.items[i];
     std::memcpy(&data.blocks.items[t.nodes], moved.nodes.data(), moved.nodes.size() * sizeof(index::Node));
     std::memcpy(&data.blocks.items[t.leaves], moved.leaves.data(), moved.leaves.size() * sizeof(index::Leaf));

@@ -69,7 +69,7 @@ void Collector::keep(const Contact& c, double doubt) {
       std::push_heap(out_.begin(), end(), nearer);
     }
   }
-  // What is farther than the farthest of a full list need not be looked at.
+  // Contacts farther than the farthest of a full list do not matter.
   if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
   enough_ = std::min(enough_, reach_);
   if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {

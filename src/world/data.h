@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a World holds: the arenas of all tiles, the tree over them, and what the triangles are called.
+/// The data of a World: the arenas of all tiles, the tree over them, and the names of the meshes.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace roam {
 
-/// An array whose elements are not touched before they are written: large arenas are filled by many threads.
+/// An array whose elements are not initialized: large arenas are filled by many threads.
 template <class T>
 struct Arena {
   std::unique_ptr<T[]> items;
@@ -26,25 +26,26 @@ struct Arena {
   [[nodiscard]] std::size_t bytes() const { return size * sizeof(T); }
 };
 
-/// Another number at each call, from any thread; never 0.
+/// A new number at each call, from any thread; never 0.
 [[nodiscard]] std::uint64_t next_revision();
 
 struct WorldData {
-  std::uint64_t revision = next_revision();  ///< as World::revision() says
+  std::uint64_t revision = next_revision();  ///< see World::revision()
   Arena<index::Block> blocks;                ///< the tree over the tiles, then each tile's nodes and leaves
   Arena<index::Tile> tiles;
   Arena<index::FineLeaf> fine;
   Arena<std::uint8_t> ids;
-  index::Grid grid;       ///< of the tree over the tiles
+  index::Grid grid;       ///< grid of the tree over the tiles
   Box bounds;             ///< of the source triangles
-  Box reach;              ///< bounds, grown by what stored vertices may lie off
-  bool lossless = false;  ///< as BuildOptions says
+  Box reach;              ///< bounds, grown by the errors of stored vertices
+  bool lossless = false;  ///< see BuildOptions
   WorldStats stats;
-  std::vector<std::uint64_t> first;      ///< the number of the first triangle of each mesh, and the count of all
+  std::vector<std::uint64_t> first;      ///< number of the first triangle of each mesh, followed by the number of all
+                                         ///< triangles
   std::vector<std::string> names;        ///< of the meshes
   std::vector<std::uint64_t> user_data;  ///< of the meshes
 
-  /// Everything above as queries see it. Set when that is complete.
+  /// A view of all of the above for queries. Set when they are complete.
   index::Index index;
 
   [[nodiscard]] index::Index view() const {
@@ -56,7 +57,7 @@ struct WorldData {
             .grid = grid,
             .absent = nullptr};
   }
-  /// The object of one of its triangles.
+  /// The object that a triangle belongs to.
   [[nodiscard]] ObjectId object(std::uint64_t triangle) const {
     if (first.size() == 2) return 0;
     return static_cast<ObjectId>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin()) - 1;

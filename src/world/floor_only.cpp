@@ -19,21 +19,21 @@ namespace {
 
 constexpr double slope_limit = 89.0;
 
-/// Rounding of a unit normal's z, so that a ramp exactly at the limit is floor.
+/// Tolerance for the z of a unit normal, so that a ramp exactly at the limit is floor.
 constexpr double cosine_rounding = 1e-9;
 
-/// A corner that a cut makes is off by the rounding of its two ends, of the share between them, and of the sum.
+/// Roundings of a corner made by a cut: of its two ends, of the share between them, and of the sum.
 constexpr double cut_roundings = 8.0;
 
 [[noreturn]] void refuse(const std::string& what) { throw Error("cannot look for floor: " + what); }
 
-/// Corners of a flat convex piece in order.
+/// Corners of a flat convex polygon in order.
 struct Outline {
   std::array<Vec3, 6> corner;
   int corners = 0;
 };
 
-/// What of the outline lies where `height`, of each corner, is at most `limit`.
+/// The part of the outline where `height` is at most `limit`.
 template <class Height>
 Outline cut(const Outline& whole, double limit, const Height& height) {
   Outline rest;
@@ -102,7 +102,7 @@ FloorPieces FloorOnly::pieces(const certified::LocalTriangle& triangle) const {
 
 bool FloorOnly::may_lie_in(const Box& box, double reach, double margin) const {
   if (std::isinf(band_)) return true;
-  // The rise of the plane over the part of the box that is within reach: linear, so its ends are at the ends.
+  // The rise of the plane over the part of the box within reach. It is linear, so its extremes are at the ends.
   double least = 0.0, most = 0.0;
   for (const auto& [k, rise] : {std::pair(0, rise_x_), std::pair(1, rise_y_)}) {
     const double lower = std::max(box.lower[k] - start_[k], -reach), upper = std::min(box.upper[k] - start_[k], reach);

@@ -12,7 +12,7 @@ namespace roam::query {
 
 struct Frame;
 
-/// A triangle cut off on two sides has at most five corners, or six by rounding, and is four triangles.
+/// The pieces of a triangle that was cut on two sides. It has at most five corners, or six by rounding: four triangles.
 class FloorPieces {
  public:
   [[nodiscard]] const certified::LocalTriangle* begin() const { return pieces_.data(); }
@@ -26,28 +26,28 @@ class FloorPieces {
 
 class FloorOnly {
  public:
-  /// For triangles seen from `start`. Throws roam::Error for a floor that is out of range.
+  /// For triangles in coordinates relative to `start`. Throws roam::Error if the floor is out of range.
   FloorOnly(const Floor& floor, const Vec3& start);
 
-  /// The same floor in the frame of an instance, where the start is another.
+  /// The same floor in the frame of an instance, with the start in that frame.
   [[nodiscard]] FloorOnly seen_in(const Frame& frame, const Vec3& start) const;
 
-  /// What counts of the triangle: nothing, all, or the part in the band.
+  /// The part of the triangle that counts: nothing, all of it, or its part in the band.
   [[nodiscard]] FloorPieces pieces(const certified::LocalTriangle& triangle) const;
 
-  /// Whether a box of which nothing is known may hold floor of the band within `reach` (m) of the start's x and y. What
-  /// comes to light in it may stick out by `margin` (m).
+  /// Whether an unknown box may hold floor of the band within `reach` (m) of the start's x and y. Its contents may
+  /// extend beyond the box by `margin` (m).
   [[nodiscard]] bool may_lie_in(const Box& box, double reach, double margin) const;
 
  private:
-  /// Metres above the plane of the band.
+  /// Metres above the band's plane.
   [[nodiscard]] double above(const Vec3& p) const { return p.z - (level_ + p.x * rise_x_ + p.y * rise_y_); }
 
   Vec3 start_;
   double squared_cosine_;
   double band_;
-  double level_ = 0.0;                  ///< of the band's plane over the start, metres
-  double rise_x_ = 0.0, rise_y_ = 0.0;  ///< of that plane, metres a metre
+  double level_ = 0.0;                  ///< metres: height of the band's plane over the start
+  double rise_x_ = 0.0, rise_y_ = 0.0;  ///< slope of that plane, metres per metre
 };
 
 }  // namespace roam::query

@@ -7,19 +7,19 @@
 
 namespace roam::query {
 
-/// Of the number of an instance's triangle: the bits that count in its world, and the bit that all of them have.
+/// In the number of an instance's triangle: the bits that count in its world, and the bit that all of them have.
 inline constexpr TriangleId source_bits = 0xFFFFFFFF;
 inline constexpr TriangleId instance_bit = TriangleId{1} << 62;
-/// Whether a number is that of an instance's triangle: in a Pager the bit above it marks what is unknown.
+/// Whether a triangle belongs to an instance. In a Pager the bit above it marks unknown space.
 [[nodiscard]] constexpr bool is_of_instance(TriangleId triangle) { return triangle >> 62 == 1; }
 
-/// Where an instance is, as a query sees it.
+/// The pose of an instance as queries use it.
 struct Frame {
   Vec3 position;         ///< metres
   double cosine, sine;   ///< of the heading
-  TriangleId triangles;  ///< the number of its world's triangle 0
+  TriangleId triangles;  ///< number of triangle 0 of its world
   ObjectId object;
-  double pad = 0.0;  ///< metres: what the rounding of a query may move the body by
+  double pad = 0.0;  ///< metres: the rounding of a query may move the body by this
 
   [[nodiscard]] Vec3 to_scene_way(const Vec3& v) const {
     return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z};

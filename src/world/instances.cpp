@@ -20,11 +20,11 @@ namespace {
 /// The number of the first instance.
 constexpr ObjectId first_instance = ObjectId{1} << 31;
 
-/// As many as there are numbers for triangles of (frame.h).
+/// As many as the numbers of triangles allow (frame.h).
 constexpr std::size_t most_instances = std::size_t{1} << 30;
 
-/// Rounding of a turned point or way, of its largest length: a difference, two products, their sum, and the cosine's
-/// own, four times over.
+/// Rounding of a turned point or way, relative to its largest length: a difference, two products, their sum and the
+/// cosine's own error, times four.
 constexpr double turn_rounding = 0x1p-48;
 
 void check(const Pose& pose) {
@@ -35,14 +35,14 @@ void check(const Pose& pose) {
   }
 }
 
-/// The space itself, or what it is a part of.
+/// The space inside all filters.
 const Space& unfiltered(const Space& space) {
   const Space* inner = &space;
   while (const auto* filtered = dynamic_cast<const Filtered*>(inner)) inner = &filtered->space();
   return *inner;
 }
 
-/// The query without the filters that name instances alone.
+/// The query without filters that name only instances.
 Query for_base(const Query& query) {
   for (const ObjectFilter* f = query.ignored; f != nullptr; f = f->also) {
     if (!f->objects.empty() && f->objects.front() < first_instance) return query;
@@ -56,7 +56,7 @@ Box turned(const Box& box, const query::Frame& frame) {
   const Vec3 half = 0.5 * box.size(), center = frame.to_scene(box.center());
   const double c = std::abs(frame.cosine), s = std::abs(frame.sine);
   const Vec3 around(c * half.x + s * half.y, s * half.x + c * half.y, half.z);
-  // Rounding is far below the slack of the tree.
+  // Rounding is far below box_slack.
   return {center - around, center + around};
 }
 
@@ -80,7 +80,7 @@ Vec3 Velocity::at(const Pose& pose, const Vec3& point) const {
 
 struct Instances::State {
   struct Instance {
-    std::shared_ptr<const World> world;  ///< null: removed
+    std::shared_ptr<const World> world;  ///< null if removed
     const WorldData* data = nullptr;
     Pose pose;
     Velocity velocity;
@@ -90,13 +90,13 @@ struct Instances::State {
 
   explicit State(const Space& unmoved) : space(unmoved), error(std::max(unmoved.largest_error(), usual_error)) {}
 
-  const Space& space;               ///< what does not move
-  LiveSpace* live = nullptr;        ///< the same, where it is to be updated
-  std::vector<Instance> instances;  ///< the first one is number first_instance
+  const Space& space;               ///< the space that does not move
+  LiveSpace* live = nullptr;        ///< the same, if it needs updates
+  std::vector<Instance> instances;  ///< element 0 has the number first_instance
   BoxTree tree;
-  std::uint64_t state = next_revision();  ///< another number after each change, in all of the program
-  double error;                           ///< the largest of all, metres
-  bool lossless = false;                  ///< one of the worlds is
+  std::uint64_t state = next_revision();  ///< a new number after each change, unique in the program
+  double error;                           ///< metres: the largest error of all worlds
+  bool lossless = false;                  ///< one of the worlds is lossless
 
   [[nodiscard]] std::uint32_t index(ObjectId instance) const {
     const std::uint32_t i = instance - first_instance;
@@ -115,7 +115,7 @@ struct Instances::State {
     state = next_revision();
   }
 
-  /// A query as an instance sees it.
+  /// A query in the frame of an instance.
   struct Seen {
     query::Frame frame;
     Query query;
@@ -135,7 +135,7 @@ struct Instances::State {
     return query.ignored != nullptr && query.ignored->ignores(first_instance + i);
   }
 
-  /// Offers the collector what comes near of one instance.
+  /// Offers the collector the near triangles of one instance.
   void offer(std::uint32_t i, const Query& query, Collector& collector) const {
     const Instance& it = instances[i];
     const Seen seen(it.frame, query);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a space asks many worlds as one.
+/// Queries of a space that consists of many worlds.
 
 #include "index/margin.h"
 #include "math/largest.h"
@@ -9,18 +9,20 @@
 
 namespace roam::query {
 
-/// What the body meets on its way, or comes within `reach` metres of, where `margin` metres are kept besides.
+/// The volume within `reach` metres of the body during its motion, with `margin` metres more.
 [[nodiscard]] inline Sweep reached(const Query& query, double reach, double margin = 0.0) {
   const double around = query.body.radius + reach + margin;
   return {query.from, query.motion, {around, around, around + query.body.half_height}};
 }
 
-/// The part of a long way that can concern a box: a world cuts it into pieces, and would cut all of it.
+/// The part of a long motion that can concern a box. A world cuts a motion into pieces; this saves those far from the
+/// box.
 [[nodiscard]] inline Part part_of(const Query& query, const Interval& when) {
   return largest(query.motion) <= index::longest_piece ? Part{} : Part{when.begin, when.end};
 }
 
-/// Whether the hit `a` is met before the hit `b`. At the start the deepest counts: that is what to get out of.
+/// Whether hit `a` comes before hit `b`. At the start the deepest comes first, because the body must get out of that
+/// one.
 [[nodiscard]] inline bool is_earlier(const FirstImpact& a, const FirstImpact& b) {
   if (a.time != b.time) return a.time < b.time;
   const bool both = a.contact && b.contact;

@@ -6,7 +6,7 @@
 namespace roam {
 namespace {
 
-constexpr std::uint64_t minus_one = ~std::uint64_t{0};  // counts wrap
+constexpr std::uint64_t minus_one = ~std::uint64_t{0};  // unsigned counts wrap around
 
 std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch) - 1; }
 
@@ -31,7 +31,7 @@ void Patches::expect(const Box& where, PatchId refines) {
   Patch patch;
   patch.where = where;
   patch.parent = refines == PatchId::none ? no_parent : index_of(refines);
-  // What has been replaced already can not be refined any more.
+  // A patch that has been replaced cannot be refined any more.
   if (patch.parent != no_parent && is_replaced(patch.parent)) patch.parent = no_parent;
   if (patch.parent != no_parent) {
     patch.role = Patch::Role::finer;
@@ -132,7 +132,7 @@ std::vector<std::uint32_t> Patches::settle(const Fits& fits) {
     Cut cut;
     if (find_finer(index, fits, cut) || (!patches_[index].world && find_finer(index, {}, cut))) {
       replace(index, cut);
-      // What is not the finest waits for the body.
+      // A patch that is not the finest waits until the body fits in a finer one.
       touched.insert(touched.end(), cut.begin(), cut.end());
     } else {
       touched_.push_back(index);
@@ -158,7 +158,7 @@ void Patches::retire(std::uint32_t index) {
     count_shown(patch, minus_one);
     changed_.push_back(index);
   }
-  // Nobody waits any more for what finer ones have made needless, nor misses it.
+  // A patch that finer ones have replaced counts neither as coming nor as failed.
   if (!patch.world) --(patch.failed ? stats_.failed : stats_.coming);
   patch.role = Patch::Role::replaced;
   patches_.count_replaced(index);

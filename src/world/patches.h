@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which patches are in use: a cut through the trees of patches and what refines them. Belongs to one thread.
+/// The patches in use: a cut through the trees of patches and their refinements. Used by one thread.
 
 #include <array>
 #include <cstdint>
@@ -14,35 +14,35 @@
 
 namespace roam {
 
-/// One patch. It is *finer* than what is shown in its place, *shown* (known, or unknown and solid), or *replaced* by
-/// finer ones. Above and below every shown patch of a tree there is no other.
+/// One patch. It is *finer* than the one shown in its place, *shown* (known, or unknown and solid), or *replaced* by
+/// finer ones. A shown patch has no other shown patch above or below it in its tree.
 struct Patch {
   enum class Role : std::uint8_t { finer, shown, replaced };
 
   Box where;
-  std::uint32_t parent = 0;  ///< its index; no_parent where it refines nothing
+  std::uint32_t parent = 0;  ///< index; no_parent if it refines nothing
   Role role = Role::shown;
   bool failed = false;
-  std::vector<std::uint32_t> finer;  ///< what refines it
-  std::optional<World> world;        ///< what was delivered, until it is replaced
-  std::string reason;                ///< why it failed
+  std::vector<std::uint32_t> finer;  ///< the patches that refine it
+  std::optional<World> world;        ///< the delivered world, until the patch is replaced
+  std::string reason;                ///< reason of the failure
 };
 
-/// All patches by index, in blocks: those of which every patch has been replaced take no memory.
+/// All patches by index, in blocks. A block whose patches have all been replaced takes no memory.
 class PatchList {
  public:
   [[nodiscard]] std::uint32_t size() const { return size_; }
   [[nodiscard]] const Patch& operator[](std::uint32_t index) const { return blocks_[index / width]->at(index); }
   [[nodiscard]] Patch& operator[](std::uint32_t index) { return blocks_[index / width]->at(index); }
-  /// Whether it has been replaced, and is perhaps not there any more.
+  /// Whether it has been replaced, and perhaps freed.
   [[nodiscard]] bool is_replaced(std::uint32_t index) const {
     return blocks_[index / width] == nullptr || (*this)[index].role == Patch::Role::replaced;
   }
 
   void push_back(Patch patch);
-  /// To be called once for each that has been replaced.
+  /// Must be called once for each replaced patch.
   void count_replaced(std::uint32_t index);
-  /// Frees the blocks of which all have been replaced.
+  /// Frees the blocks whose patches have all been replaced.
   void release();
 
  private:
@@ -55,7 +55,7 @@ class PatchList {
   };
 
   std::vector<std::unique_ptr<Block>> blocks_;
-  std::vector<std::uint32_t> done_;  ///< blocks of which all have been replaced
+  std::vector<std::uint32_t> done_;  ///< blocks whose patches have all been replaced
   std::uint32_t size_ = 0;
 };
 
@@ -67,24 +67,24 @@ class Patches {
   void expect(const Box& where, PatchId refines);
   void deliver(PatchId patch, World world);
   void fail(PatchId patch, std::string reason);
-  /// What was delivered is unknown again; nothing where it has been replaced.
+  /// Makes a delivered patch unknown again; no effect if it has been replaced.
   void forget(std::uint32_t index);
 
-  /// Replaces what can be replaced, by the finest for which `fits` holds, or for everything where it is empty. What was
-  /// unknown is replaced at once. Returns those that came to be shown or known, or ceased to be shown, since the last
-  /// call; some perhaps more than once.
+  /// Replaces patches by the finest for which `fits` holds, or by the finest at all if `fits` is empty. An unknown
+  /// patch is replaced at once. Returns the patches that became shown or known, or are no longer shown, since the last
+  /// call; some may occur more than once.
   [[nodiscard]] std::vector<std::uint32_t> settle(const Fits& fits);
-  /// Whether some wait until the body is free in them.
+  /// Whether some patches wait until the body fits in them.
   [[nodiscard]] bool unsettled() const { return !touched_.empty(); }
 
-  /// One that was not is_replaced() when take_replaced() was called last.
+  /// A patch that was not is_replaced() at the last call of take_replaced().
   [[nodiscard]] const Patch& operator[](std::uint32_t index) const { return patches_[index]; }
   [[nodiscard]] bool is_replaced(std::uint32_t index) const { return patches_.is_replaced(index); }
   [[nodiscard]] std::uint32_t size() const { return patches_.size(); }
-  /// The worlds that are of no more use since this was called last. What has been replaced is forgotten with them.
+  /// The worlds no longer in use since the last call. Replaced patches are freed with them.
   [[nodiscard]] std::vector<World> take_replaced();
 
-  /// Bytes are those of all worlds that are held.
+  /// `bytes` counts all worlds that are held.
   [[nodiscard]] PatchworkStats stats() const;
 
  private:
@@ -102,10 +102,10 @@ class Patches {
   void touch(std::uint32_t index);
 
   PatchList patches_;
-  std::vector<std::uint32_t> touched_;  ///< shown ones that may be replaced, each perhaps more than once
+  std::vector<std::uint32_t> touched_;  ///< shown patches that may be replaced, some more than once
   std::vector<std::uint32_t> changed_;
   std::vector<World> replaced_;
-  PatchworkStats stats_;  ///< but for `waiting`
+  PatchworkStats stats_;  ///< without `waiting`
 };
 
 }  // namespace roam

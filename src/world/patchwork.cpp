@@ -17,12 +17,12 @@
 namespace roam {
 namespace {
 
-/// Metres that a finer patch must leave between the body and its triangles. Two storings of one floor differ by less
-/// than 2 * error_limit; a Walker stands its skin above the one, which is 0.1 mm more, and so half of that above the
-/// other. More room would let nobody who stands still see the floor become exact.
+/// Metres that a finer patch must leave between the body and its triangles. Two stored versions of one floor differ by
+/// less than 2 * error_limit. A Walker stands its skin above one of them. The skin is 0.1 mm more, so half of that is
+/// left above the other. A larger value would keep a body at rest from ever getting the exact floor.
 constexpr double room_kept = 5e-5;
 
-/// Numbers of the sides of an unknown box, where a triangle's number in its world would be.
+/// Numbers of the sides of an unknown box, in place of a triangle's number in its world.
 constexpr TriangleId first_side = 0xFFFFFFF0;
 static_assert(first_side + unknown::sides <= TriangleId{1} << 32);
 
@@ -32,18 +32,18 @@ std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch)
 
 std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
 
-/// What was said since the last update, in order.
+/// A message since the last update; messages are in order.
 struct Message {
   enum class Kind : std::uint8_t { expected, delivered, failed, forgotten };
 
   Kind kind;
-  PatchId patch;  ///< of Kind::expected: what it refines
+  PatchId patch;  ///< for Kind::expected: the patch that it refines
   Box where = {};
   std::optional<World> world = {};
   std::string reason = {};
 };
 
-/// What is met of a box of which nothing is known.
+/// The first impact with an unknown box.
 FirstImpact met_unknown(const Box& box, const Query& query) {
   const Impact met = unknown::sweep(box, Patchwork::margin, query.body, query.from, query.motion);
   FirstImpact first;
@@ -60,14 +60,14 @@ FirstImpact met_unknown(const Box& box, const Query& query) {
 struct Patchwork::State {
   // Shared by all threads.
   mutable std::mutex mutex;
-  std::vector<bool> delivered;  ///< of all numbers that were given
+  std::vector<bool> delivered;  ///< for all patch numbers given out
   std::vector<Message> inbox;
-  std::vector<World> replaced;  ///< to be freed by another thread than that of the body
+  std::vector<World> replaced;  ///< to be freed by a thread other than the body's
   PatchworkStats stats;
 
-  // Of the thread that moves the body.
+  // Used by the thread that moves the body.
   Patches patches;
-  /// A patch to be forgotten when the body is away, and why it cannot come again, if that has been said.
+  /// A patch to forget once the body has left it, and the reason if it was reported as failed since.
   struct Leaving {
     std::uint32_t patch;
     std::optional<std::string> failed = {};
@@ -76,12 +76,13 @@ struct Patchwork::State {
   BoxTree tree;
   std::uint64_t revision = 0;
 
-  /// Takes a message, and what is to be freed. The caller holds the lock, and frees it when it has let it go.
+  /// Posts a message and returns the worlds to free. The caller holds the lock, and frees them after releasing it.
   [[nodiscard]] std::vector<World> post(Message message) {
     inbox.push_back(std::move(message));
     return std::exchange(replaced, {});
   }
-  /// Where `delivered` counts the patch. Throws for one that is not expected, or that has come or not as `is` says.
+  /// The index of the patch in `delivered`. Throws if the patch is not expected, or if its `delivered` differs from
+  /// `is`.
   [[nodiscard]] std::size_t check(PatchId patch, const char* what, bool is) const {
     const auto refuse = [&](const char* why) {
       throw Error(std::string("cannot ") + what + ' ' + number(patch) + why);
@@ -119,7 +120,7 @@ struct Patchwork::State {
     }
   }
 
-  /// Forgets what is to be forgotten, but for boxes that the body, if any, is in.
+  /// Forgets the patches that are leaving, except those whose box the body, if any, is in.
   void forget(const Body* body, const Vec3& place) {
     std::erase_if(leaving, [&](Leaving& it) {
       const std::uint32_t index = it.patch;
@@ -133,7 +134,7 @@ struct Patchwork::State {
     });
   }
 
-  /// Mends the tree where something came or went.
+  /// Repairs the tree after changes.
   void mend(std::vector<std::uint32_t> changed) {
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
@@ -154,7 +155,7 @@ struct Patchwork::State {
 
   bool update(const Patchwork& self, const Body* body, const Vec3& place) {
     const DefaultFloatingPoint guard;
-    // What throws must do so before the messages are taken: nobody sends them twice.
+    // Errors must be thrown before the messages are taken, because these are not sent again.
     if (body) query::check({*body, place});
     std::vector<Message> messages;
     {
@@ -162,7 +163,7 @@ struct Patchwork::State {
       messages.swap(inbox);
     }
     if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
-    // A body that does not fit where it is has nothing to lose.
+    // A body that overlaps something already has nothing to protect.
     const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
     take(std::move(messages));
     forget(body, place);
@@ -181,9 +182,10 @@ struct Patchwork::State {
     return !changed.empty();
   }
 
-  /// Offers the collector everything within its reach of the way.
+  /// Offers the collector everything within its reach of the motion.
   void collect(const Query& query, Collector& collector) const {
-    // Which part of the way is looked at must not depend on what was found before, or the last bits would, too.
+    // The part of the motion that is searched must not depend on earlier finds, or the last bits would depend on them
+    // too.
     const Sweep whole = query::reached(query, collector.asked(), margin);
     Sweep look = whole;
     tree.near(look, [&](std::uint32_t index, const Interval&) {
@@ -202,7 +204,7 @@ struct Patchwork::State {
       if (!c.unknown) c.object = world(c.triangle).object(triangle_in_patch(c.triangle));
     }
   }
-  /// The world of a patch in use that a triangle is of.
+  /// The world of the shown patch that a triangle belongs to.
   [[nodiscard]] const WorldData& world(TriangleId triangle) const {
     return *patches[index_of(patch(triangle))].world->data_;
   }
@@ -218,7 +220,7 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
     throw Error("cannot expect a patch: its box is empty, not finite, or beyond 1e9 m");
   }
   State& s = *state_;
-  std::vector<World> replaced;  // freed when the lock is gone
+  std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
   if (static_cast<std::uint64_t>(refines) > s.delivered.size()) {
     throw Error("cannot expect a patch that refines " + number(refines) + ": that one is not expected");
@@ -237,7 +239,7 @@ void Patchwork::deliver(PatchId patch, World world) {
     throw Error("cannot deliver " + number(patch) + ": it has more than 4 billion triangles; divide it");
   }
   State& s = *state_;
-  std::vector<World> replaced;  // freed when the lock is gone
+  std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
   s.delivered[s.check(patch, "deliver", false)] = true;
   replaced = s.post({Message::Kind::delivered, patch, {}, std::move(world)});
@@ -245,7 +247,7 @@ void Patchwork::deliver(PatchId patch, World world) {
 
 void Patchwork::fail(PatchId patch, const std::string& reason) {
   State& s = *state_;
-  std::vector<World> replaced;  // freed when the lock is gone
+  std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
   static_cast<void>(s.check(patch, "fail", false));
   replaced = s.post({Message::Kind::failed, patch, {}, {}, reason});
@@ -253,7 +255,7 @@ void Patchwork::fail(PatchId patch, const std::string& reason) {
 
 void Patchwork::forget(PatchId patch) {
   State& s = *state_;
-  std::vector<World> replaced;  // freed when the lock is gone
+  std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
   s.delivered[s.check(patch, "forget", true)] = false;
   replaced = s.post({Message::Kind::forgotten, patch});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The way cut into pieces that are short enough for the frame of one traversal.
+/// Division of a motion into pieces short enough for the frame of one traversal.
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +14,14 @@ namespace roam::query {
 
 class Pieces {
  public:
-  /// The query must live as long.
+  /// The query must outlive this object.
   Pieces(const Query& way, const Part& part) : way_(way), begin_(part.begin), span_(part.end - part.begin) {
     const double length = span_ * largest(way.motion);
     if (length > index::longest_piece) count_ = static_cast<int>(std::ceil(length / index::longest_piece));
     is_whole_ = count_ == 1 && span_ == 1.0;
     if (is_whole_) return;
-    // Starts of later pieces are rounded: three roundings of coordinates no larger than this. Where the pieces cover
-    // only a part of the way, ten.
+    // The starts of later pieces are rounded: three roundings of coordinates no larger than this. If the pieces cover
+    // only a part of the motion, ten.
     const double reach = largest(way.from) + largest(way.motion);
     grown_ = (span_ != 1.0 ? 0x1p-48 : 0x1p-50) * reach;
   }
@@ -33,7 +33,7 @@ class Pieces {
             way_.from + way_.motion * (begin_ + span_ * (double(i) / count_)),
             way_.motion * span_ / double(count_)};
   }
-  /// The time of the whole motion, rounded down.
+  /// The corresponding time of the whole motion, rounded down.
   [[nodiscard]] double time(int i, double piece_time) const {
     if (is_whole_) return piece_time;
     if (span_ != 1.0) return std::max(0.0, (begin_ + span_ * ((i + piece_time) / count_)) * (1.0 - 0x1p-49));

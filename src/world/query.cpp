@@ -12,19 +12,19 @@ namespace roam {
 namespace query {
 namespace {
 
-/// Metres. A bound in single precision that is so little below the distance is good enough for a gap: with twice what a
-/// tile without low bits is off by, 1.7 mm, it stays within 2 mm.
+/// Metres. A single-precision bound this close below the distance is good enough for a gap: together with twice the
+/// error of a tile without low bits, 1.7 mm, it stays within 2 mm.
 constexpr float tight_bound = 2.5e-4F;
 
-/// Whether a body on this piece, grown by `reach`, can meet the box at all. False for everything so far away that the
-/// whole steps of the grids would not fit an integer.
+/// Whether a body on this piece, grown by `reach`, can meet the box at all. False if it is so far away that the whole
+/// steps of the grids would not fit an integer.
 bool meets(const Box& box, const index::Piece& piece, double reach) {
   if (box.empty()) return false;
   const double r = piece.body.radius + reach;
   for (int k = 0; k < 3; ++k) {
     const double grown = r + (k == 2 ? piece.body.half_height : 0.0);
     const double a = piece.start[k], b = a + piece.motion[k];
-    // Rounding of the sums is far below the metre that is added.
+    // The rounding of the sums is far below the added metre.
     if (std::max(a, b) + grown + 1.0 < box.lower[k] || std::min(a, b) - grown - 1.0 > box.upper[k]) return false;
   }
   return true;
@@ -58,7 +58,7 @@ class Remaining {
   index::Index index_;
 };
 
-/// One world, as first_of and collect_of ask it. `rest`: the index passes triangles over.
+/// One world as a Scene for first_of and collect_of. `rest`: the index skips triangles.
 template <bool rest>
 class WorldScene {
  public:
@@ -107,7 +107,7 @@ class WorldScene {
   index::Place place_;
 };
 
-/// The same of a triangle that is, or is a part of, the stored one at `place`.
+/// The same for the stored triangle at `place`, or a part of it.
 Contact contact_with(const certified::LocalTriangle& triangle, const index::Index& index, const index::Piece& piece,
                      const index::Place& place) {
   Contact c = query::contact_with(triangle, piece.body, piece.start, piece.motion);
@@ -115,7 +115,7 @@ Contact contact_with(const certified::LocalTriangle& triangle, const index::Inde
   return c;
 }
 
-/// What a traversal needs to hand a triangle on to the collector.
+/// Passes triangles of a traversal on to the collector.
 struct Visitor {
   const index::Index& index;
   const index::Piece& piece;
@@ -128,7 +128,7 @@ struct Visitor {
     collector.offer(c, doubt);
   }
 
-  /// The same without what the index passes over.
+  /// The same without skipped triangles.
   static double visit_rest(void* self, const index::Place& place, const index::Nearness& near) {
     const Visitor& v = *static_cast<Visitor*>(self);
     const index::Skip& skip = *v.index.skip;
@@ -144,7 +144,7 @@ struct Visitor {
       const double least = double(near.least) - v.piece.body.radius - error;
       const double most = double(near.most) - v.piece.body.radius + error;
       const bool tight = !tile.fine && near.most - near.least <= tight_bound;
-      // A loose bound must not tell of what is beyond the reach that was asked for.
+      // A loose bound must not report a triangle beyond the requested reach.
       if (tight || (most <= v.collector.asked() && least >= most * (1.0 - gap_part))) {
         Contact bound;
         bound.distance = least;
@@ -173,7 +173,7 @@ Contact contact_at(const index::Index& index, const index::Piece& piece, const i
 
 namespace {
 
-/// The part of a gap that may be given up.
+/// The part of a gap that may be lost.
 double part_of(const Collector& collector) { return collector.bounds_only() ? gap_part : 0.0; }
 
 }  // namespace
@@ -210,7 +210,7 @@ void collect_one(const index::Index& index, const Query& query, Collector& colle
 
 namespace {
 
-/// Without a call of its own: every sweep makes it.
+/// Inlined, because every sweep makes it.
 template <bool rest>
 [[gnu::always_inline]] inline FirstImpact first_impact_in(const WorldData& world, const index::Index& index,
                                                           const Query& query, const Part& part,
@@ -240,7 +240,7 @@ FirstImpact first_impact(const WorldData& world, const Query& query, const Part&
 
 namespace {
 
-/// Where the search in a world begins: null, with everything.
+/// The roots where a search in a world begins; null: at the root of the whole index.
 const index::Roots* roots_of(const WorldData& world, Vicinity* vicinity, const Query& query, double reach) {
   if (vicinity == nullptr) return nullptr;
   const Question question{query.body, query.from, query.motion, reach, world.stats.largest_error_m, world.revision};

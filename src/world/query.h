@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a query asks of one world, so that one world and many are asked by the same code. Nothing here allocates.
+/// Queries of one world, shared by World and by spaces of many worlds. Nothing here allocates.
 
 #include <cstddef>
 #include <span>
@@ -12,28 +12,28 @@
 
 namespace roam::query {
 
-/// The part of a way between two times, which is all that can concern one of many worlds.
+/// The part of a motion between two times, which is all that can concern one of many worlds.
 struct Part {
   double begin = 0.0;  ///< in [0, 1]
   double end = 1.0;    ///< in [begin, 1]
 };
 
-/// Throws roam::Error for what is not finite or beyond the limits that space.h names.
+/// Throws roam::Error if a value is not finite or is beyond the limits in space.h.
 void check(const Query& query);
 
-/// Metres. A hit is of something that is this near at most, and so is what is looked for to name the deepest.
+/// Metres. A triangle that is hit is at most this near; the search for the deepest contact has the same reach.
 inline constexpr double hit_reach = 2e-3;
-/// Metres. How much less than the true gap Space::clearance may answer, the rounding of the arithmetic apart.
+/// Metres. Space::clearance may return this much less than the true gap, apart from the rounding of the arithmetic.
 inline constexpr double clearance_tolerance = 1.99e-3;
 /// The same in a lossless world or store.
 inline constexpr double lossless_tolerance = 9e-6;
 
-/// Of a clearance: how much less than the distance that was found may be answered at most.
+/// Space::clearance may return a distance that is less by this part of it.
 inline constexpr double least_part = 1.0 / 16.0;
-/// The same of Space::gap, whatever the distance.
+/// The same for Space::gap, at any distance.
 inline constexpr double gap_part = 1.0 / 8.0;
 
-/// Where the body comes nearest to a triangle that is seen from where it starts.
+/// The nearest contact of a body during its motion with a triangle in coordinates relative to the start.
 [[nodiscard]] inline Contact contact_with(const certified::LocalTriangle& triangle, const Body& body, const Vec3& from,
                                           const Vec3& motion) {
   Contact c;
@@ -43,7 +43,7 @@ inline constexpr double gap_part = 1.0 / 8.0;
   return c;
 }
 
-/// The same of a stored triangle, whose number is left out; `distance` holds for the source triangle.
+/// The same for a stored triangle, without its number; `distance` holds for the source triangle.
 [[nodiscard]] Contact contact_at(const index::Index& index, const index::Piece& piece, const index::Place& place);
 
 /// The number of a stored triangle.
@@ -54,18 +54,18 @@ inline constexpr double gap_part = 1.0 / 8.0;
                    : (TriangleId{place.tile} << index::tile_triangle_bits | (leaf.ids + place.triangle));
 }
 
-/// Offers the collector every triangle of the index within its reach of the piece, its number raised by `base`.
+/// Offers the collector every triangle of the index within its reach of the piece. `base` is added to the numbers.
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector);
-/// The same, beginning at what was gathered of the index.
+/// The same, beginning at gathered roots of the index.
 void visit_near(const index::Index& index, std::span<const index::Root> roots, const index::Piece& piece,
                 TriangleId base, Collector& collector);
 
-/// The first impact with the world on the way; `time` is that of the whole motion. Begins at `roots`, unless that is
-/// null; so does the next.
+/// The first impact with the world during the motion; `time` refers to the whole motion. Begins at `roots` unless null,
+/// as does collect().
 [[nodiscard]] FirstImpact first_impact(const WorldData& world, const Query& query, const Part& part = {},
                                        const index::Roots* roots = nullptr);
 
-/// Offers the collector every triangle within its reach of the way, its number raised by `base`.
+/// Offers the collector every triangle within its reach of the motion. `base` is added to the numbers.
 void collect(const WorldData& world, const Query& query, const Part& part, TriangleId base, Collector& collector,
              const index::Roots* roots = nullptr);
 

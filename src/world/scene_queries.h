@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// How queries of a whole way are put together from those of its pieces, whatever holds the tiles.
+/// Queries of a whole motion, composed of queries of its pieces, for any holder of tiles.
 ///
-/// A scene answers, for one piece:
+/// A Scene has these members for one piece:
 ///
-///     std::optional<double> first(const index::Piece&);      // the time of the first impact, of which it remembers
-///     bool name(FirstImpact&) const;                         // that: the triangle, and where; false where it cannot
-///     Contact touched(const index::Piece& at_rest) const;    // that: the contact, seen from a place
+///     std::optional<double> first(const index::Piece&);      // time of the first impact, which the scene remembers
+///     bool name(FirstImpact&) const;                         // sets its triangle and object; false if it cannot
+///     Contact touched(const index::Piece& at_rest) const;    // its contact, for a body at rest
 ///     void near(const index::Piece&, Collector&) const;      // offers everything within the collector's reach
 
 #include <algorithm>
@@ -23,20 +23,19 @@ void collect_of(const Scene& scene, const Query& query, const Part& part, Collec
   for (int i = 0; i < pieces.count(); ++i) scene.near(pieces[i], collector);
 }
 
-/// What a hit touches at its time, which is measured here where the scene cannot find it again or where the body starts
-/// in touch.
+/// The contact of a hit at its time. Measured here if the scene cannot find it again, or if the body starts in touch.
 template <class Scene>
 [[nodiscard, gnu::noinline]] Contact touched_of(const Scene& scene, const Query& query, double time) {
   const Query at_rest{query.body, query.from + query.motion * time, Vec3(0.0), query.ignored};
   Contact touched = scene.touched({at_rest.body, at_rest.from, at_rest.motion});
-  if (time == 0.0) {  // touching or embedded: name the deepest
+  if (time == 0.0) {  // touching or embedded: the deepest contact is wanted
     Collector deepest(Collector::Kind::contacts, std::max(0.0, touched.distance), {&touched, 1});
     collect_of(scene, at_rest, {}, deepest);
   }
   return touched;
 }
 
-/// The first impact on the way; `time` is that of the whole motion.
+/// The first impact during the motion; `time` refers to the whole motion.
 template <class Scene>
 [[nodiscard]] FirstImpact first_of(Scene& scene, const Query& query, const Part& part = {}) {
   const Pieces pieces(query, part);

@@ -27,14 +27,14 @@ namespace {
          std::to_string(static_cast<long>(limit)) + " m");
 }
 
-/// Small enough to be compiled into its callers.
+/// Kept small, so that it is inlined.
 void check_length(double value, double limit, const char* name) {
   if (!(value >= 0.0 && value <= limit)) refuse_length(value, limit, name);
 }
 
 void check_reach(double reach) { check_length(reach, Space::reach_limit, "the reach"); }
 
-/// A contact, or none, as a clearance.
+/// The nearest contact, if any, as a clearance.
 Clearance as_clearance(const Collector& collector, double distance) {
   Clearance result;
   result.distance = collector.asked();
@@ -49,10 +49,10 @@ Clearance as_clearance(const Collector& collector, double distance) {
   return result;
 }
 
-/// Queries that one core answers one after the other: some 0.1 ms.
+/// Queries that one core takes at a time: some 0.1 ms.
 constexpr std::size_t at_a_time = 64;
 
-/// Answers all of a batch, or nothing where a query is refused.
+/// Computes all results of a batch; throws before the first if a query is refused.
 template <class Answer, class Ask>
 void answer_all(std::span<const Query> queries, std::span<Answer> answers, const Ask& ask) {
   if (queries.size() != answers.size()) {
@@ -82,7 +82,7 @@ void answer_all(std::span<const Query> queries, std::span<Answer> answers, const
 void query::check(const Query& query) {
   const Body& body = query.body;
   const Vec3 &from = query.from, &motion = query.motion;
-  // Most are right. Zero times what is not finite is no number.
+  // Most queries are valid. Zero times a value that is not finite is NaN.
   const double zero = 0.0 * from.x + 0.0 * from.y + 0.0 * from.z + 0.0 * motion.x + 0.0 * motion.y + 0.0 * motion.z;
   if (zero == 0.0 && body.radius >= 0.0 && body.radius <= Space::reach_limit && body.half_height >= 0.0 &&
       body.half_height <= Space::reach_limit && largest(motion) <= Space::motion_limit) {
@@ -97,7 +97,7 @@ void query::check(const Query& query) {
   check_length(largest(motion), Space::motion_limit, "the motion's largest component");
 }
 
-/// What follows from where a hit touches. Without a call of its own: every sweep makes it.
+/// Completes a hit with its contact. Inlined, because every sweep makes it.
 [[gnu::always_inline]] inline Impact Space::touched(const Query& query, const FirstImpact& first) const {
   Impact result;
   if (!first.hit) return result;
@@ -114,7 +114,7 @@ void query::check(const Query& query) {
   result.point = touched->point;
   result.normal = touched->normal;
   result.feature = touched->feature;
-  // `time` is certified free: only rounding can say less.
+  // `time` is certified free, so only rounding can give less.
   result.distance = first.time > 0.0 ? std::max(0.0, touched->distance) : touched->distance;
   result.triangle = first.triangle;
   result.object = first.object;

@@ -11,27 +11,28 @@
 namespace roam::unknown {
 namespace {
 
-/// Unit roundoffs charged to each metre that takes part: distance at the start, motion, half height, radius. At a
-/// distance d and a way w, the parts of the distance along the axes carry at most 3 roundings of d + w and one of the
-/// half height, their length 3 of itself, the slope 4 of w, their sum with the radius 3; sqrt(3) for three axes.
+/// Unit roundoffs charged to each metre of the distance at the start, the motion, the half height and the radius. Let d
+/// be the distance and w the motion. The components of the distance carry at most 3 roundings of d + w and one of the
+/// half height. Their length carries 3 of itself, the slope 4 of w, and their sum with the radius 3; sqrt(3) for three
+/// axes.
 constexpr double roundings = 32.0;
 
-/// Metres. A body this near has arrived: what is left of the 2 mm that a hit may be early when the margin is taken.
+/// Metres. A body this near has arrived. It is the rest of the 2 mm by which a hit may be early, after the margin.
 constexpr double arrival = 2e-6;
 
-/// Metres. How tight the least distance on the way is.
+/// Metres. Tightness of the least distance during the motion.
 constexpr double tightness = 1e-6;
 
-/// Each advance at least halves the way to a grazing touch, and so quarters the gap: from 1e6 m to arrival 20 of them
-/// are enough. Beyond the limit the sweep stops where it is: too early, never too late.
+/// Each advance at least halves the way to a grazing touch, and so quarters the gap: from 1e6 m down to `arrival`, 20
+/// are enough. A sweep that reached the limit would stop too early, never too late.
 constexpr int advance_limit = 128;
 
-/// Signed distance at one time, and its growth over the whole motion by the plane that bounds it from below.
+/// Signed distance at one time, and its growth over the whole motion according to the plane that bounds it from below.
 struct Sample {
   double time;
   double distance;
   double slope;
-  Vec3 normal;  ///< unit, out of the box
+  Vec3 normal;  ///< unit, pointing out of the box
   int side;
   Feature feature;
 };
@@ -64,7 +65,7 @@ class Approach {
       squared += beyond * beyond;
     }
     Sample s{time, deepest, 0.0, Vec3(0.0), side, Feature::face};
-    // One side decides inside, beside it, and where the squares are lost to underflow.
+    // One side decides if the point is inside, if it is beside one side, and if the squares are lost to underflow.
     if (outside > 1 && squared > shortest_squared) {
       s.distance = std::sqrt(squared);
       s.normal = apart / s.distance;
@@ -84,7 +85,7 @@ class Approach {
   /// Square metres. The square of a shorter vector has lost digits.
   static constexpr double shortest_squared = 1e-260;
 
-  Vec3 motion_, lower_, upper_;  // the box is seen from the start
+  Vec3 motion_, lower_, upper_;  // the box relative to the start of the motion
   double kept_, error_ = 0.0;
 };
 
@@ -96,8 +97,8 @@ Vec3 point_on(const Box& box, const Sample& s, const Vec3& centre) {
 
 }  // namespace
 
-// At each time the plane's bound, distance + (t - time) * slope, holds for all t; error_ pays for its rounding. Before
-// its root the body is free, and since the distance is convex, one that does not come nearer now never will.
+// At each time the plane's bound, distance + (t - time) * slope, holds for all t; error_ covers its rounding. Before
+// its root the body is free. The distance is convex, so a body that does not approach now never will.
 Impact sweep(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion) {
   const Approach way(box, margin, body, from, motion);
   Impact miss;
@@ -143,7 +144,7 @@ Contact nearest(const Box& box, double margin, const Body& body, const Vec3& fro
   if (right.slope <= 0.0) return answer(right, way.gap(right.distance));
   const certified::Crossing lower = certified::narrow(
       left, right, advance_limit, [&](double time) { return way.at(time); },
-      // The middle makes sure that no side of the bracket stands still for long.
+      // The midpoint ensures that neither side of the bracket stands still for long.
       [&](int step, const certified::Crossing& c) { return step % 2 == 0 ? c.time : 0.5 * (left.time + right.time); },
       [&](const certified::Crossing& c) { return std::min(left.distance, right.distance) - c.distance <= tightness; });
   const Sample& least = left.distance <= right.distance ? left : right;

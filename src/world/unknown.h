@@ -1,24 +1,25 @@
 #pragma once
 /// \file
-/// A body and a box of which nothing is known: certified answers, as for triangles, but the box is solid.
+/// A body and an unknown box: certified results as for triangles, but the box is solid.
 ///
-/// A capsule and a box are as far apart as its centre and the box made taller by the half height, up and down. So all
-/// is done with a point and a box. The signed distance of the two, negative inside, is convex along a straight way, and
-/// at any place it is bounded from below everywhere by the plane through the closest point (inside: the plane of the
-/// nearest side). The advance of sweep/certified.h therefore serves here too, and shorter: see unknown.cpp.
+/// The distance of a capsule and a box is that of the capsule's centre and the box extended by the half height, up and
+/// down. So everything reduces to a point and a box. Their signed distance, negative inside, is convex along a straight
+/// motion. The plane through the closest point (inside: the plane of the nearest side) bounds it from below everywhere.
+/// So the method of sweep/certified.h works here too, in a shorter form: see unknown.cpp.
 
 #include "roam/space.h"
 
 namespace roam::unknown {
 
-/// First impact of the body with the box, from which `margin` (m) is kept beside the radius. A body inside is hit at
-/// time 0, and its normal is the shortest way out. `triangle` is the side of the box, 0 to 5, that faces the body.
+/// First impact of the body with the box; `margin` (m) is kept in addition to the radius. A body inside is hit at time
+/// 0, with the shortest way out as normal. `triangle` is the side of the box, 0 to 5, that faces the body.
 [[nodiscard]] Impact sweep(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion);
 
-/// Where the body comes closest to the box on its way, as Space::contacts says, the margin taken off the distance.
+/// The nearest contact of the body with the box during its motion, as in Space::contacts; the margin is subtracted from
+/// the distance.
 [[nodiscard]] Contact nearest(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion);
 
-/// Sides of a box.
+/// Number of sides of a box.
 inline constexpr TriangleId sides = 6;
 
 }  // namespace roam::unknown

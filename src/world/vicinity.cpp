@@ -6,18 +6,18 @@
 namespace roam {
 namespace {
 
-/// Metres. The box is so much wider than what was asked, and so many ways longer.
+/// The box is this many metres wider than the question, and this many motions longer.
 constexpr double spare = 0.25;
 constexpr double ways_ahead = 3.0;
 
-/// Metres. Who looks farther, goes farther at a time, or is wider or higher by half, leaves the box so soon, or meets
-/// so much of it, that to gather takes longer than it saves.
+/// Metres. Limits of the reach, the motion, and the sum of radius and half height. A body beyond them leaves the box
+/// too soon or meets too much of it: gathering would take longer than it saves.
 constexpr double farthest_reach = 0.25;
 constexpr double longest_way = 0.2;
 constexpr double largest_body = 16.0;
 static_assert(longest_way <= index::short_motion);
 
-/// Metres, beside the errors of the space: far above any rounding.
+/// Metres, in addition to the errors of the space: far above any rounding.
 constexpr double slack = 1e-2;
 
 }  // namespace

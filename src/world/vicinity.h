@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a Vicinity holds: where searches around a body begin.
+/// The contents of a Vicinity: the roots of searches around a body.
 
 #include <cstdint>
 
@@ -9,29 +9,29 @@
 
 namespace roam {
 
-/// What a body asks for: what is within `reach` (m) of it on its way. Of a sweep that is hit_reach.
+/// The region of a query: everything within `reach` (m) of the body during its motion. For a sweep reach is hit_reach.
 struct Question {
   const Body& body;
   const Vec3& from;
   const Vec3& motion;
   double reach;
-  double largest_error;    ///< of the space, metres
-  std::uint64_t revision;  ///< of the space, which no other has; not 0
+  double largest_error;    ///< largest error of the space, metres
+  std::uint64_t revision;  ///< revision of the space, which no other space has; not 0
 };
 
 struct Vicinity::State {
-  Box box;                     ///< what `roots` are of; follows from what was asked alone, not from what was there
-  std::uint64_t revision = 0;  ///< of the space in which they were gathered
-  bool complete = false;       ///< they hold all that meets the box
+  Box box;                     ///< the region of `roots`; depends only on earlier queries and not on what was found
+  std::uint64_t revision = 0;  ///< revision of the space in which they were gathered
+  bool complete = false;       ///< they hold everything that meets the box
   index::Roots roots;
 
-  /// Whether the question can be answered within the box, which is moved there where it is not. False for what is too
-  /// far or too wide for a vicinity.
+  /// Whether the box covers the question; if not, the box is moved so that it does. False if the question is too far or
+  /// too wide for a vicinity.
   [[nodiscard]] bool cover(const Question& question);
 };
 
-/// Where the search for an answer begins; null: with everything. gather(box, roots) adds what meets the box and returns
-/// whether that is all.
+/// The roots at which a search begins; null: at the root of the whole index. gather(box, roots) adds everything that
+/// meets the box, and returns whether it could.
 template <class Gather>
 [[nodiscard]] const index::Roots* roots_in(Vicinity& vicinity, const Question& question, const Gather& gather) {
   Vicinity::State* const kept = vicinity.state();
