@@ -18,7 +18,7 @@
 #include "store/opened.h"
 #include "store_start.h"
 #include "tell.h"
-#include "verify_stored.h"
+#include "verify/verify_stored.h"
 
 namespace roam::app {
 namespace {
@@ -146,7 +146,8 @@ std::string OpenScene::why_unknown(TriangleId unknown) const {
   return why;
 }
 
-Verification OpenScene::verified(const PieceLog& pieces, const std::function<bool(std::uint64_t)>& progress) const {
+verification::Verification OpenScene::verified(const verification::PieceLog& pieces,
+                                               const std::function<bool(std::uint64_t)>& progress) const {
   return store_ ? verify(*store_, pieces, progress) : verify(loaded_.meshes, pieces, progress);
 }
 
@@ -171,15 +172,16 @@ void check_against(const SceneOptions& scene) {
   scene.check_there();
 }
 
-Verification verify_against(const SceneOptions& scene, const OpenScene& walked, const PieceLog& pieces,
-                            const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
+                                          const verification::PieceLog& pieces,
+                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   // Half of the memory for pieces: more than the walk of an hour, in 64 MiB.
-  const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(Piece)));
+  const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(verification::Piece)));
   const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);
-  Verification all;
+  verification::Verification all;
   std::uint64_t bytes = 0, reading_number = 0;  // that were read before
-  const auto check = [&](std::span<const Piece> some) {
-    Verifier verifier(some);
+  const auto check = [&](std::span<const verification::Piece> some) {
+    verification::Verifier verifier(some);
     ImportOptions reading = scene.import_options();
     std::uint64_t total = 0;
     reading.progress = [&](const ImportProgress& p) {

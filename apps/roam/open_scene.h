@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "piece_log.h"
 #include "roam/pager.h"
 #include "roam/walker.h"
 #include "scene_options.h"
+#include "verify/piece_log.h"
 
 namespace roam::app {
 
@@ -57,7 +57,8 @@ class OpenScene {
 
   /// Every piece against every triangle: of the scene as read, of the store as stored, as far as that can be read.
   /// Of a store, after leave().
-  [[nodiscard]] Verification verified(const PieceLog& pieces, const std::function<bool(std::uint64_t)>& progress) const;
+  [[nodiscard]] verification::Verification verified(const verification::PieceLog& pieces,
+                                                    const std::function<bool(std::uint64_t)>& progress) const;
 
  private:
   std::uint64_t memory_;  ///< bytes for a store
@@ -77,7 +78,8 @@ void check_against(const SceneOptions& scene);
 /// Every piece against every triangle of a scene that is read piece by piece, however large it is. It is read once for
 /// as many pieces as fit in half of the memory. Where it has not as many triangles as the store that was `walked`, a
 /// note on standard error says so. `progress` as of verify, but with bytes done and in all.
-[[nodiscard]] Verification verify_against(const SceneOptions& scene, const OpenScene& walked, const PieceLog& pieces,
-                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
+[[nodiscard]] verification::Verification verify_against(
+    const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
+    const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
 
 }  // namespace roam::app

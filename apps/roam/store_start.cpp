@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "floors.h"
-#include "loose_triangles.h"
 #include "roam/error.h"
 #include "roam/world.h"
+#include "store/meshes.h"
 #include "triangles_around.h"
 
 namespace roam::app {
@@ -32,7 +32,7 @@ Vec3 store_start(const Store& store, std::uint64_t memory, const WalkerSettings&
   for (const Vec3& place : store.sample(places)) {
     Mesh mesh;
     // Where something cannot be read one may still begin beside it.
-    append(mesh, triangles_around(store, place, around, most, [&] { return !goes_on || goes_on(); }).triangles);
+    store::append(mesh, triangles_around(store, place, around, most, [&] { return !goes_on || goes_on(); }).triangles);
     const World world = World::build({&mesh, 1});
     const auto floors = floor_samples({&mesh, 1}, floors_each);
     const Start start = best_start(world, settings, mode, floors, columns_each, goes_on);

@@ -9,9 +9,9 @@
 
 #include "exit_status.h"
 #include "interrupt.h"
-#include "loose_triangles.h"
 #include "progress.h"
 #include "roam/store.h"
+#include "store/meshes.h"
 #include "tell.h"
 
 namespace roam::app {
@@ -49,7 +49,7 @@ std::vector<Mesh> read_store(const Store& store) {
   mesh.triangles.reserve(info.triangles);
   Progress progress("reading " + store.name(), "triangles");
   const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
-    append(mesh, triangles);
+    store::append(mesh, triangles);
     progress.at(mesh.triangles.size(), info.triangles);
   };
   store.for_each_triangle(info.bounds, take, [&](const std::string& what) {

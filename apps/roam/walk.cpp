@@ -18,7 +18,7 @@
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
-#include "stored_meshes.h"
+#include "store/meshes.h"
 #include "tell.h"
 #include "verbs.h"
 #include "walk_options.h"
@@ -72,14 +72,14 @@ class Recorder {
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
   }
-  [[nodiscard]] const PieceLog& pieces() const { return pieces_; }
+  [[nodiscard]] const verification::PieceLog& pieces() const { return pieces_; }
   [[nodiscard]] const picture::Record& record() const { return record_; }
 
  private:
   /// `begun`: seconds when the step began.
   void take(const StepReport& report, double begun) {
     if (trace_) trace_->add(tally_.steps, begun, report);
-    if (options_.checks()) append_pieces(pieces_, tally_.steps, report);
+    if (options_.checks()) verification::append_pieces(pieces_, tally_.steps, report);
     if (!options_.picture.empty()) append(record_, report, tally_.steps == 0);
   }
 
@@ -89,7 +89,7 @@ class Recorder {
   std::uint64_t expected_steps_;
   std::optional<TraceFile> trace_;
   Histogram nanoseconds_;
-  PieceLog pieces_;
+  verification::PieceLog pieces_;
   picture::Record record_;
   Tally tally_;
 };
@@ -157,7 +157,8 @@ std::string title(const WalkOptions& options) {
                         : text + " along " + options.path.filename().string();
 }
 
-Verification verified(const WalkOptions& options, const OpenScene& scene, const PieceLog& pieces) {
+verification::Verification verified(const WalkOptions& options, const OpenScene& scene,
+                                    const verification::PieceLog& pieces) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
     return verify_against(options.against, scene, pieces,
@@ -183,9 +184,10 @@ picture::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const W
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
     if (!scene.store()) return take(scene.loaded().meshes);
     const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
-    each_mesh(
+    store::each_mesh(
         *scene.store(), box,
         [&](const Mesh& mesh) {
+          stop_if_interrupted();
           take({&mesh, 1});
         },
         missing);
@@ -293,7 +295,7 @@ ExitStatus walk(WalkOptions options) {
     print(text_report(report));
   }
   if (report.verified) {
-    demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
+    verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
   }
   return report.result.outcome == Outcome::reached ? done : answer_no;
 }

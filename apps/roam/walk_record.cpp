@@ -37,7 +37,8 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
   const std::string events = joined_events(report);
   if (step == 0) {
     // The place that was asked for may be inside a wall; the walk starts where the body was put.
-    row(step_start, report.to, report.radius, report.height, report.axis_clearance, report.contacts.total(), events, true);
+    row(step_start, report.to, report.radius, report.height, report.axis_clearance, report.contacts.total(), events,
+        true);
     return;
   }
   for (const Segment& corner : report.segments) {
@@ -46,8 +47,8 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
         last ? report.contacts.total() : 0, last ? events : std::string(), corner.teleport);
   }
   if (report.segments.empty()) {
-    row(step_start + report.elapsed, report.to, report.radius, report.height, report.axis_clearance, report.contacts.total(),
-        events, false);
+    row(step_start + report.elapsed, report.to, report.radius, report.height, report.axis_clearance,
+        report.contacts.total(), events, false);
   }
   if (rows_.size() >= block_bytes) {
     out_ << rows_;
@@ -60,18 +61,6 @@ void TraceFile::close() {
   rows_.clear();
   out_.close();
   if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
-}
-
-void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report) {
-  Vec3 from = report.from;
-  for (const Segment& corner : report.segments) {
-    if (step == 0) break;
-    if (corner.teleport) from = corner.position;
-    pieces.add({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.axis_clearance});
-    from = corner.position;
-  }
-  if (report.held && !(report.axis_clearance > 0.0)) return;
-  pieces.add({step, report.to, report.to, Body::capsule(report.radius, report.height), report.axis_clearance});
 }
 
 }  // namespace roam::app

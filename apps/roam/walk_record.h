@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// What is kept of a walk while it goes on: its trace, and its pieces for --verify.
+/// The trace of a walk: a row or more for each step.
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "piece_log.h"
 #include "roam/walker.h"
 
 namespace roam::app {
@@ -30,10 +29,5 @@ class TraceFile {
   std::ofstream out_;
   std::string rows_;
 };
-
-/// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
-/// place at the end, unless it is held there because it does not fit. Of the start, step 0, only the place where the
-/// body was put: the way out of a wall into which a path begins is no step.
-void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report);
 
 }  // namespace roam::app

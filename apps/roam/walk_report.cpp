@@ -102,8 +102,8 @@ std::string clearance_line(const WalkReport& report) {
   const std::string cap = result.least_gap < near_cap * reach
                               ? ""
                               : fmt::format("; it was looked for no farther than {:g} m from the surface", reach);
-  return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})", result.least_axis_clearance,
-                     result.least_gap, cap);
+  return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})",
+                     result.least_axis_clearance, result.least_gap, cap);
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ Json json_report(const WalkReport& report) {
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   if (report.paging) json["paging"] = json_report(*report.paging);
   if (report.verified) {
-    const Verification& v = *report.verified;
+    const verification::Verification& v = *report.verified;
     if (v.counted()) json["violations"] = v.violations;
     json["verified"] = {{"pieces", v.pieces},     {"distances", v.distances},
                         {"least_gap_m", nullptr}, {"overstated_clearances", v.overstated},
@@ -248,9 +248,9 @@ std::string text_report(const WalkReport& report) {
     if (p.failed > 0) line("", fmt::format("{} tiles or pages are solid: {}", p.failed, p.last_failure));
   }
   if (report.verified) {
-    const Verification& v = *report.verified;
-    line("verified", summary(v) + ", " + short_time(report.verify_seconds));
-    for (const std::string& remark : remarks(v)) line("", remark);
+    const verification::Verification& v = *report.verified;
+    line("verified", verification::summary(v) + ", " + short_time(report.verify_seconds));
+    for (const std::string& remark : verification::remarks(v)) line("", remark);
   }
   return text;
 }

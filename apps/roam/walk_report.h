@@ -9,7 +9,7 @@
 #include "report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
-#include "verification.h"
+#include "verify/verification.h"
 
 namespace roam::app {
 
@@ -31,7 +31,7 @@ struct WalkReport {
   Vec3 eye{0.0};              ///< the camera at the end
   std::string object;         ///< the name of what blocked, if it was blocked by a contact; or why that is not known
   StepTimes times;
-  std::optional<Verification> verified;
+  std::optional<verification::Verification> verified;
   double verify_seconds = 0.0;
   std::optional<PagerStats> paging;  ///< where the scene is a store
   Box bounds;                        ///< of the scene; empty: not known here

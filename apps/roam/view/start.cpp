@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "loose_triangles.h"
 #include "roam/error.h"
 #include "roam/world.h"
+#include "store/meshes.h"
 #include "store_start.h"
 #include "triangles_around.h"
 #include "wander.h"
@@ -123,7 +123,7 @@ StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSett
       settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, memory, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
-        append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
+        store::append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
         return look(World::build({&mesh, 1}), eye);
       });
 }

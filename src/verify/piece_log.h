@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "files/unnamed_file.h"
-#include "verification.h"
+#include "roam/step_report.h"
+#include "verify/verification.h"
 
-namespace roam::app {
+namespace roam::verification {
 
 /// A list that only grows. A few thousand pieces lie in memory, the others in an unnamed file in the folder for
 /// temporary files (TMPDIR, else /tmp), 80 bytes each.
@@ -42,4 +43,9 @@ class PieceLog {
 [[nodiscard]] Verification verify(std::span<const Mesh> meshes, const PieceLog& pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 
-}  // namespace roam::app
+/// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
+/// place at the end, unless it is held there because it does not fit. Of the start, step 0, only the place where the
+/// body was put: the way out of a wall into which a path begins is no step.
+void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report);
+
+}  // namespace roam::verification

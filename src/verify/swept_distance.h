@@ -6,7 +6,7 @@
 #include "roam/math.h"
 #include "roam/mesh.h"
 
-namespace roam::app {
+namespace roam::verification {
 
 /// The least distance, in metres, between `triangle` and all that the vertical axis of length 2 * `half_height` passes
 /// while its centre moves straight from `from` to `to`. 0 when they meet.
@@ -19,4 +19,4 @@ namespace roam::app {
 [[nodiscard]] long double swept_distance(const Vec3& from, const Vec3& to, double half_height,
                                          const Triangle& triangle);
 
-}  // namespace roam::app
+}  // namespace roam::verification

@@ -1,14 +1,21 @@
-#include "stored_meshes.h"
+#include "store/meshes.h"
 
-#include "interrupt.h"
-#include "loose_triangles.h"
+#include <cstdint>
 
-namespace roam::app {
+namespace roam::store {
 namespace {
 
 constexpr std::size_t together = 16'384;
 
 }  // namespace
+
+void append(Mesh& mesh, std::span<const Triangle> triangles) {
+  for (const Triangle& triangle : triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), triangle.begin(), triangle.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+}
 
 void each_mesh(const Store& store, const Box& box, const std::function<void(const Mesh&)>& take,
                const std::function<void(const std::string&)>& missing) {
@@ -21,7 +28,6 @@ void each_mesh(const Store& store, const Box& box, const std::function<void(cons
   store.for_each_triangle(
       box,
       [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
-        stop_if_interrupted();
         append(some, triangles);
         if (some.triangles.size() >= together) hand_out();
       },
@@ -29,4 +35,4 @@ void each_mesh(const Store& store, const Box& box, const std::function<void(cons
   hand_out();
 }
 
-}  // namespace roam::app
+}  // namespace roam::store

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <functional>
 
-#include "piece_log.h"
 #include "roam/store.h"
+#include "verify/piece_log.h"
 
-namespace roam::app {
+namespace roam::verification {
 
 /// Every piece against every triangle, as stored, as far as that can be read. Takes some 10 MB, however long the way
 /// and however large the store is. `progress` as of verify().
 [[nodiscard]] Verification verify(const Store& store, const PieceLog& pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 
-}  // namespace roam::app
+}  // namespace roam::verification

@@ -1,4 +1,4 @@
-#include "verification.h"
+#include "verify/verification.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -11,9 +11,9 @@
 #include <mutex>
 
 #include "roam/error.h"
-#include "swept_distance.h"
+#include "verify/swept_distance.h"
 
-namespace roam::app {
+namespace roam::verification {
 namespace {
 
 // Pieces that look through all triangles together. More share the look but spread over more of the scene; halving
@@ -315,4 +315,4 @@ Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
   return verifier.result();
 }
 
-}  // namespace roam::app
+}  // namespace roam::verification

@@ -1,4 +1,4 @@
-#include "swept_distance.h"
+#include "verify/swept_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace roam::app {
+namespace roam::verification {
 namespace {
 
 using Point = glm::vec<3, long double>;
@@ -106,4 +106,4 @@ long double swept_distance(const Vec3& from, const Vec3& to, double half_height,
   return std::sqrt(least);
 }
 
-}  // namespace roam::app
+}  // namespace roam::verification

@@ -1,12 +1,12 @@
-#include "verify_stored.h"
+#include "verify/verify_stored.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
 
 #include "roam/error.h"
-#include "stored_meshes.h"
+#include "store/meshes.h"
 
-namespace roam::app {
+namespace roam::verification {
 namespace {
 
 /// Metres. Pieces are checked together as long as they stay so near to each other.
@@ -37,15 +37,17 @@ std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
   return pieces.size();
 }
 
-Verification verify_stretch(const Store& store, std::span<const Piece> pieces) {
+/// `go_on` is called now and then.
+Verification verify_stretch(const Store& store, std::span<const Piece> pieces, const std::function<void()>& go_on) {
   Verifier verifier(pieces);
   std::vector<std::string> unread;
   TriangleId first = 0;
   const auto check = [&](const Mesh& some) {
+    go_on();
     verifier.check({&some, 1}, first);
     first += some.triangles.size();
   };
-  each_mesh(store, box_of(pieces), check, [&](const std::string& what) { unread.push_back(what); });
+  store::each_mesh(store, box_of(pieces), check, [&](const std::string& what) { unread.push_back(what); });
   Verification found = verifier.result();
   found.unread = std::move(unread);
   return found;
@@ -56,15 +58,18 @@ Verification verify_stretch(const Store& store, std::span<const Piece> pieces) {
 Verification verify(const Store& store, const PieceLog& pieces, const std::function<bool(std::uint64_t)>& progress) {
   Verification all;
   all.scene = store.info().bounds;
+  const auto go_on = [&] {
+    if (progress && !progress(all.pieces)) throw Cancelled();
+  };
   pieces.each(pieces_together, [&](std::span<const Piece> some) {
     for (std::size_t begin = 0; begin < some.size();) {
       const std::size_t end = end_of_stretch(some, begin);
-      all.add(verify_stretch(store, some.subspan(begin, end - begin)));
+      all.add(verify_stretch(store, some.subspan(begin, end - begin), go_on));
       begin = end;
-      if (progress && !progress(all.pieces)) throw Cancelled();
+      go_on();
     }
   });
   return all;
 }
 
-}  // namespace roam::app
+}  // namespace roam::verification

@@ -1,9 +1,9 @@
-#include "piece_log.h"
+#include "verify/piece_log.h"
 
 #include <algorithm>
 #include <type_traits>
 
-namespace roam::app {
+namespace roam::verification {
 
 static_assert(std::is_trivially_copyable_v<Piece>);
 
@@ -52,4 +52,16 @@ Verification verify(std::span<const Mesh> meshes, const PieceLog& pieces,
   return all;
 }
 
-}  // namespace roam::app
+void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report) {
+  Vec3 from = report.from;
+  for (const Segment& corner : report.segments) {
+    if (step == 0) break;
+    if (corner.teleport) from = corner.position;
+    pieces.add({step, from, corner.position, Body::capsule(corner.radius, corner.height), corner.axis_clearance});
+    from = corner.position;
+  }
+  if (report.held && !(report.axis_clearance > 0.0)) return;
+  pieces.add({step, report.to, report.to, Body::capsule(report.radius, report.height), report.axis_clearance});
+}
+
+}  // namespace roam::verification

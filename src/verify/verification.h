@@ -13,7 +13,7 @@
 #include "roam/mesh.h"
 #include "roam/space.h"
 
-namespace roam::app {
+namespace roam::verification {
 
 /// One straight move of the body, or its rest when `from` equals `to`.
 struct Piece {
@@ -97,4 +97,4 @@ class Verifier {
 [[nodiscard]] Verification verify(std::span<const Mesh> meshes, std::span<const Piece> pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 
-}  // namespace roam::app
+}  // namespace roam::verification
