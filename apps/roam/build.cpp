@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "build_notes.h"
-#include "exit_status.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "report.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
 #include "scene_options.h"
 #include "store_name.h"
-#include "tell.h"
 #include "user_key.h"
 #include "verbs.h"
 

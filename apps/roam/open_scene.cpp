@@ -11,13 +11,13 @@
 #include <new>
 #include <thread>
 
-#include "exit_status.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "store/build/fingerprint.h"
 #include "store/opened.h"
 #include "store_start.h"
-#include "tell.h"
 #include "verify/verify_stored.h"
 
 namespace roam::app {

@@ -9,17 +9,17 @@
 #include <memory>
 #include <sstream>
 
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "files/whole_file.h"
-#include "interrupt.h"
-#include "output_file.h"
 #include "picture/draw.h"
 #include "probe_picture.h"
 #include "probe_text.h"
-#include "progress.h"
 #include "roam/path_file.h"
 #include "surveyed.h"
-#include "tell.h"
-#include "validators.h"
 #include "verbs.h"
 #include "words/probe.h"
 
@@ -227,10 +227,10 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"walk", "fly"}))
       ->type_name("MODE");
   verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(number_within(0.0, 1000.0))
+      ->check(from_to(0.0, 1000.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
-      ->check(number_within(0.0, 89.0))
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--support-radius", o.support_radius,
                    "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
@@ -239,7 +239,7 @@ void add_probe(CLI::App& program, Run& run) {
   verb->add_option("--spacing", o.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(number_within(0.001, 100.0))
+      ->check(from_to(0.001, 100.0))
       ->type_name("M");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
   verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");

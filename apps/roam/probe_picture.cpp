@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 #include "picture/opening.h"
 #include "probe_text.h"
 #include "words/measures.h"

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
 #include "text/printable.h"
 #include "words/measures.h"
 #include "words/probe.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "cli/report.h"
 #include "roam/probe.h"
 
 namespace roam::app {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "floors.h"
-#include "interrupt.h"
-#include "progress.h"
 #include "roam/error.h"
 #include "roam/store.h"
-#include "tell.h"
 
 namespace roam::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tell.h"
+#include "cli/tell.h"
 
 namespace roam::app {
 

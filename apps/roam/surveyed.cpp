@@ -7,12 +7,12 @@
 #include <fstream>
 #include <optional>
 
-#include "exit_status.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "roam/store.h"
 #include "store/meshes.h"
-#include "tell.h"
 
 namespace roam::app {
 namespace {

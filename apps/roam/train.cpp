@@ -8,15 +8,15 @@
 #include <memory>
 #include <optional>
 
-#include "interrupt.h"
-#include "output_file.h"
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "picture/picture.h"
-#include "progress.h"
 #include "roam/error.h"
 #include "surveyed.h"
-#include "tell.h"
 #include "train_report.h"
-#include "validators.h"
 #include "verbs.h"
 #include "words/training.h"
 
@@ -171,17 +171,17 @@ void add_train(CLI::App& program, Run& run) {
       ->type_name("S");
   verb->add_option("--radius-min", o.train.radius_min,
                    "In metres: what lets less through decides nothing and gets no region (default: 0.15)")
-      ->check(number_within(0.01, 100.0))
+      ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
-      ->check(number_within(0.01, 100.0))
+      ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--support-max", o.train.support_max,
                    "The largest foot, in metres: wider cracks are open drops (default: 1)")
-      ->check(number_within(0.1, 100.0))
+      ->check(from_to(0.1, 100.0))
       ->type_name("R");
   verb->add_option("--height", o.train.height, "Whole height, in metres (default: a sphere)")
-      ->check(number_within(0.1, 100.0))
+      ->check(from_to(0.1, 100.0))
       ->type_name("H");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(CLI::IsMember({"walk", "fly"}))
@@ -190,15 +190,15 @@ void add_train(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"interval", "paper"}))
       ->type_name("METHOD");
   verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(number_within(0.0, 100.0))
+      ->check(from_to(0.0, 100.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
-      ->check(number_within(0.0, 89.0))
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--spacing", o.train.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(number_within(0.02, 100.0))
+      ->check(from_to(0.02, 100.0))
       ->type_name("M");
   verb->add_option("--picture", o.picture, "Draw what decides, as .svg or .png")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile there (default: SCENE.roam.json)")->type_name("FILE");

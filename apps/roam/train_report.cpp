@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "progress.h"
-#include "tell.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "words/measures.h"
 #include "words/training.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/report.h"
 #include "picture/opening.h"
-#include "report.h"
 #include "roam/train.h"
 
 namespace roam::app {

@@ -10,11 +10,11 @@
 #include <charconv>
 #include <span>
 
+#include "cli/user_folder.h"
 #include "files/descriptor.h"
 #include "files/file_error.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
-#include "user_folder.h"
 
 namespace roam::app {
 namespace {

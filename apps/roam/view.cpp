@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "interrupt.h"
-#include "progress.h"
-#include "report.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "tell.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/notices.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
+#include "cli/numbers.h"
 #include "picture/picture.h"
 #include "roam/error.h"
-#include "validators.h"
 
 namespace roam::app {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "progress.h"
-#include "tell.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "text/printable.h"
 
 namespace roam::app {

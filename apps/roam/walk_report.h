@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "report.h"
+#include "cli/report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
 #include "verify/verification.h"

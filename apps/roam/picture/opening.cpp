@@ -7,12 +7,12 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "cli/progress.h"
 #include "cut.h"
 #include "labels.h"
 #include "lines.h"
 #include "marks.h"
 #include "opening_layout.h"
-#include "progress.h"
 
 namespace roam::app::picture {
 namespace {

@@ -7,12 +7,12 @@
 #include <glm/trigonometric.hpp>
 #include <set>
 
+#include "cli/progress.h"
 #include "cut.h"
 #include "frames.h"
 #include "levels.h"
 #include "lines.h"
 #include "panel.h"
-#include "progress.h"
 #include "survey.h"
 
 namespace roam::app::picture {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "cli/progress.h"
 #include "compose.h"
-#include "progress.h"
 
 namespace roam::app::picture {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
 #include "open_scene.h"
 #include "roam/error.h"
 #include "store/build/same_scene.h"

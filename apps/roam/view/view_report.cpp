@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "progress.h"
-#include "tell.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
 #include "walk_report.h"
 
 namespace roam::app {

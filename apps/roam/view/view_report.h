@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "cli/report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
 #include "verify/piece_log.h"

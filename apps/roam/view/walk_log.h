@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "histogram.h"
+#include "cli/histogram.h"
 #include "roam/tally.h"
 #include "roam/walker.h"
 #include "verify/piece_log.h"

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "cli/report.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "tell.h"
 #include "text/printable.h"
 
 namespace roam::app {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small stores made by hand, without the builder: the tiles of World::build, in pages as small as a test likes.
+/// Small stores made by hand, for tests and benchmarks: the tiles of World::build, in pages of any size.
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "command_line.h"
+#include "cli/command_line.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <new>
 #include <sstream>
 
-#include "interrupt.h"
-#include "report.h"
+#include "cli/interrupt.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "tell.h"
 
 namespace roam::app {
 namespace {

@@ -1,15 +1,25 @@
 #pragma once
 /// \file
-/// What the numbers of the benchmarks' options may be.
+/// What the numbers of options may be.
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
 
 #include "roam/generate.h"
 
-namespace roam::bench {
+namespace roam::app {
+
+/// A finite number greater than 0.
+inline const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+      return number && value > 0.0 ? std::string() : "'" + text + "' is not a number greater than 0";
+    },
+    "");
 
 /// A number of this type from `least` to `most`.
 template <class Number>
@@ -37,4 +47,4 @@ inline CLI::Option* add_triangles(CLI::App& app, const std::string& name, std::u
       ->capture_default_str();
 }
 
-}  // namespace roam::bench
+}  // namespace roam::app

@@ -1,12 +1,12 @@
-#include "progress.h"
+#include "cli/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 
-#include "interrupt.h"
-#include "tell.h"
+#include "cli/interrupt.h"
+#include "cli/tell.h"
 
 namespace roam::app {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
-// Tiles to encode, what decoding them must give, and what makes a tile safe to walk.
+/// \file
+/// Tiles to encode, for tests and benchmarks: what decoding them must give, and what makes a tile safe to walk.
 
 #include <zstd.h>
 
@@ -76,7 +77,8 @@ class Room {
     const auto* all = reinterpret_cast<const unsigned char*>(blocks_.get());
     const auto guarded = [](unsigned char c) { return c == guard_bytes; };
     const auto* end = all + sizeof(Block) + bytes;
-    return std::all_of(all, all + sizeof(Block), guarded) && std::all_of(end, end + guard_count * sizeof(Block), guarded);
+    return std::all_of(all, all + sizeof(Block), guarded) &&
+           std::all_of(end, end + guard_count * sizeof(Block), guarded);
   }
 
  private:
@@ -119,7 +121,8 @@ inline std::string danger_of(std::span<const std::byte> bytes, const TileShape& 
   std::uint32_t triangles = 0;
   for (std::uint32_t i = 0; i < shape.leaves; ++i) {
     if (seen_leaves[i] == 0) return "a leaf is not reached";
-    if (leaves[i].triangle_count < 1 || leaves[i].triangle_count > roam::index::node_width) return "triangles of a leaf";
+    if (leaves[i].triangle_count < 1 || leaves[i].triangle_count > roam::index::node_width)
+      return "triangles of a leaf";
     if (leaves[i].ids != triangles || leaves[i].id_bytes != 0) return "ids of a leaf";
     triangles += leaves[i].triangle_count;
   }
