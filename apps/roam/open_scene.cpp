@@ -15,9 +15,9 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "free_start.h"
 #include "store/build/fingerprint.h"
 #include "store/opened.h"
-#include "store_start.h"
 #include "verify/verify_stored.h"
 
 namespace roam::app {
@@ -96,10 +96,10 @@ std::optional<PagerStats> OpenScene::paging() const {
 }
 
 Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
-  if (!store_) return wander_start(loaded_.world, settings, mode, loaded_.floors);
+  if (!store_) return free_start(loaded_.world, settings, mode, loaded_.floors);
   // The pager's memory, and that of what is looked through, are not there at the same time.
   leave();
-  const Vec3 place = store_start(*store_, memory_, settings, mode);
+  const Vec3 place = free_start(*store_, memory_, settings, mode);
   return_memory();
   pager_ = make_pager(store_, memory_);
   return place;

@@ -33,7 +33,7 @@ class OpenScene {
   /// Of the pager; nothing where the scene was read whole.
   [[nodiscard]] std::optional<PagerStats> paging() const;
 
-  /// A free place to start from, see wander_start.
+  /// A free place to start from, see free_start.
   /// To be called before space().
   [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode);
   /// After the last step: gives a pager's memory back, for what follows. space() is gone then.

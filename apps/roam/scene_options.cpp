@@ -8,9 +8,9 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
-#include "floors.h"
 #include "roam/error.h"
 #include "roam/store.h"
+#include "roam/wander.h"
 
 namespace roam::app {
 namespace {

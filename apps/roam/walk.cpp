@@ -19,12 +19,12 @@
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
+#include "roam/wander.h"
 #include "store/meshes.h"
 #include "verbs.h"
 #include "walk_options.h"
 #include "walk_record.h"
 #include "walk_report.h"
-#include "wander.h"
 
 namespace roam::app {
 namespace {
@@ -127,7 +127,7 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
 }
 
 RouteResult roam_about(Walker& walker, const RouteOptions& options, double seconds, Recorder& recorder) {
-  Wander wander(walker, options, seconds);
+  Wander wander(walker, {.speed = options.speed, .dt = options.dt, .seconds = seconds});
   recorder.start(walker.report());
   while (!wander.done()) {
     wander.look();

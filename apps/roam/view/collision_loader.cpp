@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "floors.h"
+#include "roam/wander.h"
 #include "roam/error.h"
 
 namespace roam::app {

@@ -10,9 +10,8 @@
 #include "roam/error.h"
 #include "roam/world.h"
 #include "store/meshes.h"
-#include "store_start.h"
+#include "free_start.h"
 #include "triangles_around.h"
-#include "wander.h"
 
 namespace roam::app {
 namespace {
@@ -113,14 +112,14 @@ Pose overview(const Box& box, double fov) {
 StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
                       const std::function<bool()>& goes_on) {
   return start_place(
-      settings, mode, space.bounds(), [&](Mode way) { return wander_start(space, settings, way, floors, goes_on); },
+      settings, mode, space.bounds(), [&](Mode way) { return free_start(space, settings, way, floors, goes_on); },
       [&](const Vec3& eye) { return look(space, eye); });
 }
 
 StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                       const std::function<bool()>& goes_on) {
   return start_place(
-      settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, memory, settings, way, goes_on); },
+      settings, mode, store.info().bounds, [&](Mode way) { return free_start(store, memory, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
         store::append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);

@@ -1,6 +1,4 @@
-#include "wander.h"
-
-#include <fmt/format.h>
+#include "roam/wander.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +8,13 @@
 #include <numbers>
 #include <optional>
 
+#include "math/floating_point.h"
 #include "roam/error.h"
+#include "text/number.h"
 
-namespace roam::app {
+namespace roam {
 namespace {
 
-constexpr int columns_a_side = 32;   // of the grid that looks for a start
 constexpr int most_floors = 64;      // that are looked at in a column
 constexpr double lift = 0.05;        // m, a start is looked for so high above a floor, then let down
 constexpr double floor_gap = 0.01;   // m, the next floor of a column is looked for so far below the last
@@ -83,10 +82,11 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
   }
 }
 
-/// A place on the floor at `floor`, or in the air above it, and how much room there is.
-Start start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
+/// A place on the floor at `floor`, or in the air above it, and how much room there is; less than 0: the body does not
+/// fit.
+WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
   const Body body = Body::capsule(settings.radius, settings.height);
-  Start start;
+  WanderStart start{.room = -1.0};
   const Impact above = space.ray(floor + Vec3(0, 0, lift), {0, 0, wall_reach});
   const double ceiling = lift + above.time * wall_reach;
   if (mode == Mode::fly) {
@@ -127,16 +127,26 @@ std::optional<double> drop_from(const Space& space, const Vec3& place, double de
   return std::nullopt;
 }
 
+void demand_positive(const char* what, double value, const char* unit) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw Error(std::string("the wandering's ") + what + " is " + number_text(value) + " " + unit +
+              "; it must be more than 0");
+}
+
 }  // namespace
 
-Start best_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
-                 int columns, const std::function<bool()>& goes_on) {
+std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
+                                        std::span<const Vec3> floors, int columns,
+                                        const std::function<bool()>& goes_on) {
+  const DefaultFloatingPoint guard;
+  check(settings);
   const Box& box = space.bounds();
+  if (box.empty()) return std::nullopt;
   const Vec3 size = box.size();
-  Start best;
+  WanderStart best{.room = -1.0};
   const auto consider = [&](const Vec3& floor) {
     if (goes_on && !goes_on()) throw Cancelled();
-    const Start start = start_at(space, settings, mode, floor);
+    const WanderStart start = start_at(space, settings, mode, floor);
     if (start.room > best.room) best = start;
   };
   for (const Vec3& floor : floors) consider(floor);
@@ -153,26 +163,17 @@ Start best_start(const Space& space, const WalkerSettings& settings, Mode mode, 
       }
     }
   }
+  if (best.room < 0.0) return std::nullopt;
   return best;
 }
 
-void fail_to_start(const WalkerSettings& settings) {
-  throw Error(
-      fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
-                  "Else take a smaller body, or lead it with --path",
-                  settings.radius, settings.height));
-}
-
-Vec3 wander_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
-                  const std::function<bool()>& goes_on) {
-  if (space.bounds().empty()) throw Error("found no place to start from: the scene is empty");
-  const Start best = best_start(space, settings, mode, floors, columns_a_side, goes_on);
-  if (best.room < 0.0) fail_to_start(settings);
-  return best.place;
-}
-
-Wander::Wander(Walker& walker, const RouteOptions& options, double seconds)
-    : walker_(&walker), options_(options), seconds_(seconds) {
+Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
+  const DefaultFloatingPoint guard;
+  demand_positive("speed", options.speed, "m/s");
+  demand_positive("time", options.seconds, "s");
+  if (!(options.dt >= Route::shortest_step && std::isfinite(options.dt)))
+    throw Error("the wandering's time step is " + number_text(options.dt) + " s; it must be at least 1e-6 s");
+  if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing that could turn it; wander in fly or walk mode");
   result_.add_placement(walker.report());
   note(walker.report());
 }
@@ -211,6 +212,7 @@ bool Wander::is_barred(const Vec3& direction) const {
 }
 
 void Wander::look() {
+  const DefaultFloatingPoint guard;
   if (way_left_ > 0.0 && !stuck_) return;
   const bool fly = walker_->mode() == Mode::fly;
   double best = -1.0;
@@ -240,6 +242,10 @@ void Wander::look() {
 }
 
 const StepReport& Wander::advance() {
+  const DefaultFloatingPoint guard;
+  if (done_) throw Error("the wandering has ended: ask done() before each step");
+  look();
+  if (done_) return walker_->report();
   const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);
   result_.add_step(report);
   const double moved = report.length();
@@ -251,7 +257,7 @@ const StepReport& Wander::advance() {
     window_length_ = window_seconds_ = 0.0;
   }
   note(report);
-  if (!done_ && result_.simulated >= seconds_) {
+  if (!done_ && result_.simulated >= options_.seconds) {
     if (report.held) result_.outcome = Outcome::held;
     done_ = true;
   }
@@ -295,4 +301,4 @@ void Wander::note(const StepReport& report) {
   }
 }
 
-}  // namespace roam::app
+}  // namespace roam

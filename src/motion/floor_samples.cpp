@@ -1,10 +1,11 @@
-#include "floors.h"
-
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-namespace roam::app {
+#include "math/floating_point.h"
+#include "roam/wander.h"
+
+namespace roam {
 namespace {
 
 constexpr double flat = 0.87;  // cosine of 30 degrees: what a floor may lean
@@ -27,6 +28,7 @@ void each_triangle(std::span<const Mesh> meshes, const Visit& visit) {
 }  // namespace
 
 std::vector<Vec3> floor_samples(std::span<const Mesh> meshes, std::size_t count) {
+  const DefaultFloatingPoint guard;
   std::uint64_t up = 0;
   std::uint64_t down = 0;
   each_triangle(meshes, [&](const Triangle& t) {
@@ -48,4 +50,4 @@ std::vector<Vec3> floor_samples(std::span<const Mesh> meshes, std::size_t count)
   return samples;
 }
 
-}  // namespace roam::app
+}  // namespace roam
