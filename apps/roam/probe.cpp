@@ -14,8 +14,8 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "draw/draw.h"
 #include "files/whole_file.h"
-#include "picture/draw.h"
 #include "probe_picture.h"
 #include "probe_text.h"
 #include "roam/path_file.h"
@@ -147,13 +147,13 @@ ExitStatus probe(ProbeOptions o) {
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !picture::is_picture(*o.picture))
+  if (o.picture && !draw::is_picture(*o.picture))
     throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
   }
-  std::optional<picture::PictureFile> drawing;
+  std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope_degrees());
   double smallest = sizes.front().radius;

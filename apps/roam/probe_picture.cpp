@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "cli/interrupt.h"
-#include "picture/opening.h"
+#include "draw/opening.h"
 #include "probe_text.h"
 #include "words/measures.h"
 #include "words/probe.h"
@@ -18,8 +18,8 @@
 namespace roam::app {
 namespace {
 
-using picture::OpeningView;
-using picture::Overview;
+using draw::OpeningView;
+using draw::Overview;
 using Kind = ProbeLimit::Kind;
 
 /// Metres.
@@ -158,15 +158,15 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
 
 }  // namespace
 
-picture::Sheet sheet_of(const std::string& title, const Survey& survey, const ProbeQuestion& question,
-                        const ProbeAnswer& answer) {
+draw::Sheet sheet_of(const std::string& title, const Survey& survey, const ProbeQuestion& question,
+                     const ProbeAnswer& answer) {
   std::vector<OpeningView> views;
   if (answer.walk && answer.walk->outcome == Outcome::fell) {
     if (auto gap = gap_view(survey, question, answer)) views.push_back(std::move(*gap));
   }
   if (answer.limit) views.push_back(view_of(survey, question, answer));
-  return picture::opening_sheet(title, views, survey.meshes(), words::explain(question, answer),
-                                overview_of(survey, question, answer));
+  return draw::opening_sheet(title, views, survey.meshes(), words::explain(question, answer),
+                             overview_of(survey, question, answer));
 }
 
 }  // namespace roam::app

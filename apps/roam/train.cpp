@@ -13,7 +13,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
-#include "picture/picture.h"
+#include "draw/picture.h"
 #include "roam/error.h"
 #include "surveyed.h"
 #include "train_report.h"
@@ -105,9 +105,9 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !picture::is_picture(*o.picture))
+  if (o.picture && !draw::is_picture(*o.picture))
     throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
-  std::optional<picture::PictureFile> drawing;
+  std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
@@ -128,10 +128,10 @@ ExitStatus train(TrainVerbOptions o) {
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
-    const std::vector<picture::OpeningView> views = views_of(report);
+    const std::vector<draw::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.
-    drawing->write(picture::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
-                                          views.empty() ? words::answer(report.training, o.train) : std::string()));
+    drawing->write(draw::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
+                                       views.empty() ? words::answer(report.training, o.train) : std::string()));
   }
   unwritten.raise();
   if (!report.training.complete) return failed;

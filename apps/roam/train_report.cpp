@@ -165,13 +165,13 @@ std::string text_report(const TrainReport& report) {
   return text;
 }
 
-std::vector<picture::OpeningView> views_of(const TrainReport& report) {
+std::vector<draw::OpeningView> views_of(const TrainReport& report) {
   const Training& t = report.training;
-  std::vector<picture::OpeningView> views;
+  std::vector<draw::OpeningView> views;
   for (const Decisive& d : t.decisive) {
-    picture::OpeningView view;
+    draw::OpeningView view;
     const bool split = d.kind == Decisive::Kind::split;
-    view.kind = split ? picture::OpeningView::Kind::crack : picture::OpeningView::Kind::passage;
+    view.kind = split ? draw::OpeningView::Kind::crack : draw::OpeningView::Kind::passage;
     view.heading = fmt::format("{} {:.3f} m wide", split ? "Crack" : "Opening", d.width);
     view.text = split ? fmt::format("Carries no body or foot below a radius of {:.3f} m.", t.smallest)
                       : fmt::format("Lets a radius of {:.3f} m through, at most.", t.largest.value_or(0.0));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/report.h"
-#include "picture/opening.h"
+#include "draw/opening.h"
 #include "roam/train.h"
 
 namespace roam::app {
@@ -25,6 +25,6 @@ struct TrainReport {
 [[nodiscard]] std::string text_report(const TrainReport& report);
 
 /// What decides, to be drawn with the body that is answered.
-[[nodiscard]] std::vector<picture::OpeningView> views_of(const TrainReport& report);
+[[nodiscard]] std::vector<draw::OpeningView> views_of(const TrainReport& report);
 
 }  // namespace roam::app

@@ -14,8 +14,8 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "draw/picture.h"
 #include "open_scene.h"
-#include "picture/picture.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
@@ -73,7 +73,7 @@ class Recorder {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
   }
   [[nodiscard]] const verification::PieceLog& pieces() const { return pieces_; }
-  [[nodiscard]] const picture::Record& record() const { return record_; }
+  [[nodiscard]] const draw::Record& record() const { return record_; }
 
  private:
   /// `begun`: seconds when the step began.
@@ -90,7 +90,7 @@ class Recorder {
   std::optional<TraceFile> trace_;
   Histogram nanoseconds_;
   verification::PieceLog pieces_;
-  picture::Record record_;
+  draw::Record record_;
   Tally tally_;
 };
 
@@ -171,16 +171,16 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
 /// Bytes that a segment takes at most while a picture is made.
 constexpr std::uint64_t bytes_a_segment = 2048;
 
-picture::Measured measured(OpenScene& scene, const WalkReport& report, const picture::Record& record) {
+draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
   Surroundings around(scene);
   // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
   const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
-  return picture::measure(scene.space(), report, record, scene.store() ? picture::Arrive(arrive) : picture::Arrive());
+  return draw::measure(scene.space(), report, record, scene.store() ? draw::Arrive(arrive) : draw::Arrive());
 }
 
 /// The sheet of what was measured. Of a store, after OpenScene::leave.
-picture::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
-                     const picture::Record& record, const picture::Measured& measured) {
+draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
+                  const draw::Record& record, const draw::Measured& measured) {
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
     if (!scene.store()) return take(scene.loaded().meshes);
     const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
@@ -193,8 +193,9 @@ picture::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const W
         missing);
   };
   const auto fit = static_cast<std::size_t>(scene.memory() / bytes_a_segment);
-  return picture::make_sheet({title(options), report, record, measured, scene.walked_bounds(), triangles,
-                              scene.store() ? std::min(fit, picture::usual_segments) : picture::usual_segments});
+  return draw::make_sheet({title(options), report, record, measured, scene.walked_bounds(), triangles,
+                           scene.store() ? std::min(fit, draw::usual_segments) : draw::usual_segments,
+                           report.triangles});
 }
 
 ExitStatus walk(WalkOptions options) {
@@ -228,7 +229,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
-  std::optional<picture::PictureFile> drawing;
+  std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
@@ -238,7 +239,7 @@ ExitStatus walk(WalkOptions options) {
                    options.scene.names());
     tell(describe(*options.profile));
   }
-  const std::string size = note_on_size(options.settings, scene.bounds());
+  const std::string size = words::note_on_size(options.settings, scene.bounds());
   if (!size.empty()) tell("note: " + size);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
@@ -280,7 +281,7 @@ ExitStatus walk(WalkOptions options) {
   }
   report.paging = scene.paging();
   report.times = recorder.times();
-  std::optional<picture::Measured> seen;
+  std::optional<draw::Measured> seen;
   if (drawing) seen = measured(scene, report, recorder.record());
   scene.leave();
   if (options.checks()) {

@@ -5,7 +5,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/numbers.h"
-#include "picture/picture.h"
+#include "draw/picture.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -70,7 +70,7 @@ void check_outputs(const WalkOptions& options) {
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
   if (options.picture.empty()) return;
-  if (!picture::is_picture(options.picture)) {
+  if (!draw::is_picture(options.picture)) {
     throw UsageError("--picture " + options.picture.string() + ": a picture is an .svg or a .png, by its extension");
   }
   std::error_code none;

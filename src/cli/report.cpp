@@ -41,6 +41,24 @@ std::string without_controls(std::string_view text) {
 
 }  // namespace
 
+Json to_json(const PagerStats& paging) {
+  return {{"memory", paging.memory},
+          {"used", paging.used},
+          {"tiles", paging.tiles},
+          {"pages", paging.pages},
+          {"triangles", paging.triangles},
+          {"wanted", paging.wanted},
+          {"loads", paging.loads},
+          {"evictions", paging.evictions},
+          {"failures", paging.failures},
+          {"failed", paging.failed},
+          {"bytes_read", paging.bytes_read},
+          {"worst_read_s", paging.worst_read_s},
+          {"worst_decode_s", paging.worst_decode_s},
+          {"ready_m", paging.ready_m},
+          {"last_failure", paging.last_failure}};
+}
+
 void print(const Json& report) {
   // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
   write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roam/math.h"
+#include "roam/pager.h"
 
 namespace roam::app {
 
@@ -16,6 +17,9 @@ using Json = nlohmann::ordered_json;
 
 /// {"min": [x, y, z], "max": [x, y, z]}
 [[nodiscard]] inline Json to_json(const Box& box) { return {{"min", to_json(box.lower)}, {"max", to_json(box.upper)}}; }
+
+/// What a pager held and did.
+[[nodiscard]] Json to_json(const PagerStats& paging);
 
 /// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
 /// written, e.g. to a disk that is full.

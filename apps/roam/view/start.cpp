@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "free_start.h"
 #include "roam/error.h"
 #include "roam/world.h"
 #include "store/meshes.h"
-#include "free_start.h"
 #include "triangles_around.h"
 
 namespace roam::app {
