@@ -1,9 +1,9 @@
 // Where a walk begins when nobody says it: on a floor, and inside where there is an inside.
 #include <gtest/gtest.h>
 
-#include "free_start.h"
 #include "roam/generate.h"
 #include "roam/world.h"
+#include "scenes/free_start.h"
 
 namespace {
 

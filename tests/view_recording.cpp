@@ -3,7 +3,7 @@
 
 #include "messages.h"
 #include "program.h"
-#include "recorded_body.h"
+#include "scenes/recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "view/options.h"

@@ -6,7 +6,7 @@
 #include "cli/tell.h"
 #include "roam/profile.h"
 #include "roam/store.h"
-#include "scene_options.h"
+#include "scenes/scene_options.h"
 #include "verbs.h"
 
 namespace roam::app {

@@ -16,10 +16,10 @@
 #include "cli/tell.h"
 #include "draw/draw.h"
 #include "files/whole_file.h"
-#include "probe_picture.h"
-#include "probe_text.h"
+#include "probe/picture.h"
+#include "probe/text.h"
 #include "roam/path_file.h"
-#include "surveyed.h"
+#include "scenes/surveyed.h"
 #include "verbs.h"
 #include "words/probe.h"
 
@@ -147,8 +147,7 @@ ExitStatus probe(ProbeOptions o) {
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !draw::is_picture(*o.picture))
-    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
+  if (o.picture) draw::check_picture(*o.picture);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
@@ -175,7 +174,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
   if (o.path && !first.wide_enough) tell(fmt::format("{}: there is no way, so it was not written", o.path->string()));
   if (drawing) {
-    unwritten.attempt([&] { drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first)); });
+    unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
   }
   if (o.json) {
     print(report_of(o, scene, answers));

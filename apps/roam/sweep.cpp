@@ -18,10 +18,10 @@
 
 #include "cli/interrupt.h"
 #include "cli/tell.h"
-#include "open_scene.h"
-#include "paged_sweep.h"
 #include "roam/error.h"
-#include "sweep_rows.h"
+#include "scenes/open_scene.h"
+#include "sweep/paged.h"
+#include "sweep/rows.h"
 #include "verbs.h"
 
 namespace roam::app {

@@ -15,8 +15,8 @@
 #include "cli/tell.h"
 #include "draw/picture.h"
 #include "roam/error.h"
-#include "surveyed.h"
-#include "train_report.h"
+#include "scenes/surveyed.h"
+#include "train/report.h"
 #include "verbs.h"
 #include "words/training.h"
 
@@ -105,8 +105,7 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !draw::is_picture(*o.picture))
-    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
+  if (o.picture) draw::check_picture(*o.picture);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);
@@ -130,7 +129,7 @@ ExitStatus train(TrainVerbOptions o) {
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.
-    drawing->write(draw::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
+    drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(),
                                        views.empty() ? words::answer(report.training, o.train) : std::string()));
   }
   unwritten.raise();

@@ -1,7 +1,6 @@
 // roam verify: is every byte of a store what was written?
 #include <fmt/format.h>
 
-#include "build_notes.h"
 #include "cli/exit_status.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -9,7 +8,8 @@
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
-#include "user_key.h"
+#include "scenes/beside_scene.h"
+#include "scenes/user_key.h"
 #include "verbs.h"
 
 namespace roam::app {

@@ -9,22 +9,24 @@
 #include <memory>
 #include <utility>
 
-#include "arrivals.h"
 #include "cli/histogram.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/trace_file.h"
 #include "draw/picture.h"
-#include "open_scene.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
 #include "roam/wander.h"
+#include "scenes/arrivals.h"
+#include "scenes/open_scene.h"
 #include "store/meshes.h"
 #include "verbs.h"
-#include "walk_options.h"
-#include "walk_record.h"
-#include "walk_report.h"
+#include "verify/verify_stored.h"
+#include "walk/against.h"
+#include "walk/options.h"
+#include "walk/report.h"
 
 namespace roam::app {
 namespace {
@@ -147,12 +149,7 @@ RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3>
 
 /// What a picture is called.
 std::string title(const WalkOptions& options) {
-  std::string text;
-  for (const auto& scene : options.scene.scenes) {
-    // A folder may be given with a slash behind it.
-    const auto name = scene.has_filename() ? scene.filename() : scene.parent_path().filename();
-    text += (text.empty() ? "" : ", ") + name.string();
-  }
+  const std::string text = options.scene.file_names();
   return options.wander ? text + fmt::format(", wandering for {:g} s", *options.wander)
                         : text + " along " + options.path.filename().string();
 }
@@ -165,7 +162,8 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
                           [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
   }
   Progress progress("verifying", "pieces");
-  return scene.verified(pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
+  const auto goes_on = [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); };
+  return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
 /// Bytes that a segment takes at most while a picture is made.

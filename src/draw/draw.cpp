@@ -11,6 +11,7 @@
 #include <numbers>
 #include <span>
 
+#include "cli/exit_status.h"
 #include "files/extension.h"
 #include "roam/error.h"
 
@@ -127,9 +128,10 @@ Rect measure_text(const std::string& text, double size, bool bold) {
           {std::max(extents.x_advance, extents.x_bearing + extents.width), font.descent}};
 }
 
-bool is_picture(const std::filesystem::path& file) {
+void check_picture(const std::filesystem::path& file) {
   const std::string extension = files::lower_extension(file);
-  return extension == ".svg" || extension == ".png";
+  if (extension == ".svg" || extension == ".png") return;
+  throw app::UsageError("--picture " + file.string() + ": a picture is an .svg or a .png, by its extension");
 }
 
 PictureFile::PictureFile(const std::filesystem::path& file) : path_(file), file_(file) {}

@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "free_start.h"
 #include "roam/error.h"
 #include "roam/world.h"
+#include "scenes/free_start.h"
+#include "scenes/triangles_around.h"
 #include "store/meshes.h"
-#include "triangles_around.h"
 
 namespace roam::app {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "cli/histogram.h"
+#include "cli/trace_file.h"
 #include "roam/tally.h"
 #include "roam/walker.h"
 #include "verify/piece_log.h"
-#include "walk_record.h"
 
 namespace roam::app {
 

@@ -1,4 +1,4 @@
-#include "scene_options.h"
+#include "scenes/scene_options.h"
 
 #include <fmt/format.h>
 
@@ -17,13 +17,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-ImportedScene read(const SceneOptions& options) {
-  ImportOptions how = options.import_options();
-  Progress progress("reading " + options.names(), "B");
-  how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
-  return import_scene(options.scenes, how);
 }
 
 World index(const SceneOptions& options, const ImportedScene& scene) {
@@ -116,11 +109,31 @@ std::string SceneOptions::names() const {
   return text;
 }
 
-LoadedScene load(const SceneOptions& options, Source source) {
+std::string SceneOptions::file_names() const {
+  std::string text;
+  for (const auto& path : scenes) {
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    text += (text.empty() ? "" : ", ") + name.string();
+  }
+  return text;
+}
+
+ImportedScene read_scene(const SceneOptions& options) {
   options.check_there();
-  const auto start = std::chrono::steady_clock::now();
-  ImportedScene scene = read(options);
+  ImportOptions how = options.import_options();
+  ImportedScene scene;
+  {
+    Progress progress("reading " + options.names(), "B");
+    how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
+    scene = import_scene(options.scenes, how);
+  }
   for (const std::string& note : scene.report.notes) tell("note: " + note);
+  return scene;
+}
+
+LoadedScene load(const SceneOptions& options, Source source) {
+  const auto start = std::chrono::steady_clock::now();
+  ImportedScene scene = read_scene(options);
   LoadedScene loaded;
   loaded.read_seconds = seconds_since(start);
   stop_if_interrupted();

@@ -1,4 +1,4 @@
-#include "arrivals.h"
+#include "scenes/arrivals.h"
 
 #include <algorithm>
 #include <thread>

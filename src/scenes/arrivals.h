@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "open_scene.h"
+#include "scenes/open_scene.h"
 
 namespace roam::app {
 

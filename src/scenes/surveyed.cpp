@@ -1,4 +1,4 @@
-#include "surveyed.h"
+#include "scenes/surveyed.h"
 
 #include <fmt/format.h>
 
@@ -62,16 +62,6 @@ std::vector<Mesh> read_store(const Store& store) {
   return meshes;
 }
 
-std::vector<Mesh> read_scene(const SceneOptions& options) {
-  options.check_there();
-  ImportOptions how = options.import_options();
-  Progress progress("reading " + options.names(), "B");
-  how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
-  ImportedScene scene = import_scene(options.scenes, how);
-  for (const std::string& note : scene.report.notes) tell("note: " + note);
-  return std::move(scene.meshes);
-}
-
 }  // namespace
 
 void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
@@ -92,7 +82,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     identity = identity_of(store->info());
     meshes = read_store(*store);
   } else {
-    meshes = read_scene(options);
+    meshes = read_scene(options).meshes;
     identity = identity_of(meshes);
   }
   stop_if_interrupted();
@@ -126,15 +116,6 @@ void check_spacing(const Surveyed& scene, double spacing, double width) {
                     "say --spacing {:.2g} or less",
                     spacing, overlooked * spacing, width, std::floor(100.0 * width / overlooked) / 100.0));
   }
-}
-
-std::string file_names(const SceneOptions& scene) {
-  std::string text;
-  for (const auto& path : scene.scenes) {
-    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
-    text += (text.empty() ? "" : ", ") + name.string();
-  }
-  return text;
 }
 
 }  // namespace roam::app

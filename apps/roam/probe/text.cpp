@@ -1,5 +1,5 @@
 // What `roam probe` says: a table, JSON.
-#include "probe_text.h"
+#include "probe/text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "train_report.h"
+#include "train/report.h"
 
 #include <fmt/format.h>
 

@@ -44,6 +44,8 @@ struct SceneOptions {
   void check_there() const;
   /// The file names for people, separated by ", ".
   [[nodiscard]] std::string names() const;
+  /// The same without folders: what a picture is called.
+  [[nodiscard]] std::string file_names() const;
 };
 
 /// A scene that was read and indexed.
@@ -60,6 +62,9 @@ struct LoadedScene {
 
 /// What becomes of the triangles as read once the world is built.
 enum class Source : std::uint8_t { keep, release };
+
+/// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.
+[[nodiscard]] ImportedScene read_scene(const SceneOptions& options);
 
 /// Reads and indexes, with progress and the import's notes on standard error. Throws what import_scene and
 /// World::build throw.

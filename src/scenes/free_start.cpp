@@ -1,11 +1,11 @@
-#include "free_start.h"
+#include "scenes/free_start.h"
 
 #include <fmt/format.h>
 
 #include "roam/error.h"
 #include "roam/world.h"
+#include "scenes/triangles_around.h"
 #include "store/meshes.h"
-#include "triangles_around.h"
 
 namespace roam::app {
 namespace {

@@ -1,11 +1,11 @@
-#include "walk_options.h"
+#include "walk/options.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cli/exit_status.h"
 #include "cli/numbers.h"
-#include "draw/picture.h"
+#include "draw/draw.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -70,9 +70,7 @@ void check_outputs(const WalkOptions& options) {
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
   if (options.picture.empty()) return;
-  if (!draw::is_picture(options.picture)) {
-    throw UsageError("--picture " + options.picture.string() + ": a picture is an .svg or a .png, by its extension");
-  }
+  draw::check_picture(options.picture);
   std::error_code none;
   if (std::filesystem::weakly_canonical(options.picture, none) ==
       std::filesystem::weakly_canonical(options.trace, none)) {

@@ -1,4 +1,4 @@
-#include "walk_record.h"
+#include "cli/trace_file.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "walk_report.h"
+#include "walk/report.h"
 
 #include <fmt/format.h>
 

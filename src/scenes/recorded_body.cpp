@@ -1,4 +1,4 @@
-#include "recorded_body.h"
+#include "scenes/recorded_body.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "paged_sweep.h"
+#include "sweep/paged.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "arrivals.h"
 #include "roam/error.h"
+#include "scenes/arrivals.h"
 
 namespace roam::app {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "open_scene.h"
-#include "recorded_body.h"
 #include "roam/route.h"
-#include "scene_profile.h"
+#include "scenes/open_scene.h"
+#include "scenes/recorded_body.h"
+#include "scenes/scene_profile.h"
 
 namespace roam::app {
 

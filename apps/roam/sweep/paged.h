@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
-#include "open_scene.h"
-#include "sweep_rows.h"
+#include "scenes/open_scene.h"
+#include "sweep/rows.h"
 
 namespace roam::app {
 

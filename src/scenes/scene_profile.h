@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "recorded_body.h"
 #include "roam/profile.h"
-#include "scene_options.h"
+#include "scenes/recorded_body.h"
+#include "scenes/scene_options.h"
 
 namespace roam::app {
 

@@ -1,4 +1,4 @@
-#include "triangles_around.h"
+#include "scenes/triangles_around.h"
 
 #include <algorithm>
 

@@ -9,8 +9,7 @@
 
 #include "roam/pager.h"
 #include "roam/walker.h"
-#include "scene_options.h"
-#include "verify/piece_log.h"
+#include "scenes/scene_options.h"
 
 namespace roam::app {
 
@@ -55,11 +54,6 @@ class OpenScene {
   /// Why the unknown that a contact names is not known; waits a moment for what is found out beside.
   [[nodiscard]] std::string why_unknown(TriangleId unknown) const;
 
-  /// Every piece against every triangle: of the scene as read, of the store as stored, as far as that can be read.
-  /// Of a store, after leave().
-  [[nodiscard]] verification::Verification verified(const verification::PieceLog& pieces,
-                                                    const std::function<bool(std::uint64_t)>& progress) const;
-
  private:
   std::uint64_t memory_;  ///< bytes for a store
   LoadedScene loaded_;
@@ -70,16 +64,5 @@ class OpenScene {
 /// Lets a scene be read as the store was that was made of it, in what its options do not say. Throws roam::Error where
 /// this program does not know how.
 void read_as(SceneOptions& scene, const Store& store);
-
-/// What verify_against needs, looked for before a walk that may take hours. Throws UsageError for a store, and
-/// roam::Error for a scene that is not there.
-void check_against(const SceneOptions& scene);
-
-/// Every piece against every triangle of a scene that is read piece by piece, however large it is. It is read once for
-/// as many pieces as fit in half of the memory. Where it has not as many triangles as the store that was `walked`, a
-/// note on standard error says so. `progress` as of verify, but with bytes done and in all.
-[[nodiscard]] verification::Verification verify_against(
-    const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
-    const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
 
 }  // namespace roam::app

@@ -1,4 +1,4 @@
-#include "user_key.h"
+#include "scenes/user_key.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

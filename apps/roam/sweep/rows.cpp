@@ -1,4 +1,4 @@
-#include "sweep_rows.h"
+#include "sweep/rows.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 
 #include "roam/profile.h"
 #include "roam/survey.h"
-#include "scene_options.h"
+#include "scenes/scene_options.h"
 
 namespace roam::app {
 
@@ -27,8 +27,5 @@ struct Surveyed {
 /// Of --spacing, m: throws UsageError where it is more than half the scene's length, so that hardly a place would be
 /// looked at, and warns on standard error where openings of `width`, m, may be overlooked.
 void check_spacing(const Surveyed& scene, double spacing, double width);
-
-/// What a picture is called: its scene, without folders.
-[[nodiscard]] std::string file_names(const SceneOptions& scene);
 
 }  // namespace roam::app

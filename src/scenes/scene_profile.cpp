@@ -1,4 +1,4 @@
-#include "scene_profile.h"
+#include "scenes/scene_profile.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,12 @@
 #pragma once
 /// \file
-/// Where the store of a scene is looked for, and made, when nobody says.
+/// The store that lies beside its scene, and the notes of its build.
 
 #include <filesystem>
+#include <string>
+#include <vector>
+
+#include "roam/store_build.h"
 
 namespace roam::app {
 
@@ -12,5 +16,9 @@ namespace roam::app {
 /// Throws roam::Error where that, which nobody named, is a link: the folder of a scene may come from a stranger, and
 /// the link would lead a build to another store.
 void demand_no_link(const std::filesystem::path& store);
+
+/// The notes of a build, as sentences of the program. What was read now is noted by the program itself. Notes of parts
+/// that were read before are a store's, which may come from a stranger: they are quoted.
+[[nodiscard]] std::vector<std::string> told_notes(const StoreBuildReport& report, const std::filesystem::path& store);
 
 }  // namespace roam::app

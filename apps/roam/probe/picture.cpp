@@ -1,4 +1,4 @@
-#include "probe_picture.h"
+#include "probe/picture.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "cli/interrupt.h"
 #include "draw/opening.h"
-#include "probe_text.h"
+#include "probe/text.h"
 #include "words/measures.h"
 #include "words/probe.h"
 
