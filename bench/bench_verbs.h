@@ -2,7 +2,7 @@
 /// \file
 /// What roam-bench does, one file each.
 
-#include "verbs.h"
+#include "cli/command_line.h"
 
 namespace roam::bench {
 

@@ -6,13 +6,13 @@
 
 #include "bars.h"
 #include "bench_verbs.h"
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/report.h"
 #include "comparison.h"
-#include "interrupt.h"
-#include "output_file.h"
-#include "report.h"
 #include "roam/error.h"
 #include "run_options.h"
-#include "validators.h"
 
 namespace roam::bench {
 namespace {

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "bench_verbs.h"
-#include "command_line.h"
+#include "cli/command_line.h"
 #include "row_process.h"
 
 int main(int argc, char** argv) {

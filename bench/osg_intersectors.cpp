@@ -16,7 +16,7 @@
 #include <osgUtil/PolytopeIntersector>
 #include <vector>
 
-#include "number_options.h"
+#include "cli/numbers.h"
 #include "osgRoam/BoxIntersector.h"
 #include "osg_scene.h"
 #include "roam/generate.h"
@@ -126,10 +126,10 @@ int main(int argc, char** argv) {
   std::uint64_t triangles = 1'970'000;
   std::size_t every = 20;
   CLI::App app{"Times osgRoam::BoxIntersector and osgUtil::PolytopeIntersector on path 1 of the gallery"};
-  roam::bench::add_triangles(app, "--triangles", triangles, "of the gallery");
+  roam::app::add_triangles(app, "--triangles", triangles, "of the gallery");
   app.add_option("--every", every, "ask only each Nth step where nothing is indexed and there is one geode")
       ->capture_default_str()
-      ->check(roam::bench::at_least_one());
+      ->check(roam::app::at_least_one());
   CLI11_PARSE(app, argc, argv);
   try {
     run(triangles, every);

@@ -12,12 +12,12 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "../tests/store_made.h"
 #include "query_sets.h"
 #include "roam/walker.h"
 #include "roam/world.h"
 #include "run_options.h"
 #include "scene.h"
+#include "store/made.h"
 #include "timing.h"
 
 namespace {

@@ -6,15 +6,14 @@
 #include <filesystem>
 
 #include "bench_verbs.h"
-#include "interrupt.h"
-#include "number_options.h"
-#include "output_file.h"
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/report.h"
 #include "paper_report.h"
 #include "paper_scene.h"
-#include "report.h"
 #include "roam/error.h"
 #include "row_process.h"
-#include "validators.h"
 
 namespace roam::bench {
 namespace {
@@ -128,12 +127,13 @@ void add_paper(CLI::App& program, app::Run& run) {
                                         "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
                            ->type_name("FILE");
   constexpr std::uint64_t least = 50'000;  // with fewer the gallery leaves out the grotto of the last two ways
-  add_triangles(*verb, "--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB", least)
+  app::add_triangles(*verb, "--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB",
+                     least)
       ->excludes(scene);
   verb->add_option("--rows", options->rows, "Which rows, separated by commas (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(row_names()));
-  const CLI::Validator free_at_the_start = from_to(0.01, 0.9);  // m: the floor is 0.95 m below the paths
+  const CLI::Validator free_at_the_start = app::from_to(0.01, 0.9);  // m: the floor is 0.95 m below the paths
   verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(free_at_the_start);
   verb->add_option("--split-radius", paper.split_radius, "Of the sphere that is to cross the split, metres")
       ->capture_default_str()
@@ -146,7 +146,7 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->check(app::positive);
   verb->add_option("--memory", paper.memory, "A row that takes more is ended (default: three quarters of what is free)")
       ->transform(CLI::AsSizeValue(false))
-      ->check(from_to<std::uint64_t>(1u << 20, 1ull << 50))
+      ->check(app::from_to<std::uint64_t>(1u << 20, 1ull << 50))
       ->type_name("BYTES");
   verb->add_option("--wasm-engines", paper.wasm, "The folder whose node_modules hold PhysX: physx-js-webidl, from npm")
       ->type_name("DIR");

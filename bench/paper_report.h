@@ -2,9 +2,9 @@
 /// \file
 /// The paper's two tables, from what the rows did.
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
+#include "cli/report.h"
 #include "paper_judge.h"
-#include "report.h"
 #include "row_process.h"
 
 namespace roam::bench {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "roam/import.h"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "closed_form.h"
+#include "verify/swept_distance.h"
 
 namespace roam::bench {
 namespace {
@@ -79,25 +80,6 @@ double slab_entry(const Box& box, const Query& query) {
   // Quotients are rounded: a part in 1e12 of the motion is far more than that.
   constexpr double rounding = 1e-12;
   return first <= last + rounding ? first - rounding : std::numeric_limits<double>::infinity();
-}
-
-// The smallest distance on the way up to `time`: a convex function of time, narrowed by thirds.
-Exact smallest_on_way(const Triangle& triangle, const Query& query, double time) {
-  constexpr int thirds = 110;  // (2/3)^110 = 4e-20, a unit of the last place of long double
-  const auto at = [&](Exact t) {
-    return glm::length(shortest_way(triangle, query.body, Point<Exact>(query.from) + t * Point<Exact>(query.motion)));
-  };
-  Exact lower = 0;
-  Exact upper = time;
-  for (int i = 0; i < thirds; ++i) {
-    const Exact third = (upper - lower) / 3;
-    if (at(lower + third) < at(upper - third)) {
-      upper -= third;
-    } else {
-      lower += third;
-    }
-  }
-  return std::min(at(lower), at(time));
 }
 
 }  // namespace
@@ -219,7 +201,9 @@ double Reference::smallest_clearance(const Query& query, double time, double rea
         Query wide = query;
         wide.body.radius = smallest;
         if (impact<double>(triangle, wide, filter_slack, 2.0) <= time) {
-          smallest = std::min(smallest, static_cast<double>(smallest_on_way(triangle, query, time)));
+          smallest =
+              std::min(smallest, static_cast<double>(verification::swept_distance(
+                                     query.from, query.from + time * query.motion, query.body.half_height, triangle)));
         }
         return std::nextafter(time, 2.0);
       });

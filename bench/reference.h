@@ -4,8 +4,8 @@
 ///
 /// A binary tree of double boxes, split at the median, and closed forms: the ray against the rounded face, edges and
 /// vertices of each triangle (Ericson, "Real-Time Collision Detection", 2005, 5.5.6). A vertical capsule is the sphere
-/// against the triangle extruded by the capsule's axis. Nothing is shared with src/: neither the tree, nor the
-/// supporting plane, nor a margin.
+/// against the triangle extruded by the capsule's axis. Nothing is shared with the core: neither the tree,
+/// nor the supporting plane, nor a margin. The distance on a way is that of src/verify.
 
 #include <array>
 #include <cstdint>

@@ -18,8 +18,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/interrupt.h"
 #include "files/descriptor.h"
-#include "interrupt.h"
 #include "process/child.h"
 #include "roam/error.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "number_options.h"
+#include "cli/numbers.h"
 #include "query_sets.h"
 #include "scene.h"
 
@@ -20,19 +20,19 @@ struct RunOptions {
 
   void add_to(CLI::App& app) {
     app.add_option("--scene", scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
-    add_triangles(app, "--triangles", scene.triangles, "of a made scene");
+    app::add_triangles(app, "--triangles", scene.triangles, "of a made scene");
     app.add_option("--origin", origin_, "where the scene's centre is moved, metres: x,y,z")
         ->delimiter(',')
         ->expected(3)
-        ->check(from_to(-generate::origin_limit, generate::origin_limit))
+        ->check(app::from_to(-generate::origin_limit, generate::origin_limit))
         ->capture_default_str();
     app.add_option("--sets", sets, "which query sets, separated by commas (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(query_set_names()));
-    app.add_option("--queries", queries, "of each set")->capture_default_str()->check(at_least_one());
+    app.add_option("--queries", queries, "of each set")->capture_default_str()->check(app::at_least_one());
     app.add_option("--rounds", rounds, "each query's time is the median over these")
         ->capture_default_str()
-        ->check(at_least_one());
+        ->check(app::at_least_one());
     app.parse_complete_callback([this] { scene.origin = {origin_[0], origin_[1], origin_[2]}; });
   }
 

@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "bench_verbs.h"
-#include "interrupt.h"
-#include "number_options.h"
-#include "output_file.h"
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/report.h"
 #include "paper_scene.h"
-#include "report.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "roam/pager.h"
@@ -22,7 +22,6 @@
 #include "roam/world.h"
 #include "steps_picture.h"
 #include "timing.h"
-#include "validators.h"
 
 namespace roam::bench {
 namespace {
@@ -236,18 +235,20 @@ void add_scale(CLI::App& program, app::Run& run) {
   CLI::App* verb = program.add_subcommand("scale", "The time of a sweep and of a step by the size of the scene");
   verb->footer(help);
   const auto options = std::make_shared<Options>();
-  add_triangles(*verb, "--triangles", options->triangles, "Of the largest scene");
-  add_triangles(*verb, "--least", options->least, "Of the smallest");
+  app::add_triangles(*verb, "--triangles", options->triangles, "Of the largest scene");
+  app::add_triangles(*verb, "--least", options->least, "Of the smallest");
   verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
       ->capture_default_str()
       ->check(app::positive);
   verb->add_option("--pager", options->pager_mib, "MiB of each pager")
       ->capture_default_str()
-      ->check(from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));
-  verb->add_option("--speed", options->speed, "Metres per second")->capture_default_str()->check(from_to(0.1, 1e4));
+      ->check(app::from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));
+  verb->add_option("--speed", options->speed, "Metres per second")
+      ->capture_default_str()
+      ->check(app::from_to(0.1, 1e4));
   verb->add_option("--rounds", options->rounds, "Flights of each kind through each scene; medians over them")
       ->capture_default_str()
-      ->check(at_least_one());
+      ->check(app::at_least_one());
   verb->add_option("--scratch", options->scratch, "Where stores are made (default: the system's temporary folder)")
       ->type_name("DIR");
   verb->add_option("--picture", options->picture, "Draw the steps' times by size, to an SVG file")->type_name("FILE");

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/numbers.h"
 #include "counted_space.h"
-#include "number_options.h"
 #include "roam/generate.h"
 #include "roam/pager.h"
 #include "roam/route.h"
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   app.add_flag("--queries", options.queries, "counts what a step asks, which takes time of its own");
   app.add_option("--rounds", options.rounds, "flights through each, in turns")
       ->capture_default_str()
-      ->check(at_least_one());
+      ->check(roam::app::at_least_one());
   app.add_option("--picture", options.picture, "an SVG file to write");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <exception>
 
-#include "number_options.h"
+#include "cli/numbers.h"
 #include "roam/error.h"
 #include "scene.h"
+#include "store/codec/made_tiles.h"
 #include "store/codec/streams.h"
-#include "store_codec_tiles.h"
 #include "thread_clock.h"
 #include "timing.h"
 
@@ -141,10 +141,10 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app{"What tiles of a store take on disk, and the time to encode and decode them"};
   app.add_option("--scene", options.scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
-  roam::bench::add_triangles(app, "--triangles", options.scene.triangles, "of a made scene");
+  roam::app::add_triangles(app, "--triangles", options.scene.triangles, "of a made scene");
   app.add_option("--rounds", options.rounds, "a tile's time is the least of these")
       ->capture_default_str()
-      ->check(roam::bench::at_least_one());
+      ->check(roam::app::at_least_one());
   app.add_flag("--lossless", options.lossless, "tiles that keep the source's floats");
   app.add_flag("--streams", options.streams, "print the entropy of each stream, bytes a triangle");
   CLI11_PARSE(app, argc, argv);

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/progress.h"
 #include "cli_scenes.h"
 #include "messages.h"
 #include "program.h"
-#include "progress.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "import_files.h"
 #include "program.h"
 #include "roam/import.h"
-#include "swept_distance.h"
+#include "verify/swept_distance.h"
 
 namespace {
 
@@ -131,7 +131,7 @@ double true_clearance(const roam::ImportedScene& scene, const roam::Vec3& from, 
       bool near = true;
       for (int k = 0; k < 3; ++k)
         near = near && box.lower[k] - reach <= way.upper[k] && way.lower[k] - reach <= box.upper[k];
-      if (near) least = std::min(least, roam::app::swept_distance(from, to, 0.0, triangle));
+      if (near) least = std::min(least, roam::verification::swept_distance(from, to, 0.0, triangle));
     }
   }
   return static_cast<double>(least);

@@ -1,10 +1,9 @@
 // Where a walk begins when nobody says it: on a floor, and inside where there is an inside.
 #include <gtest/gtest.h>
 
-#include "floors.h"
 #include "roam/generate.h"
 #include "roam/world.h"
-#include "wander.h"
+#include "scenes/free_start.h"
 
 namespace {
 
@@ -31,26 +30,26 @@ TEST(FloorSamples, LieOnWhatFacesUp) {
   for (int i = 0; i < 100; ++i) add_square(mesh, Vec3(3.0 * i, 0.0, 3.0), 1.0, false);
   mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   mesh.triangles.push_back({800, 801, 802});  // a wall
-  const auto samples = roam::app::floor_samples({&mesh, 1}, 50);
+  const auto samples = roam::floor_samples({&mesh, 1}, 50);
   EXPECT_EQ(samples.size(), 50U);
   for (const Vec3& p : samples) EXPECT_EQ(p.z, 0.0);
   // Spread over all of them, not the first fifty.
   EXPECT_GT(samples.back().x, 280.0);
-  EXPECT_EQ(roam::app::floor_samples({&mesh, 1}, 1000).size(), 200U);
+  EXPECT_EQ(roam::floor_samples({&mesh, 1}, 1000).size(), 200U);
 }
 
 TEST(FloorSamples, LieOnFloorsOfAFileThatWindsThemTheOtherWay) {
   roam::Mesh mesh;
   add_square(mesh, Vec3(0.0), 1.0, false);
-  EXPECT_EQ(roam::app::floor_samples({&mesh, 1}, 10).size(), 2U);
-  EXPECT_TRUE(roam::app::floor_samples({}, 10).empty());
+  EXPECT_EQ(roam::floor_samples({&mesh, 1}, 10).size(), 2U);
+  EXPECT_TRUE(roam::floor_samples({}, 10).empty());
 }
 
 TEST(Start, IsRefusedInAnEmptyScene) {
   const roam::World world;
   for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly}) {
     try {
-      (void)roam::app::wander_start(world, person, mode, {});
+      (void)roam::app::free_start(world, person, mode, {});
       FAIL() << "there is no place in nothing";
     } catch (const roam::Error& error) {
       EXPECT_NE(std::string(error.what()).find("the scene is empty"), std::string::npos) << error.what();
@@ -63,7 +62,7 @@ TEST(Start, IsFoundInASceneThatIsHigherThanARayIsLong) {
   add_square(mesh, Vec3(0.0), 100.0, true);
   add_square(mesh, Vec3(5000.0, 0.0, 1.2e6), 1.0, true);
   const roam::World world = roam::World::build({&mesh, 1});
-  const Vec3 place = roam::app::wander_start(world, person, roam::Mode::walk, {});
+  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, {});
   EXPECT_NEAR(place.z, 0.95, 0.1);
 }
 
@@ -71,7 +70,7 @@ TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   // The gallery is 3 m wide in a landscape of kilometres: a grid of columns over it meets only the landscape.
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 200'000}));
   const roam::World world = roam::World::build(meshes);
-  const Vec3 place = roam::app::wander_start(world, person, roam::Mode::walk, roam::app::floor_samples(meshes));
+  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, roam::floor_samples(meshes));
   EXPECT_TRUE(world.ray(place, {0, 0, 6}).hit) << "no ceiling over " << place.x << ", " << place.y << ", " << place.z;
   int near_walls = 0;
   for (const Vec3& side : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}) {
@@ -87,11 +86,10 @@ TEST(Start, LetsABodyFlyOverAFloorWithoutARoofAndAroundABlock) {
   for (const double z : {0.0, 1.0}) add_square(block, Vec3(0.0, 0.0, z), 0.5, z > 0.0);
   for (const roam::Mesh& mesh : {floor, block}) {
     const World world = World::build({&mesh, 1});
-    const Vec3 start = roam::app::wander_start(world, person, roam::Mode::fly, {});
+    const Vec3 start = roam::app::free_start(world, person, roam::Mode::fly, {});
     roam::Walker walker(world, person, roam::Mode::fly, start);
-    roam::app::Wander wander(walker, {}, 20.0);
+    roam::Wander wander(walker, {.seconds = 20.0});
     while (!wander.done()) {
-      wander.look();
       wander.advance();
     }
     EXPECT_EQ(wander.result().outcome, roam::Outcome::reached);

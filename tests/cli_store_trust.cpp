@@ -13,7 +13,7 @@
 #include "store/manifest.h"
 #include "store_builds.h"
 #include "store_verbs.h"
-#include "user_key.h"
+#include "scenes/user_key.h"
 
 namespace {
 

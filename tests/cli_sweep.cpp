@@ -8,7 +8,7 @@
 #include "messages.h"
 #include "program.h"
 #include "roam/error.h"
-#include "sweep_rows.h"
+#include "sweep/rows.h"
 
 namespace {
 

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "piece_log.h"
 #include "roam/error.h"
-#include "swept_distance.h"
-#include "verification.h"
+#include "verify/piece_log.h"
+#include "verify/swept_distance.h"
+#include "verify/verification.h"
 
 namespace {
 
 using roam::Triangle;
 using roam::Vec3;
-using roam::app::Piece;
-using roam::app::swept_distance;
+using roam::verification::Piece;
+using roam::verification::swept_distance;
 
 const Triangle floor_triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
@@ -120,7 +120,7 @@ std::vector<Piece> walk_over(double z, double radius, double clearance, std::uin
 
 TEST(Verification, FindsNothingWrongWithAWalkThatKeepsItsDistance) {
   const std::vector<roam::Mesh> scene{floor_mesh(20)};
-  const auto result = roam::app::verify(scene, walk_over(0.31, 0.3, 0.31, 5000));
+  const auto result = roam::verification::verify(scene, walk_over(0.31, 0.3, 0.31, 5000));
   EXPECT_EQ(result.pieces, 5000u);
   EXPECT_EQ(result.violations, 0u);
   EXPECT_EQ(result.overstated, 0u);
@@ -136,7 +136,7 @@ TEST(Verification, CountsEachStepThatCameTooNearOnce) {
   pieces[1024].to.z = 0.20;
   pieces[1024].step = pieces[1023].step;
   pieces[3000].to.z = 0.29;
-  const auto result = roam::app::verify(scene, pieces);
+  const auto result = roam::verification::verify(scene, pieces);
   EXPECT_EQ(result.violations, 2u);
   ASSERT_TRUE(result.worst);
   EXPECT_EQ(result.worst->step, pieces[1024].step);
@@ -147,14 +147,14 @@ TEST(Verification, CountsEachStepThatCameTooNearOnce) {
 
 TEST(Verification, AllowsWhatTheWorldPromisesAndNoMore) {
   const std::vector<roam::Mesh> scene{floor_mesh(20)};
-  EXPECT_EQ(roam::app::verify(scene, walk_over(0.3 - 0.9e-6, 0.3, 0.0, 10)).violations, 0u);
-  EXPECT_EQ(roam::app::verify(scene, walk_over(0.3 - 1.1e-6, 0.3, 0.0, 10)).violations, 10u);
+  EXPECT_EQ(roam::verification::verify(scene, walk_over(0.3 - 0.9e-6, 0.3, 0.0, 10)).violations, 0u);
+  EXPECT_EQ(roam::verification::verify(scene, walk_over(0.3 - 1.1e-6, 0.3, 0.0, 10)).violations, 10u);
 }
 
 TEST(Verification, FindsAMoveThroughAWallWhoseEndsAreFree) {
   const std::vector<roam::Mesh> scene{{"wall", {{0, -9, -9}, {0, 9, -9}, {0, 0, 9}}, {{0, 1, 2}}}};
   const std::vector<Piece> pieces{{1, {-5, 0, 0}, {5, 0, 0}, {0.3, 0.6}, 0.0}};
-  const auto result = roam::app::verify(scene, pieces);
+  const auto result = roam::verification::verify(scene, pieces);
   EXPECT_EQ(result.violations, 1u);
   ASSERT_TRUE(result.worst);
   EXPECT_EQ(result.worst->distance, 0.0);
@@ -162,8 +162,8 @@ TEST(Verification, FindsAMoveThroughAWallWhoseEndsAreFree) {
 
 TEST(Verification, FindsCertificatesThatSayTooMuch) {
   const std::vector<roam::Mesh> scene{floor_mesh(20)};
-  EXPECT_EQ(roam::app::verify(scene, walk_over(0.5, 0.3, 0.5, 100)).overstated, 0u);
-  EXPECT_EQ(roam::app::verify(scene, walk_over(0.5, 0.3, 0.5 + 1e-8, 100)).overstated, 100u);
+  EXPECT_EQ(roam::verification::verify(scene, walk_over(0.5, 0.3, 0.5, 100)).overstated, 0u);
+  EXPECT_EQ(roam::verification::verify(scene, walk_over(0.5, 0.3, 0.5 + 1e-8, 100)).overstated, 100u);
 }
 
 TEST(Verification, AnswersAsMeasuringEveryPairDoes) {
@@ -197,7 +197,7 @@ TEST(Verification, AnswersAsMeasuringEveryPairDoes) {
     violations += least < 0.2L - 1e-6L ? 1 : 0;
     overstated += least < 0.25L - 1e-9L ? 1 : 0;
   }
-  const auto result = roam::app::verify(scene, pieces);
+  const auto result = roam::verification::verify(scene, pieces);
   EXPECT_GT(violations, 20u);
   EXPECT_GT(overstated, violations);
   EXPECT_EQ(result.violations, violations);
@@ -232,7 +232,7 @@ TEST(Verification, MeasuresTheFloorUnderWhoWalksOnIt) {
   floor.triangles = {{0, 1, 2}, {0, 2, 3}};
   // 1.7 mm above it, as storing leaves it, of which 0.7 mm are certified.
   const Piece piece{1, Vec3(2, 3, 0.3017), Vec3(3, 3, 0.3017), {0.3, 0.0}, 0.3007};
-  const auto result = roam::app::verify({&floor, 1}, {&piece, 1});
+  const auto result = roam::verification::verify({&floor, 1}, {&piece, 1});
   EXPECT_GT(result.distances, 0U);
   EXPECT_EQ(result.violations + result.overstated, 0U);
   EXPECT_NEAR(result.least_gap.value_or(0.0), 0.0017, 1e-12);
@@ -254,7 +254,7 @@ TEST(Verification, PassesOverOnlyWhatIsFartherThanNeedBe) {
       overstated += least < piece.clearance - 1e-9L ? 1 : 0;
       least_gap = std::min(least_gap, least - piece.body.radius);
     }
-    const auto result = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
+    const auto result = roam::verification::verify({&swarm.mesh, 1}, swarm.pieces);
     EXPECT_GT(violations, 10U);
     EXPECT_GT(overstated, 10U);
     EXPECT_EQ(result.violations, violations);
@@ -268,10 +268,10 @@ TEST(Verification, PassesOverOnlyWhatIsFartherThanNeedBe) {
 
 TEST(Verification, IsTheSameOfASceneThatComesPieceByPiece) {
   Swarm swarm(Vec3(-13739, 253, 182), 800, 3'000);
-  const auto whole = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
+  const auto whole = roam::verification::verify({&swarm.mesh, 1}, swarm.pieces);
   EXPECT_GT(whole.violations, 0U);
   // As a reader gives it, with vertices of its own for each piece, and one far away in between.
-  roam::app::Verifier verifier(swarm.pieces);
+  roam::verification::Verifier verifier(swarm.pieces);
   roam::TriangleId first = 0;
   for (std::size_t begin = 0; begin < swarm.mesh.triangles.size(); begin += 60) {
     roam::Mesh piece, far;
@@ -296,11 +296,11 @@ TEST(Verification, IsTheSameOfASceneThatComesPieceByPiece) {
 }
 
 TEST(Verification, IsTheSameOfPiecesThatLieInAFile) {
-  Swarm swarm(Vec3(-13739, 253, 182), 100, 2 * roam::app::PieceLog::held + 100);
-  const auto whole = roam::app::verify({&swarm.mesh, 1}, swarm.pieces);
-  roam::app::PieceLog log;
+  Swarm swarm(Vec3(-13739, 253, 182), 100, 2 * roam::verification::PieceLog::held + 100);
+  const auto whole = roam::verification::verify({&swarm.mesh, 1}, swarm.pieces);
+  roam::verification::PieceLog log;
   for (const Piece& piece : swarm.pieces) log.add(piece);
-  const auto logged = roam::app::verify({&swarm.mesh, 1}, log);
+  const auto logged = roam::verification::verify({&swarm.mesh, 1}, log);
   EXPECT_EQ(logged.pieces, whole.pieces);
   EXPECT_EQ(logged.violations, whole.violations);
   EXPECT_EQ(logged.overstated, whole.overstated);
@@ -308,8 +308,8 @@ TEST(Verification, IsTheSameOfPiecesThatLieInAFile) {
 }
 
 /// Whether it is asked if this is the scene, as it lies; otherwise it must be said that nothing was measured.
-bool asks(const roam::app::Verification& found) {
-  const std::vector<std::string> remarks = roam::app::remarks(found);
+bool asks(const roam::verification::Verification& found) {
+  const std::vector<std::string> remarks = roam::verification::remarks(found);
   if (remarks.size() != 1) return false;
   EXPECT_NE(remarks[0].find("no triangle came near") != std::string::npos,
             remarks[0].find("nothing had to be measured") != std::string::npos);
@@ -322,29 +322,29 @@ TEST(Verification, AsksWhetherItIsTheSceneOnlyWhereNothingElseExplainsThatNothin
   roam::Mesh ceiling = floor_mesh(20);
   for (Vec3& v : ceiling.vertices) v.z = 60.0;
   const std::vector<roam::Mesh> hall{floor[0], ceiling};
-  const auto found = roam::app::verify(hall, walk_over(30.0, 0.3, 1.3, 100));
+  const auto found = roam::verification::verify(hall, walk_over(30.0, 0.3, 1.3, 100));
   EXPECT_EQ(found.distances, 0U);
-  ASSERT_EQ(roam::app::remarks(found).size(), 1U) << "a check that measured nothing says so";
+  ASSERT_EQ(roam::verification::remarks(found).size(), 1U) << "a check that measured nothing says so";
   EXPECT_FALSE(asks(found)) << "through the middle of a hall";
-  EXPECT_TRUE(asks(roam::app::verify(hall, walk_over(30.0, 0.3, 0.301, 100)))) << "that stood on something";
-  EXPECT_FALSE(asks(roam::app::verify(hall, walk_over(30.0, 0.3, 0.0, 100)))) << "that was held";
-  EXPECT_FALSE(asks(roam::app::verify(floor, walk_over(9.9, 0.3, 1.3, 100)))) << "just above the scene";
-  EXPECT_TRUE(asks(roam::app::verify(floor, walk_over(10.1, 0.3, 1.3, 100)))) << "elsewhere";
-  EXPECT_TRUE(asks(roam::app::verify({}, walk_over(1.0, 0.3, 1.3, 100)))) << "in no scene";
-  EXPECT_TRUE(roam::app::remarks(roam::app::verify(floor, walk_over(0.31, 0.3, 0.301, 100))).empty());
+  EXPECT_TRUE(asks(roam::verification::verify(hall, walk_over(30.0, 0.3, 0.301, 100)))) << "that stood on something";
+  EXPECT_FALSE(asks(roam::verification::verify(hall, walk_over(30.0, 0.3, 0.0, 100)))) << "that was held";
+  EXPECT_FALSE(asks(roam::verification::verify(floor, walk_over(9.9, 0.3, 1.3, 100)))) << "just above the scene";
+  EXPECT_TRUE(asks(roam::verification::verify(floor, walk_over(10.1, 0.3, 1.3, 100)))) << "elsewhere";
+  EXPECT_TRUE(asks(roam::verification::verify({}, walk_over(1.0, 0.3, 1.3, 100)))) << "in no scene";
+  EXPECT_TRUE(roam::verification::remarks(roam::verification::verify(floor, walk_over(0.31, 0.3, 0.301, 100))).empty());
 
   // Who touches something now and then flies; who does so most of the time stands.
   std::vector<Piece> mixed = walk_over(30.0, 0.3, 1.3, 100);
   for (int i = 0; i < 50; ++i) mixed[static_cast<std::size_t>(i)].clearance = 0.301;
-  EXPECT_FALSE(asks(roam::app::verify(hall, mixed)));
+  EXPECT_FALSE(asks(roam::verification::verify(hall, mixed)));
   mixed[50].clearance = 0.301;
-  EXPECT_TRUE(asks(roam::app::verify(hall, mixed)));
+  EXPECT_TRUE(asks(roam::verification::verify(hall, mixed)));
 }
 
 TEST(Verification, JoinsWhatWasFoundOfOtherSteps) {
   const std::vector<roam::Mesh> floor{floor_mesh(20)};
-  auto all = roam::app::verify(floor, walk_over(9.9, 0.3, 1.3, 100));
-  auto standing = roam::app::verify({}, walk_over(99.0, 0.3, 0.301, 101));
+  auto all = roam::verification::verify(floor, walk_over(9.9, 0.3, 1.3, 100));
+  auto standing = roam::verification::verify({}, walk_over(99.0, 0.3, 0.301, 101));
   standing.unread = {"tile 7", "tile 8"};
   all.add(standing);
   EXPECT_EQ(all.touching, 101U);
@@ -354,20 +354,20 @@ TEST(Verification, JoinsWhatWasFoundOfOtherSteps) {
   standing.unread = {"tile 8", "tile 9"};
   all.add(standing);
   EXPECT_EQ(all.unread, (std::vector<std::string>{"tile 7", "tile 8", "tile 9"})) << "each once";
-  EXPECT_TRUE(roam::app::remarks(all).empty()) << "what was not read may have been near";
+  EXPECT_TRUE(roam::verification::remarks(all).empty()) << "what was not read may have been near";
 }
 
 TEST(Verification, OfWhatCannotBeReadSaysWhereAndWhatToDo) {
-  roam::app::Verification found;
-  EXPECT_NO_THROW(roam::app::demand_all_read(found, "dam.roam"));
+  roam::verification::Verification found;
+  EXPECT_NO_THROW(roam::verification::demand_all_read(found, "dam.roam"));
   EXPECT_TRUE(found.counted());
   found.unread = {"dam.roam: tile 7 cannot be used", "dam.roam: tile 8 cannot be used"};
   EXPECT_FALSE(found.counted()) << "there may be some where nothing was read";
   found.violations = 1;
   EXPECT_TRUE(found.counted());
-  EXPECT_NE(roam::app::summary(found).find("that can be read"), std::string::npos);
+  EXPECT_NE(roam::verification::summary(found).find("that can be read"), std::string::npos);
   try {
-    roam::app::demand_all_read(found, "dam.roam", "look at it");
+    roam::verification::demand_all_read(found, "dam.roam", "look at it");
     FAIL() << "it was not read";
   } catch (const roam::Error& error) {
     EXPECT_STREQ(error.what(),
@@ -379,8 +379,9 @@ TEST(Verification, OfWhatCannotBeReadSaysWhereAndWhatToDo) {
 
 TEST(Verification, CanBeCancelled) {
   const std::vector<roam::Mesh> scene{floor_mesh(5)};
-  EXPECT_THROW((void)roam::app::verify(scene, walk_over(0.31, 0.3, 0.0, 5000), [](std::uint64_t) { return false; }),
-               roam::Cancelled);
+  EXPECT_THROW(
+      (void)roam::verification::verify(scene, walk_over(0.31, 0.3, 0.0, 5000), [](std::uint64_t) { return false; }),
+      roam::Cancelled);
 }
 
 }  // namespace

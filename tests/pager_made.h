@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "roam/pager.h"
-#include "store_made.h"
+#include "store/made.h"
 
 namespace made {
 

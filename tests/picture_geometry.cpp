@@ -5,12 +5,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "picture/cut.h"
-#include "picture/frames.h"
-#include "picture/levels.h"
-#include "picture/lines.h"
-#include "picture/survey.h"
-#include "picture/way.h"
+#include "draw/cut.h"
+#include "draw/frames.h"
+#include "draw/levels.h"
+#include "draw/lines.h"
+#include "draw/survey.h"
+#include "draw/way.h"
 #include "walker_scenes.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "picture/cut.h"
-#include "picture/way.h"
+#include "draw/cut.h"
+#include "draw/way.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "picture/opening.h"
+#include "draw/opening.h"
 #include "walker_scenes.h"
 
 namespace {

@@ -5,27 +5,28 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
-#include "picture/labels.h"
-#include "picture/picture.h"
+#include "draw/labels.h"
+#include "draw/picture.h"
 #include "roam/generate.h"
 #include "walker_scenes.h"
 
 namespace {
 
-using namespace roam::app;
-using picture::Disc;
-using picture::Lines;
-using picture::Point;
-using picture::Sheet;
-using picture::Text;
+namespace draw = roam::draw;
+namespace words = roam::words;
+using draw::Disc;
+using draw::Lines;
+using draw::Point;
+using draw::Sheet;
+using draw::Text;
 using roam::Mesh;
 using roam::Mode;
 using roam::Vec3;
 
 /// A walk along waypoints, and its sheet.
 struct Drawn {
-  picture::Record record;
-  WalkReport report;
+  draw::Record record;
+  words::EndedWalk report;
   Sheet sheet;
 
   Drawn(const std::vector<Mesh>& meshes, const std::vector<Vec3>& path, Mode mode, roam::WalkerSettings settings = {},
@@ -43,16 +44,15 @@ struct Drawn {
       while (!route.done()) append(record, route.advance(), false);
       report.result = route.result();
     }
-    report.scene = "scene.obj";
     report.mode = mode;
     report.settings = settings;
     report.waypoints = path.size();
     if (report.result.blocked_at) report.object = world.object_name(report.result.blocked_at->triangle);
-    const picture::Measured measured = picture::measure(world, report, record);
+    const draw::Measured measured = draw::measure(world, report, record);
     const auto triangles = [&](const roam::Box&, const std::function<void(std::span<const Mesh>)>& take) {
       take(meshes);
     };
-    sheet = picture::make_sheet({title, report, record, measured, world.bounds(), triangles});
+    sheet = draw::make_sheet({title, report, record, measured, world.bounds(), triangles});
   }
 
   template <class Item>
@@ -78,7 +78,7 @@ struct Drawn {
   }
   /// Pixels per metre, from a scale bar and the length that stands at it.
   [[nodiscard]] double scale(const std::string& what) const {
-    const picture::Polyline bar = only<Lines>(what + " bar").lines.at(0);
+    const draw::Polyline bar = only<Lines>(what + " bar").lines.at(0);
     const Text text = only<Text>(what + " length");
     char* unit = nullptr;
     const double length = std::strtod(text.text.c_str(), &unit) * (std::string(unit) == " km" ? 1000.0 : 1.0);
@@ -144,9 +144,9 @@ TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
       if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
     }
     EXPECT_GT(texts.size(), 10u);
-    const picture::Rect sheet{{0, 0}, {drawn.sheet.width, drawn.sheet.height}};
+    const draw::Rect sheet{{0, 0}, {drawn.sheet.width, drawn.sheet.height}};
     for (std::size_t i = 0; i < texts.size(); ++i) {
-      const picture::Rect extent = picture::measure_text(texts[i].text, texts[i].size, texts[i].bold);
+      const draw::Rect extent = draw::measure_text(texts[i].text, texts[i].size, texts[i].bold);
       EXPECT_NEAR(texts[i].box.width(), extent.width(), 1e-9);
       EXPECT_TRUE(sheet.contains(texts[i].box)) << texts[i].what << ": " << texts[i].text;
       for (std::size_t k = 0; k < i; ++k) {
@@ -196,7 +196,7 @@ TEST(PictureSheet, ShowsBodiesAndWallsToScale) {
   const auto bodies = drawn.all<Disc>("plan body");
   ASSERT_EQ(bodies.size(), 3u);  // start, narrowest, end
   for (const Disc& body : bodies) EXPECT_NEAR(body.radius, 0.3 * scale, 1e-6);
-  picture::Rect walls;
+  draw::Rect walls;
   for (const auto& line : drawn.only<Lines>("plan walls").lines) {
     for (const Point& p : line) walls.include(p);
   }
@@ -211,7 +211,7 @@ TEST(PictureSheet, ShowsTheWallsBesideAShortWayAndTheWholeNarrowestPlace) {
   scenes::add_box(meshes[1], {400, 300, 0}, {410, 310, 3});  // so that the plan does not show the whole scene
   const Drawn drawn(meshes, {{14, 3.6, 0.9}, {26, 3.6, 0.9}}, Mode::walk);
   ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::reached);
-  picture::Rect frame, walls, narrowest;
+  draw::Rect frame, walls, narrowest;
   const Lines border = drawn.only<Lines>("plan frame");
   for (const Point& p : border.lines.at(0)) frame.include(p);
   for (const auto& line : drawn.only<Lines>("plan walls").lines) {
@@ -233,7 +233,7 @@ TEST(PictureSheet, UnrollsTheSectionToItsScale) {
   const Point start = drawn.only<Disc>("section start").centre, end = drawn.only<Disc>("section end").centre;
   EXPECT_NEAR(end.x - start.x, 16.0 * scale, 1.0);
   EXPECT_NEAR(start.x, drawn.only<Disc>("plan start").centre.x, 1e-6);  // below its part of the plan
-  picture::Rect walls;
+  draw::Rect walls;
   for (const auto& line : drawn.only<Lines>("section walls").lines) {
     for (const Point& p : line) walls.include(p);
   }
@@ -286,10 +286,10 @@ TEST(PictureSheet, SaysWhereItFell) {
 }
 
 TEST(PictureLabels, BreakTextThatIsTooLong) {
-  const auto width = [](const std::string& text) { return picture::measure_text(text, 20, false).width(); };
+  const auto width = [](const std::string& text) { return draw::measure_text(text, 20, false).width(); };
   const std::string text = "a few words and " + std::string(200, 'W') + " at the end";
   std::string joined;
-  for (const std::string& line : picture::wrapped(text, 300, 20, false, picture::measure_text)) {
+  for (const std::string& line : draw::wrapped(text, 300, 20, false, draw::measure_text)) {
     EXPECT_LE(width(line), 300.0) << line;
     for (const char c : line) joined += c == ' ' ? "" : std::string(1, c);
   }
@@ -297,12 +297,12 @@ TEST(PictureLabels, BreakTextThatIsTooLong) {
 }
 
 TEST(PictureLabels, ShowWhatIsNoTextAsQuestionMarks) {
-  EXPECT_EQ(picture::printable("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
-  EXPECT_EQ(picture::printable("a\xff"
-                               "b\x01\n"),
+  EXPECT_EQ(draw::printable("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
+  EXPECT_EQ(draw::printable("a\xff"
+                            "b\x01\n"),
             "a?b??");
-  EXPECT_EQ(picture::printable("\xc3"), "?");
-  EXPECT_EQ(picture::printable("\xed\xa0\x80"), "???");  // half of a surrogate pair
+  EXPECT_EQ(draw::printable("\xc3"), "?");
+  EXPECT_EQ(draw::printable("\xed\xa0\x80"), "???");  // half of a surrogate pair
 }
 
 }  // namespace

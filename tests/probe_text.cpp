@@ -1,5 +1,5 @@
 // What roam probe says of answers that no scene gives as asked: walkers that contradict a way, searches that ended.
-#include "probe_text.h"
+#include "probe/text.h"
 
 #include <gtest/gtest.h>
 

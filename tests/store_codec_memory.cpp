@@ -7,7 +7,7 @@
 
 #include "clutter.h"
 #include "roam/generate.h"
-#include "store_codec_tiles.h"
+#include "store/codec/made_tiles.h"
 
 // The sanitizers bring allocators of their own.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "memory_cost.h"
-#include "store_made.h"
+#include "store/made.h"
 
 namespace {
 

@@ -19,7 +19,7 @@
 #include "roam/import.h"
 #include "roam/store_build.h"
 #include "roam/world.h"
-#include "swept_distance.h"
+#include "verify/swept_distance.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ using roam::Body;
 using roam::Impact;
 using roam::TriangleId;
 using roam::Vec3;
-using roam::app::swept_distance;
+using roam::verification::swept_distance;
 
 int sweeps() {
   const char* said = std::getenv("ROAM_TEST_SWEEPS");

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "store_made.h"
+#include "store/made.h"
 
 namespace {
 

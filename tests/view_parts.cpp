@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
-#include "exit_status.h"
-#include "histogram.h"
+#include "cli/exit_status.h"
+#include "cli/histogram.h"
 #include "messages.h"
 #include "program.h"
 #include "roam/error.h"

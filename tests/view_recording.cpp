@@ -3,7 +3,7 @@
 
 #include "messages.h"
 #include "program.h"
-#include "recorded_body.h"
+#include "scenes/recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "view/options.h"
@@ -153,8 +153,8 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   EXPECT_EQ(log.tally().length, 2.0);
   EXPECT_EQ(log.tally().least_axis_clearance, 0.4);
   int of_the_step = 0;
-  log.take_pieces().each(100, [&](std::span<const Piece> pieces) {
-    for (const Piece& piece : pieces) {
+  log.take_pieces().each(100, [&](std::span<const verification::Piece> pieces) {
+    for (const verification::Piece& piece : pieces) {
       EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
       of_the_step += piece.step == 1 ? 1 : 0;
     }

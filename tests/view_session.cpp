@@ -35,7 +35,7 @@ class Driven : public DrivenSession {
     queue.mouseButtonRelease(across, up, 1);
     run(1.0 / 60.0);
   }
-  [[nodiscard]] Verification verified() {
+  [[nodiscard]] verification::Verification verified() {
     const ViewReport report = session->finish();
     return verify(report.meshes, report.pieces);
   }
@@ -52,7 +52,7 @@ TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
   d.release('w');
   d.run(1.0);
   EXPECT_FALSE(contains(d.hud(), "blocked")) << d.hud();
-  const Verification proof = d.verified();
+  const verification::Verification proof = d.verified();
   EXPECT_GT(proof.pieces, 300u);
   EXPECT_EQ(proof.violations, 0u);
 }

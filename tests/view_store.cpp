@@ -1,7 +1,7 @@
 // roam view on collision stores: found, named, stale, damaged.
 #include <thread>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
 #include "roam/error.h"
 #include "view/store_triangles.h"
 #include "view_stores.h"

@@ -33,7 +33,7 @@ TEST(ViewStoreBuilding, BuildsAStoreMeanwhileAndChangesToIt) {
   EXPECT_TRUE(Store::is_store(d.folder.file("scene.obj.roam")));
   const ViewReport report = d.session->finish();
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
-  const Verification proof = verify(report.meshes, report.pieces);
+  const verification::Verification proof = verify(report.meshes, report.pieces);
   EXPECT_GT(proof.pieces, 300u);
   EXPECT_EQ(proof.violations, 0u);
 }

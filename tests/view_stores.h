@@ -9,7 +9,7 @@
 #include "roam/store_build.h"
 #include "store/tile_reader.h"
 #include "store_builds.h"
-#include "user_key.h"
+#include "scenes/user_key.h"
 #include "view_driven.h"
 
 namespace view_stores {

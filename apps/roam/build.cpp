@@ -5,39 +5,20 @@
 #include <cmath>
 #include <optional>
 
-#include "build_notes.h"
-#include "exit_status.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "report.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
-#include "scene_options.h"
-#include "store_name.h"
-#include "tell.h"
-#include "user_key.h"
+#include "scenes/beside_scene.h"
+#include "scenes/scene_options.h"
+#include "scenes/user_key.h"
 #include "verbs.h"
 
 namespace roam::app {
-
-std::filesystem::path store_beside(const std::filesystem::path& scene) {
-  std::filesystem::path path = std::filesystem::absolute(scene).lexically_normal();
-  if (!path.has_filename()) path = path.parent_path();
-  const bool relative = scene.is_relative() && scene.lexically_normal().has_parent_path() == false;
-  path += ".roam";
-  return relative ? path.filename() : path;
-}
-
-void demand_no_link(const std::filesystem::path& store) {
-  std::error_code none;
-  if (!std::filesystem::is_symlink(std::filesystem::symlink_status(store, none))) return;
-  throw Error(
-      fmt::format("{} is a link, and a store that lies beside its scene may be none: name the store that is meant, or "
-                  "delete the link",
-                  store.string()));
-}
-
 namespace {
 
 struct BuildVerb {

@@ -1,12 +1,12 @@
 // roam info: what a scene holds and what its world costs.
 #include <fmt/format.h>
 
-#include "progress.h"
-#include "report.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/profile.h"
 #include "roam/store.h"
-#include "scene_options.h"
-#include "tell.h"
+#include "scenes/scene_options.h"
 #include "verbs.h"
 
 namespace roam::app {

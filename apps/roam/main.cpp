@@ -1,10 +1,11 @@
 // The command line `roam`: its verbs, and what is said of all of them.
 #include <string>
 
-#include "command_line.h"
+#include "cli/command_line.h"
 #include "roam/error.h"
 #include "roam/import.h"
 #include "roam/version.h"
+#include "verbs.h"
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <filesystem>
 
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "files/whole_file.h"
-#include "progress.h"
-#include "report.h"
 #include "roam/error.h"
 #include "roam/generate.h"
-#include "tell.h"
 #include "verbs.h"
 
 namespace roam::app {

@@ -9,17 +9,17 @@
 #include <memory>
 #include <sstream>
 
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "draw/draw.h"
 #include "files/whole_file.h"
-#include "interrupt.h"
-#include "output_file.h"
-#include "picture/draw.h"
-#include "probe_picture.h"
-#include "probe_text.h"
-#include "progress.h"
+#include "probe/picture.h"
+#include "probe/text.h"
 #include "roam/path_file.h"
-#include "surveyed.h"
-#include "tell.h"
-#include "validators.h"
+#include "scenes/surveyed.h"
 #include "verbs.h"
 #include "words/probe.h"
 
@@ -147,13 +147,12 @@ ExitStatus probe(ProbeOptions o) {
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !picture::is_picture(*o.picture))
-    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
+  if (o.picture) draw::check_picture(*o.picture);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
   }
-  std::optional<picture::PictureFile> drawing;
+  std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope_degrees());
   double smallest = sizes.front().radius;
@@ -175,7 +174,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
   if (o.path && !first.wide_enough) tell(fmt::format("{}: there is no way, so it was not written", o.path->string()));
   if (drawing) {
-    unwritten.attempt([&] { drawing->write(sheet_of(file_names(o.scene), scene.survey, o.question, first)); });
+    unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
   }
   if (o.json) {
     print(report_of(o, scene, answers));
@@ -227,10 +226,10 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"walk", "fly"}))
       ->type_name("MODE");
   verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(number_within(0.0, 1000.0))
+      ->check(from_to(0.0, 1000.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
-      ->check(number_within(0.0, 89.0))
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--support-radius", o.support_radius,
                    "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
@@ -239,7 +238,7 @@ void add_probe(CLI::App& program, Run& run) {
   verb->add_option("--spacing", o.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(number_within(0.001, 100.0))
+      ->check(from_to(0.001, 100.0))
       ->type_name("M");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
   verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");

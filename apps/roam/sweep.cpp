@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "interrupt.h"
-#include "open_scene.h"
-#include "paged_sweep.h"
+#include "cli/interrupt.h"
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "sweep_rows.h"
-#include "tell.h"
+#include "scenes/open_scene.h"
+#include "sweep/paged.h"
+#include "sweep/rows.h"
 #include "verbs.h"
 
 namespace roam::app {

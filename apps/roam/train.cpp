@@ -8,15 +8,15 @@
 #include <memory>
 #include <optional>
 
-#include "interrupt.h"
-#include "output_file.h"
-#include "picture/picture.h"
-#include "progress.h"
+#include "cli/interrupt.h"
+#include "cli/numbers.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "draw/picture.h"
 #include "roam/error.h"
-#include "surveyed.h"
-#include "tell.h"
-#include "train_report.h"
-#include "validators.h"
+#include "scenes/surveyed.h"
+#include "train/report.h"
 #include "verbs.h"
 #include "words/training.h"
 
@@ -105,9 +105,8 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture && !picture::is_picture(*o.picture))
-    throw UsageError("--picture " + o.picture->string() + ": a picture is an .svg or a .png, by its extension");
-  std::optional<picture::PictureFile> drawing;
+  if (o.picture) draw::check_picture(*o.picture);
+  std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
@@ -128,10 +127,10 @@ ExitStatus train(TrainVerbOptions o) {
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
-    const std::vector<picture::OpeningView> views = views_of(report);
+    const std::vector<draw::OpeningView> views = views_of(report);
     // Where nothing decides there is nothing to draw but what was found.
-    drawing->write(picture::opening_sheet(file_names(o.scene), views, scene.survey.meshes(),
-                                          views.empty() ? words::answer(report.training, o.train) : std::string()));
+    drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(),
+                                       views.empty() ? words::answer(report.training, o.train) : std::string()));
   }
   unwritten.raise();
   if (!report.training.complete) return failed;
@@ -171,17 +170,17 @@ void add_train(CLI::App& program, Run& run) {
       ->type_name("S");
   verb->add_option("--radius-min", o.train.radius_min,
                    "In metres: what lets less through decides nothing and gets no region (default: 0.15)")
-      ->check(number_within(0.01, 100.0))
+      ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
-      ->check(number_within(0.01, 100.0))
+      ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--support-max", o.train.support_max,
                    "The largest foot, in metres: wider cracks are open drops (default: 1)")
-      ->check(number_within(0.1, 100.0))
+      ->check(from_to(0.1, 100.0))
       ->type_name("R");
   verb->add_option("--height", o.train.height, "Whole height, in metres (default: a sphere)")
-      ->check(number_within(0.1, 100.0))
+      ->check(from_to(0.1, 100.0))
       ->type_name("H");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(CLI::IsMember({"walk", "fly"}))
@@ -190,15 +189,15 @@ void add_train(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"interval", "paper"}))
       ->type_name("METHOD");
   verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
-      ->check(number_within(0.0, 100.0))
+      ->check(from_to(0.0, 100.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
-      ->check(number_within(0.0, 89.0))
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--spacing", o.train.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
                    "overlooked")
-      ->check(number_within(0.02, 100.0))
+      ->check(from_to(0.02, 100.0))
       ->type_name("M");
   verb->add_option("--picture", o.picture, "Draw what decides, as .svg or .png")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile there (default: SCENE.roam.json)")->type_name("FILE");

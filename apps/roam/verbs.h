@@ -2,15 +2,9 @@
 /// \file
 /// The verbs of the command line, one file each.
 
-#include <CLI/CLI.hpp>
-#include <functional>
-
-#include "exit_status.h"
+#include "cli/command_line.h"
 
 namespace roam::app {
-
-/// What runs when a verb was chosen and its options are read.
-using Run = std::function<ExitStatus()>;
 
 /// Each adds its verb to the program and sets `run` when the verb is chosen.
 void add_walk(CLI::App& program, Run& run);

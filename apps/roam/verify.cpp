@@ -1,15 +1,15 @@
 // roam verify: is every byte of a store what was written?
 #include <fmt/format.h>
 
-#include "build_notes.h"
-#include "exit_status.h"
-#include "progress.h"
-#include "report.h"
+#include "cli/exit_status.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
-#include "tell.h"
-#include "user_key.h"
+#include "scenes/beside_scene.h"
+#include "scenes/user_key.h"
 #include "verbs.h"
 
 namespace roam::app {

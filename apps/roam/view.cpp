@@ -6,13 +6,13 @@
 #include <memory>
 #include <optional>
 
-#include "interrupt.h"
-#include "progress.h"
-#include "report.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "tell.h"
 #include "verbs.h"
-#include "verify_stored.h"
+#include "verify/verify_stored.h"
 #include "view/notices.h"
 #include "view/session.h"
 
@@ -51,8 +51,8 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
 }
 
 /// Every move against every triangle: of the scene as read, of a store as stored.
-Verification verified(const ViewReport& report, const ViewOptions& options,
-                      const std::function<bool(std::uint64_t)>& progress) {
+verification::Verification verified(const ViewReport& report, const ViewOptions& options,
+                                    const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
   return verify(*Store::open(report.store, options.scene.store_memory()), report.pieces, progress);
 }
@@ -104,7 +104,7 @@ ExitStatus view(const ViewOptions& options) {
     print(text_report(report));
   }
   if (cancelled) throw Cancelled();
-  if (report.verified) demand_all_read(*report.verified, report.store);
+  if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
   return report.result && !reached ? answer_no : done;
 }

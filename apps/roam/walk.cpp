@@ -9,22 +9,24 @@
 #include <memory>
 #include <utility>
 
-#include "arrivals.h"
-#include "histogram.h"
-#include "interrupt.h"
-#include "open_scene.h"
-#include "picture/picture.h"
-#include "progress.h"
+#include "cli/histogram.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "cli/trace_file.h"
+#include "draw/picture.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
-#include "stored_meshes.h"
-#include "tell.h"
+#include "roam/wander.h"
+#include "scenes/arrivals.h"
+#include "scenes/open_scene.h"
+#include "store/meshes.h"
 #include "verbs.h"
-#include "walk_options.h"
-#include "walk_record.h"
-#include "walk_report.h"
-#include "wander.h"
+#include "verify/verify_stored.h"
+#include "walk/against.h"
+#include "walk/options.h"
+#include "walk/report.h"
 
 namespace roam::app {
 namespace {
@@ -72,14 +74,14 @@ class Recorder {
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
   }
-  [[nodiscard]] const PieceLog& pieces() const { return pieces_; }
-  [[nodiscard]] const picture::Record& record() const { return record_; }
+  [[nodiscard]] const verification::PieceLog& pieces() const { return pieces_; }
+  [[nodiscard]] const draw::Record& record() const { return record_; }
 
  private:
   /// `begun`: seconds when the step began.
   void take(const StepReport& report, double begun) {
     if (trace_) trace_->add(tally_.steps, begun, report);
-    if (options_.checks()) append_pieces(pieces_, tally_.steps, report);
+    if (options_.checks()) verification::append_pieces(pieces_, tally_.steps, report);
     if (!options_.picture.empty()) append(record_, report, tally_.steps == 0);
   }
 
@@ -89,8 +91,8 @@ class Recorder {
   std::uint64_t expected_steps_;
   std::optional<TraceFile> trace_;
   Histogram nanoseconds_;
-  PieceLog pieces_;
-  picture::Record record_;
+  verification::PieceLog pieces_;
+  draw::Record record_;
   Tally tally_;
 };
 
@@ -127,7 +129,7 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
 }
 
 RouteResult roam_about(Walker& walker, const RouteOptions& options, double seconds, Recorder& recorder) {
-  Wander wander(walker, options, seconds);
+  Wander wander(walker, {.speed = options.speed, .dt = options.dt, .seconds = seconds});
   recorder.start(walker.report());
   while (!wander.done()) {
     wander.look();
@@ -147,52 +149,51 @@ RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3>
 
 /// What a picture is called.
 std::string title(const WalkOptions& options) {
-  std::string text;
-  for (const auto& scene : options.scene.scenes) {
-    // A folder may be given with a slash behind it.
-    const auto name = scene.has_filename() ? scene.filename() : scene.parent_path().filename();
-    text += (text.empty() ? "" : ", ") + name.string();
-  }
+  const std::string text = options.scene.file_names();
   return options.wander ? text + fmt::format(", wandering for {:g} s", *options.wander)
                         : text + " along " + options.path.filename().string();
 }
 
-Verification verified(const WalkOptions& options, const OpenScene& scene, const PieceLog& pieces) {
+verification::Verification verified(const WalkOptions& options, const OpenScene& scene,
+                                    const verification::PieceLog& pieces) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
     return verify_against(options.against, scene, pieces,
                           [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
   }
   Progress progress("verifying", "pieces");
-  return scene.verified(pieces, [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); });
+  const auto goes_on = [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); };
+  return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
 /// Bytes that a segment takes at most while a picture is made.
 constexpr std::uint64_t bytes_a_segment = 2048;
 
-picture::Measured measured(OpenScene& scene, const WalkReport& report, const picture::Record& record) {
+draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
   Surroundings around(scene);
   // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
   const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
-  return picture::measure(scene.space(), report, record, scene.store() ? picture::Arrive(arrive) : picture::Arrive());
+  return draw::measure(scene.space(), report, record, scene.store() ? draw::Arrive(arrive) : draw::Arrive());
 }
 
 /// The sheet of what was measured. Of a store, after OpenScene::leave.
-picture::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
-                     const picture::Record& record, const picture::Measured& measured) {
+draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
+                  const draw::Record& record, const draw::Measured& measured) {
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
     if (!scene.store()) return take(scene.loaded().meshes);
     const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
-    each_mesh(
+    store::each_mesh(
         *scene.store(), box,
         [&](const Mesh& mesh) {
+          stop_if_interrupted();
           take({&mesh, 1});
         },
         missing);
   };
   const auto fit = static_cast<std::size_t>(scene.memory() / bytes_a_segment);
-  return picture::make_sheet({title(options), report, record, measured, scene.walked_bounds(), triangles,
-                              scene.store() ? std::min(fit, picture::usual_segments) : picture::usual_segments});
+  return draw::make_sheet({title(options), report, record, measured, scene.walked_bounds(), triangles,
+                           scene.store() ? std::min(fit, draw::usual_segments) : draw::usual_segments,
+                           report.triangles});
 }
 
 ExitStatus walk(WalkOptions options) {
@@ -226,7 +227,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
-  std::optional<picture::PictureFile> drawing;
+  std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
@@ -236,7 +237,7 @@ ExitStatus walk(WalkOptions options) {
                    options.scene.names());
     tell(describe(*options.profile));
   }
-  const std::string size = note_on_size(options.settings, scene.bounds());
+  const std::string size = words::note_on_size(options.settings, scene.bounds());
   if (!size.empty()) tell("note: " + size);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
@@ -278,7 +279,7 @@ ExitStatus walk(WalkOptions options) {
   }
   report.paging = scene.paging();
   report.times = recorder.times();
-  std::optional<picture::Measured> seen;
+  std::optional<draw::Measured> seen;
   if (drawing) seen = measured(scene, report, recorder.record());
   scene.leave();
   if (options.checks()) {
@@ -293,7 +294,7 @@ ExitStatus walk(WalkOptions options) {
     print(text_report(report));
   }
   if (report.verified) {
-    demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
+    verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
   }
   return report.result.outcome == Outcome::reached ? done : answer_no;
 }

@@ -154,8 +154,8 @@ std::string stopped_by(const ProbeAnswer& answer) {
     case Kind::gap:
       break;
   }
-  return fmt::format("The {} at {} is {} {}; {}.", to_string(limit.kind), at(limit.point), metres(limit.size), extent(limit),
-                     missing);
+  return fmt::format("The {} at {} is {} {}; {}.", to_string(limit.kind), at(limit.point), metres(limit.size),
+                     extent(limit), missing);
 }
 
 /// The search reached its limit of places.

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "clutter.h"
-#include "store_codec_tiles.h"
+#include "store/codec/made_tiles.h"
 
 namespace {
 

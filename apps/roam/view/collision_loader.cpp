@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "floors.h"
 #include "roam/error.h"
+#include "roam/wander.h"
 
 namespace roam::app {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "import/display.h"
 #include "roam/import.h"
-#include "scene_options.h"
+#include "scenes/scene_options.h"
 #include "view/loading.h"
 #include "view/page_source.h"
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <osg/Notify>
 
-#include "tell.h"
+#include "cli/tell.h"
 
 namespace roam::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <sstream>
 
-#include "exit_status.h"
+#include "cli/exit_status.h"
 #include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"

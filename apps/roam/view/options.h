@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "open_scene.h"
-#include "recorded_body.h"
 #include "roam/walker.h"
-#include "scene_options.h"
-#include "scene_profile.h"
+#include "scenes/open_scene.h"
+#include "scenes/recorded_body.h"
+#include "scenes/scene_options.h"
+#include "scenes/scene_profile.h"
 #include "view/pose.h"
 #include "view/settings.h"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "recorded_body.h"
 #include "roam/error.h"
+#include "scenes/recorded_body.h"
 
 namespace roam::app {
 namespace {

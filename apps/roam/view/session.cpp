@@ -16,8 +16,8 @@
 #include <thread>
 #include <utility>
 
-#include "exit_status.h"
-#include "interrupt.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
 #include "roam/error.h"
 #include "view/session_handler.h"
 

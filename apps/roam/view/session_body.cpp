@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "cli/tell.h"
 #include "roam/error.h"
-#include "tell.h"
 #include "view/session.h"
 
 namespace roam::app {

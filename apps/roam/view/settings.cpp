@@ -6,11 +6,11 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "cli/user_folder.h"
 #include "files/json_text.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "text/printable.h"
-#include "user_folder.h"
 
 namespace roam::app {
 namespace {

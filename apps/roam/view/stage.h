@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/histogram.h"
 #include "graphics/capture.h"
 #include "graphics/context.h"
 #include "graphics/frame.h"
 #include "graphics/hud.h"
 #include "graphics/overlay.h"
 #include "graphics/shading.h"
-#include "histogram.h"
 #include "roam/math.h"
 #include "view/display_node.h"
 #include "view/film.h"

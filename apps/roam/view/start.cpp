@@ -7,12 +7,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "loose_triangles.h"
 #include "roam/error.h"
 #include "roam/world.h"
-#include "store_start.h"
-#include "triangles_around.h"
-#include "wander.h"
+#include "scenes/free_start.h"
+#include "scenes/triangles_around.h"
+#include "store/meshes.h"
 
 namespace roam::app {
 namespace {
@@ -113,17 +112,17 @@ Pose overview(const Box& box, double fov) {
 StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
                       const std::function<bool()>& goes_on) {
   return start_place(
-      settings, mode, space.bounds(), [&](Mode way) { return wander_start(space, settings, way, floors, goes_on); },
+      settings, mode, space.bounds(), [&](Mode way) { return free_start(space, settings, way, floors, goes_on); },
       [&](const Vec3& eye) { return look(space, eye); });
 }
 
 StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                       const std::function<bool()>& goes_on) {
   return start_place(
-      settings, mode, store.info().bounds, [&](Mode way) { return store_start(store, memory, settings, way, goes_on); },
+      settings, mode, store.info().bounds, [&](Mode way) { return free_start(store, memory, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
-        append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
+        store::append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
         return look(World::build({&mesh, 1}), eye);
       });
 }

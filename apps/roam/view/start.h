@@ -19,14 +19,14 @@ struct StartPlace {
   std::string note;        ///< a sentence for the user when it is not as wished
 };
 
-/// A free place, on a floor and inside where there is an inside (see wander_start,
-/// also for `floors`), looking where there is most to see.
+/// A free place, on a floor and inside where there is an inside (see
+/// wander_start, also for `floors`), looking where there is most to see.
 /// Where the body fits on no floor: in the air, flying; where it fits nowhere: outside of everything, flying. `goes_on`
 /// is asked now and then, and ends it by false: roam::Cancelled.
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                     std::span<const Vec3> floors, const std::function<bool()>& goes_on);
 
-/// The same in a store, looking around a few places of it only; see store_start.
+/// The same in a store, looking around a few places of it only; see free_start.
 [[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                                     const std::function<bool()>& goes_on);
 

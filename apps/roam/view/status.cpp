@@ -7,7 +7,7 @@
 #include <fstream>
 #include <utility>
 
-#include "progress.h"
+#include "cli/progress.h"
 #include "text/printable.h"
 
 namespace roam::app {

@@ -7,9 +7,8 @@
 #include <future>
 #include <utility>
 
-#include "build_notes.h"
-#include "store_name.h"
-#include "user_key.h"
+#include "scenes/beside_scene.h"
+#include "scenes/user_key.h"
 #include "view/collision_loader.h"
 
 namespace roam::app {

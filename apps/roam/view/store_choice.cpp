@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "exit_status.h"
-#include "open_scene.h"
+#include "cli/exit_status.h"
 #include "roam/error.h"
+#include "scenes/beside_scene.h"
+#include "scenes/open_scene.h"
+#include "scenes/user_key.h"
 #include "store/build/same_scene.h"
 #include "store/opened.h"
-#include "store_name.h"
-#include "user_key.h"
 
 namespace roam::app {
 namespace {

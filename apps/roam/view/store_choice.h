@@ -9,7 +9,7 @@
 #include <string>
 
 #include "roam/store.h"
-#include "scene_options.h"
+#include "scenes/scene_options.h"
 
 namespace roam::app {
 

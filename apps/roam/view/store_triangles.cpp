@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <osg/Geometry>
 
-#include "progress.h"
+#include "cli/progress.h"
 #include "roam/error.h"
 #include "view/display_node.h"
 

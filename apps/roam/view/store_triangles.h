@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "roam/store.h"
-#include "triangles_around.h"
+#include "scenes/triangles_around.h"
 #include "view/display_loader.h"
 
 namespace roam::app {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "progress.h"
-#include "tell.h"
-#include "walk_report.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "words/walk.h"
 
 namespace roam::app {
 namespace {
@@ -69,7 +69,7 @@ Json json_report(const ViewReport& report) {
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   json["learned"] = report.learned;
   json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
-  if (report.paging) json["paging"] = app::json_report(*report.paging);
+  if (report.paging) json["paging"] = to_json(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);
   if (report.start) json["start"] = to_json(*report.start);
   if (report.least_axis_clearance) json["least_clearance_m"] = *report.least_axis_clearance;
@@ -93,13 +93,13 @@ std::string text_report(const ViewReport& report) {
   std::string text;
   if (report.result) {
     if (report.path_ended) {
-      WalkReport walk;
+      words::EndedWalk walk;
       walk.mode = report.mode;
       walk.settings = report.settings;
       walk.result = *report.result;
       walk.waypoints = report.waypoints;
       walk.object = report.object;
-      text += fmt::format("{}: {}\n", to_string(report.result->outcome), explain(walk));
+      text += fmt::format("{}: {}\n", to_string(report.result->outcome), words::explain(walk));
     } else {
       text += "ended before the path did\n";
     }

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "piece_log.h"
-#include "report.h"
+#include "cli/report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
+#include "verify/piece_log.h"
 #include "view/pose.h"
 
 namespace roam::app {
@@ -57,8 +57,8 @@ struct ViewReport {
   std::uint64_t missing_pages = 0;
   std::vector<std::string> written;  ///< files
   std::vector<Mesh> meshes;          ///< for --verify; none where it was a store from the beginning
-  PieceLog pieces;                   ///< for --verify
-  std::optional<Verification> verified;
+  verification::PieceLog pieces;     ///< for --verify
+  std::optional<verification::Verification> verified;
 };
 
 [[nodiscard]] Json json_report(const ViewReport& report);

@@ -8,7 +8,7 @@ WalkLog::WalkLog(const std::filesystem::path& trace, bool keep_pieces) : keep_pi
 
 void WalkLog::take(const StepReport& report, Mode mode, double seconds) {
   if (trace_) trace_->add(rows_, tally_.simulated, report);
-  if (keep_pieces_ && mode != Mode::ghost) append_pieces(pieces_, rows_, report);
+  if (keep_pieces_ && mode != Mode::ghost) verification::append_pieces(pieces_, rows_, report);
   ++rows_;
   if (seconds > 0.0) {
     tally_.add_step(report);

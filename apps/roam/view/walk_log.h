@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "histogram.h"
+#include "cli/histogram.h"
+#include "cli/trace_file.h"
 #include "roam/tally.h"
 #include "roam/walker.h"
-#include "walk_record.h"
+#include "verify/piece_log.h"
 
 namespace roam::app {
 
@@ -31,14 +32,14 @@ class WalkLog {
   /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// For verify(), once.
-  [[nodiscard]] PieceLog take_pieces() { return std::move(pieces_); }
+  [[nodiscard]] verification::PieceLog take_pieces() { return std::move(pieces_); }
   [[nodiscard]] const Histogram& collision_times() const { return collision_; }          ///< ns a frame with steps
   [[nodiscard]] const Histogram& own_collision_times() const { return own_collision_; }  ///< the same, the thread's own
 
  private:
   std::optional<TraceFile> trace_;
   bool keep_pieces_;
-  PieceLog pieces_;
+  verification::PieceLog pieces_;
   Histogram collision_, own_collision_;
   std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
   Tally tally_;

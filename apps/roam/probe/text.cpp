@@ -1,0 +1,112 @@
+// What `roam probe` says: a table, JSON.
+#include "probe/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "cli/exit_status.h"
+#include "text/printable.h"
+#include "words/measures.h"
+#include "words/probe.h"
+
+namespace roam::app {
+namespace {
+
+using namespace words;
+using Kind = ProbeLimit::Kind;
+
+bool is_number(const std::string& text, double& value) {
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && after == end;
+}
+
+}  // namespace
+
+std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where) {
+  std::vector<ProbedSize> sizes;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t begin = text.find_first_not_of(", \t\r", i);
+    if (begin == std::string::npos) break;
+    const std::size_t end = std::min(text.find_first_of(", \t\r", begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    const std::size_t cross = item.find('x');
+    ProbedSize size;
+    bool good = is_number(item.substr(0, cross), size.radius);
+    size.height = 2.0 * size.radius;
+    if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
+    if (!good)
+      throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where,
+                                   printable(item, longest_excerpt)));
+    sizes.push_back(size);
+    i = end;
+  }
+  return sizes;
+}
+
+Json json_report(const ProbeAnswer& answer, bool with_way) {
+  const Passage& p = answer.passage;
+  Json json = {{"radius", answer.size.radius},      {"height", answer.size.height},    {"passable", answer.passable},
+               {"wide_enough", answer.wide_enough}, {"clearance_m", p.radius},         {"limited", p.limited},
+               {"start", to_json(answer.start)},    {"target", to_json(answer.target)}};
+  if (with_way) {
+    Json way = Json::array();
+    for (const Vec3& place : p.way) way.push_back(to_json(place));
+    json["way"] = std::move(way);
+    json["length_m"] = p.length;
+  }
+  json["opening"] = nullptr;
+  if (answer.limit) {
+    const ProbeLimit& limit = *answer.limit;
+    Json& opening = json["opening"];
+    opening = {{"kind", to_string(limit.kind)}, {"point", to_json(limit.point)}};
+    if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
+    const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
+                             : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
+                             : limit.kind == Kind::step                       ? "step_m"
+                                                                              : "width_m";
+    if (limit.kind != Kind::apart) opening[size] = limit.size;
+    if (limit.kind == Kind::height && limit.width > 0.0) opening["width_m"] = limit.width;
+    opening["missing_m"] = limit.kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
+    opening["direction"] = to_json(limit.direction);
+    opening["along_m"] = limit.along;
+    if (is_end(limit.kind)) opening["room"] = answer.room ? to_json(*answer.room) : Json(nullptr);
+  }
+  json["proven"] = answer.proven;
+  json["bound_m"] = std::isfinite(p.bound) && p.bound > 0.0 ? Json(p.bound) : Json(nullptr);
+  json["complete"] = p.complete;
+  json["places"] = p.places;
+  json["walked"] = nullptr;
+  if (answer.walk) json["walked"] = {{"outcome", to_string(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
+  return json;
+}
+
+std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> answers) {
+  std::string text = fmt::format("{:>8}  {:>8}  {:<4}  {:>11}  {:>9}  {}\n", "radius", "height", "", "widest way",
+                                 "missing", "what decides");
+  for (const ProbeAnswer& answer : answers) {
+    const Passage& p = answer.passage;
+    const bool ended_early = !p.found && !p.complete;
+    std::string width = p.found ? metres(2.0 * p.radius) : ended_early ? "not known" : "none";
+    if (p.found && !p.limited) width = ">= " + width;
+    std::string what;
+    if (is_unknown(answer))
+      what = "the search ended";
+    else if (answer.walk && !answer.passable)
+      what = fmt::format("walker {} at {}", to_string(answer.walk->outcome), at(answer.walk->at));
+    else if (answer.limit)
+      what = fmt::format("{} at {}", text_of(*answer.limit), at(answer.limit->point));
+    else if (!p.found)
+      what = is_shut(answer) ? "no way at all" : ended_early ? "none that wide: certified" : "no way was found";
+    const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
+    const char* const word = answer.passable ? "yes" : contradicts || is_unknown(answer) ? "?" : "no";
+    text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
+                        word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
+  }
+  return text;
+}
+
+}  // namespace roam::app

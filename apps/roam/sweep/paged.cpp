@@ -1,0 +1,89 @@
+#include "sweep/paged.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "roam/error.h"
+#include "scenes/arrivals.h"
+
+namespace roam::app {
+namespace {
+
+/// Metres. What lies along so little fits into the least memory.
+constexpr double least_part = 0.5;
+/// Seconds until what does not come of the least part, and what cannot be read, is given up.
+constexpr double late_after = 60.0, broken_after = 3.0;
+
+}  // namespace
+
+/// Nothing where memory does not hold what must be known, and `may_part`. Unknown: what is met cannot be read.
+std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
+  Arrivals arrivals(scene_);
+  for (;;) {
+    const Impact answer = scene_.space().sweep(part.body, part.from, part.motion);
+    if (!answer.unknown) return answer;
+    const double quiet = arrivals.wait(part.body, part.from, part.motion);
+    if (arrivals.settled()) {
+      const std::string why = scene_.space().object_name(answer.triangle);
+      if (quiet < broken_after && !given_up_.contains(why)) continue;
+      if (!why.empty()) given_up_.insert(why);
+      return answer;
+    }
+    if (may_part && quiet > Arrivals::full_after) return std::nullopt;
+    if (quiet > late_after)
+      throw Error("what lies along this way does not come; give --memory more, or wait for the disk");
+  }
+}
+
+double PagedSweep::gap(const SweepQuery& part) {
+  double distance = 0.0;
+  const double length = glm::length(part.motion);
+  const Vec3 ahead = length > 0.0 ? part.motion / length : Vec3(1.0, 0.0, 0.0);
+  for (const double reach : gap_reaches) {
+    Arrivals arrivals(scene_);
+    Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
+    while (nearest.unknown && !arrivals.settled() &&
+           arrivals.wait(part.body, part.from, ahead * (length + reach)) < Arrivals::full_after) {
+      nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
+    }
+    // The sweep has certified at least 0, whatever the grid takes off here; what is unknown only makes it less.
+    distance = std::max(distance, nearest.distance);
+    if (nearest.found) break;
+  }
+  return distance;
+}
+
+SweepAnswer PagedSweep::operator()(const SweepQuery& query) {
+  const double length = glm::length(query.motion);
+  double least = std::numeric_limits<double>::infinity();
+  Impact answer;
+  for (double begin = 0.0; begin < 1.0;) {
+    const bool whole = length <= fits_;
+    const double end = whole ? 1.0 : std::min(1.0, begin + fits_ / length);
+    const SweepQuery part{query.from + begin * query.motion, (end - begin) * query.motion, query.body};
+    const auto found = sweep(part, fits_ > least_part);
+    if (!found) {
+      fits_ = std::max(least_part, 0.5 * std::min(fits_, length));
+      continue;
+    }
+    answer = *found;
+    if (answer.hit) {
+      answer.time = begin + answer.time * (end - begin);
+      if (answer.unknown) return {answer, scene_.space().object_name(answer.triangle)};
+      try {
+        answer.triangle = scene_.scene_triangle(answer.triangle);
+      } catch (const Error& error) {
+        answer.triangle = no_triangle;
+        return {answer, error.what()};
+      }
+      return {answer, {}};
+    }
+    least = std::min(least, gap(part));
+    begin = end;
+  }
+  answer.distance = least;
+  return {answer, {}};
+}
+
+}  // namespace roam::app

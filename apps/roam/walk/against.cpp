@@ -1,0 +1,56 @@
+#include "walk/against.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/exit_status.h"
+#include "cli/tell.h"
+
+namespace roam::app {
+
+void check_against(const SceneOptions& scene) {
+  for (const auto& path : scene.scenes) {
+    if (Store::is_store(path)) {
+      throw UsageError("--against " + path.string() +
+                       ": this is a store; name the scene, or say --verify to check against the store itself");
+    }
+  }
+  scene.check_there();
+}
+
+verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
+                                          const verification::PieceLog& pieces,
+                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  // Half of the memory for pieces: more than the walk of an hour, in 64 MiB.
+  const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(verification::Piece)));
+  const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);
+  verification::Verification all;
+  std::uint64_t bytes = 0, reading_number = 0;  // that were read before
+  const auto check = [&](std::span<const verification::Piece> some) {
+    verification::Verifier verifier(some);
+    ImportOptions reading = scene.import_options();
+    std::uint64_t total = 0;
+    reading.progress = [&](const ImportProgress& p) {
+      total = p.bytes_total;
+      return progress(bytes + p.bytes_read, p.bytes_total * std::max(readings, reading_number + 1));
+    };
+    TriangleId first = 0;
+    stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
+      verifier.check({&piece, 1}, first);
+      first += piece.triangles.size();
+    });
+    if (first != walked.triangles() && reading_number == 0) {
+      tell(fmt::format("note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?",
+                       scene.names(), first, walked.triangles()));
+    }
+    bytes += total;
+    ++reading_number;
+    all.add(verifier.result());
+  };
+  pieces.each(together, check);
+  if (pieces.size() == 0) check({});
+  return all;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,124 @@
+#include "walk/options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/exit_status.h"
+#include "cli/numbers.h"
+#include "draw/draw.h"
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+/// Refuses to write an output over what is read.
+void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {
+  const auto is_output = [&](const std::filesystem::path& file) {
+    std::error_code none;
+    return !file.empty() && std::filesystem::equivalent(file, output, none);
+  };
+  if (output.empty()) return;
+  const std::string what = std::string(option) + " " + output.string();
+  for (const auto& scene : options.scene.scenes) {
+    if (is_output(scene)) throw UsageError(what + " would overwrite the scene");
+  }
+  if (is_output(options.path)) throw UsageError(what + " would overwrite the path");
+}
+
+}  // namespace
+
+void take_profile(WalkOptions& options) {
+  if (options.no_profile || options.radius) return;
+  options.profile = find_scene_profile(options.scene, options.walker_mode(), options.recorded);
+  options.scene.identify = options.profile.has_value();
+}
+
+WalkerSettings walker_settings(const WalkOptions& options) {
+  constexpr double sphere = 2.0;  // height of a sphere in radii
+  WalkerSettings settings = options.settings;
+  if (options.recorded && !options.radius) {
+    const RecordedBody& body = *options.recorded;
+    settings.radius = body.radius;
+    settings.height = options.height.value_or(body.height);
+    settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
+    settings.step = options.step.value_or(std::min(body.step, 0.5 * settings.height));
+    settings.slope_degrees = body.slope_degrees;
+    settings.support_radius = body.support_radius;
+  } else if (options.profile) {
+    settings = apply(options.profile->profile, settings);
+    settings.height = options.height.value_or(settings.height);
+    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
+    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+  } else {
+    settings.radius = options.radius.value_or(settings.radius);
+    settings.height = options.height.value_or(sphere * settings.radius);
+    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
+    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+  }
+  settings.slope_degrees = options.slope.value_or(settings.slope_degrees);
+  settings.support_radius = options.support_radius.value_or(settings.support_radius);
+  settings.speed = options.route.speed;
+  try {
+    check(settings);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  return settings;
+}
+
+void check_outputs(const WalkOptions& options) {
+  check_output(options, "--trace", options.trace);
+  check_output(options, "--picture", options.picture);
+  if (options.picture.empty()) return;
+  draw::check_picture(options.picture);
+  std::error_code none;
+  if (std::filesystem::weakly_canonical(options.picture, none) ==
+      std::filesystem::weakly_canonical(options.trace, none)) {
+    throw UsageError("--picture " + options.picture.string() + " would overwrite the trace");
+  }
+}
+
+void WalkOptions::add_to(CLI::App& verb) {
+  scene.add_to(verb);
+  auto* ways = verb.add_option_group("Way", "One of");
+  ways->add_option("--path", path, "Waypoints to go along")->type_name("FILE");
+  auto* wandering =
+      ways->add_option("--wander", wander, "Without a path: go where the body has been least, for S seconds")
+          ->check(positive)
+          ->type_name("S");
+  ways->require_option(1);
+  verb.add_option("--from", from, "Where to start wandering (default: where there is most room and walls in sight)")
+      ->expected(3)
+      ->delimiter(',')
+      ->type_name("X,Y,Z")
+      ->needs(wandering);
+  verb.add_option("--mode", mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
+      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
+      ->type_name("MODE");
+  verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, see --no-profile, or 0.3)")
+      ->type_name("R");
+  verb.add_option("--support-radius", support_radius,
+                  "Of a wider foot that carries the body over cracks, in metres (default: as trained, or none)")
+      ->type_name("RS");
+  verb.add_option("--height", height, "Whole height, in metres (default: 2 R, a sphere)")->type_name("H");
+  verb.add_option("--eye", eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H)")
+      ->type_name("E");
+  verb.add_option("--step", step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
+      ->type_name("M");
+  verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")->type_name("DEG");
+  verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
+  verb.add_option("--speed", route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
+  verb.add_option("--dt", route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
+      ->check(positive)
+      ->type_name("S");
+  verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
+  verb.add_option("--picture", picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
+  verb.add_flag("--verify", verify, "Check every move against all triangles, in higher precision, without the index");
+  verb.add_option("--against", against.scenes,
+                  "For a store: check every move against the triangles of the scene that it was made of, as they are "
+                  "read")
+      ->type_name("SCENE");
+  verb.add_flag("--json", json, "Print one JSON object");
+}
+
+}  // namespace roam::app

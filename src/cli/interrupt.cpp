@@ -1,0 +1,130 @@
+#include "cli/interrupt.h"
+
+#include <pthread.h>
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <exception>
+#include <system_error>
+#include <thread>
+
+#include "files/unfinished.h"
+#include "process/child.h"
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+/// For children to end in order: Xvfb removes its lock and its socket.
+constexpr std::chrono::milliseconds grace_of_children{100};
+
+/// Nanoseconds after the first signal, in which the watchdog ends the program in any case.
+constexpr std::int64_t patience_with_watchdog = 2'000'000'000;
+
+std::atomic<int> signal_came = 0;      ///< its number
+std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
+sem_t signals;                         ///< one for each that came
+
+extern "C" void take_signal(int number) {
+  const int error = errno;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t moment = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  if (signal_came == 0) {
+    came_at = moment;
+  } else if (moment - came_at > patience_with_watchdog) {
+    // The next does what signals do, should the watchdog itself be stuck.
+    std::signal(number, SIG_DFL);
+  }
+  signal_came = number;
+  sem_post(&signals);
+  errno = error;
+}
+
+void wait_for_signal() {
+  while (sem_wait(&signals) != 0 && errno == EINTR) {
+  }
+}
+
+/// Until another signal comes, or so long.
+void wait_for_signal(std::chrono::milliseconds longest) {
+  timespec until{};
+  clock_gettime(CLOCK_REALTIME, &until);
+  const auto nanoseconds = until.tv_nsec + std::chrono::nanoseconds(longest).count();
+  until.tv_sec += nanoseconds / 1'000'000'000;
+  until.tv_nsec = nanoseconds % 1'000'000'000;
+  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR) {
+  }
+}
+
+[[noreturn]] void end_at_once(int number) {
+  try {
+    process::end_children(grace_of_children);
+    files::Unfinished::remove_all();
+  } catch (const std::exception&) {
+    // No memory is left to tidy with: it ends all the same.
+  }
+  constexpr char words[] = "roam: cancelled\n";
+  [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words, sizeof words - 1);
+  std::signal(number, SIG_DFL);
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, number);
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  std::raise(number);
+  _exit(128 + number);
+}
+
+void watch() {
+  wait_for_signal();
+  wait_for_signal(longest_good_order);
+  end_at_once(signal_came);
+}
+
+/// Its thread blocks all signals, so that they go to others and interrupt what these wait for.
+void start_watchdog() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread(watch).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+}  // namespace
+
+void catch_signals() {
+  sem_init(&signals, 0, 0);
+  start_watchdog();
+  struct sigaction action {};
+  action.sa_handler = take_signal;
+  // No SA_RESTART, so that a read from a terminal ends.
+  sigemptyset(&action.sa_mask);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    // A shell that runs a job in the background, or nohup, wants it ignored.
+    if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(number, &action, nullptr);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  // A file that grows beyond `ulimit -f` cannot be written, which is said.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool interrupted() { return signal_came != 0; }
+
+void stop_if_interrupted() {
+  if (interrupted()) throw Cancelled();
+}
+
+bool has_time() {
+  if (!interrupted()) return true;
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return now - std::chrono::nanoseconds(came_at) < longest_good_order / 2;
+}
+
+}  // namespace roam::app

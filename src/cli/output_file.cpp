@@ -1,0 +1,39 @@
+#include "cli/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "cli/exit_status.h"
+
+namespace roam::app {
+
+std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (fs::is_directory(file, none) || !file.has_filename()) return Obstacle{"that is a folder", "name a file in it"};
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, none))
+    return Obstacle{"there is no folder " + folder.string(), "make it first, or name a file elsewhere"};
+  const bool there = fs::exists(file, none);
+  if (::access(there ? file.c_str() : folder.c_str(), W_OK) == 0) return std::nullopt;
+  return Obstacle{fmt::format("{} cannot be written: {}", there ? "it" : "its folder", std::strerror(errno)),
+                  "name a file elsewhere"};
+}
+
+void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
+                  const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  if (file.empty()) throw UsageError(option + ": a file needs a name");
+  std::error_code none;
+  for (const fs::path& scene : scenes) {
+    if (fs::equivalent(scene, file, none))
+      throw UsageError(fmt::format("{} {} would overwrite the scene", option, file.string()));
+  }
+  if (const std::optional<Obstacle> found = obstacle(file))
+    throw UsageError(fmt::format("{} {}: {}; {}", option, file.string(), found->what, found->advice));
+}
+
+}  // namespace roam::app

@@ -1,0 +1,69 @@
+#include "cli/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "cli/exit_status.h"
+#include "cli/tell.h"
+#include "roam/error.h"
+#include "text/printable.h"
+
+namespace roam::app {
+
+namespace {
+
+void write(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) throw BrokenPipe();
+  throw Error(std::string("cannot write the result: ") + std::strerror(errno));
+}
+
+/// Of a text that is JSON: the same data without controls. They stand in its strings alone, save for its line ends.
+std::string without_controls(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    const std::size_t bytes = std::max<std::size_t>(c.bytes, 1);
+    if (c.bytes > 0 && c.code != '\n' && is_control(c.code)) {
+      escaped += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c.code));
+    } else {
+      escaped += text.substr(0, bytes);
+    }
+    text.remove_prefix(bytes);
+  }
+  return escaped;
+}
+
+}  // namespace
+
+Json to_json(const PagerStats& paging) {
+  return {{"memory", paging.memory},
+          {"used", paging.used},
+          {"tiles", paging.tiles},
+          {"pages", paging.pages},
+          {"triangles", paging.triangles},
+          {"wanted", paging.wanted},
+          {"loads", paging.loads},
+          {"evictions", paging.evictions},
+          {"failures", paging.failures},
+          {"failed", paging.failed},
+          {"bytes_read", paging.bytes_read},
+          {"worst_read_s", paging.worst_read_s},
+          {"worst_decode_s", paging.worst_decode_s},
+          {"ready_m", paging.ready_m},
+          {"last_failure", paging.last_failure}};
+}
+
+void print(const Json& report) {
+  // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
+  write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
+}
+
+void print(const std::string& text) { write(printable_lines(text)); }
+
+}  // namespace roam::app

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Pieces of the JSON reports that several verbs share.
+
+#include <nlohmann/json.hpp>
+
+#include "roam/math.h"
+#include "roam/pager.h"
+
+namespace roam::app {
+
+/// One JSON object whose members keep the order in which they are set.
+using Json = nlohmann::ordered_json;
+
+/// [x, y, z]
+[[nodiscard]] inline Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+/// {"min": [x, y, z], "max": [x, y, z]}
+[[nodiscard]] inline Json to_json(const Box& box) { return {{"min", to_json(box.lower)}, {"max", to_json(box.upper)}}; }
+
+/// What a pager held and did.
+[[nodiscard]] Json to_json(const PagerStats& paging);
+
+/// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
+/// written, e.g. to a disk that is full.
+void print(const Json& report);
+/// The same of lines for people, made printable.
+void print(const std::string& text);
+
+}  // namespace roam::app

@@ -1,0 +1,34 @@
+#include "cli/tell.h"
+
+#include <cstdio>
+
+#include "text/printable.h"
+
+namespace roam::app {
+namespace {
+
+/// Characters of a line, far more than any sentence has: what is longer holds what no sentence should.
+constexpr std::size_t longest_line = 1000;
+
+}  // namespace
+
+void tell(std::string_view sentence, std::string_view program) {
+  // A message that cannot be written either, to a log on the disk that is full, is lost: the exit status still tells.
+  std::fputs((std::string(program) + ": " + printable(sentence, longest_line) + "\n").c_str(), stderr);
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string lines;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines += printable(text.substr(0, end), longest_line);
+    if (end == std::string_view::npos) break;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+std::string printable_part(std::string_view text) { return printable(text, longest_sentence); }
+
+}  // namespace roam::app

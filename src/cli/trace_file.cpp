@@ -1,0 +1,66 @@
+#include "cli/trace_file.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "roam/error.h"
+
+namespace roam::app {
+namespace {
+
+// Rows are handed to the file in blocks: a row a write would cost more than the step it tells of.
+constexpr std::size_t block_bytes = 1 << 16;
+
+std::string joined_events(const StepReport& report) {
+  std::string text;
+  for (const Event& event : report.events) {
+    if (!text.empty()) text += '+';
+    text += to_string(event.kind);
+  }
+  return text;
+}
+
+}  // namespace
+
+TraceFile::TraceFile(std::filesystem::path file) : path_(std::move(file)), out_(path_) {
+  if (!out_) throw Error("cannot write the trace " + path_.string() + "; check its folder and permissions");
+  rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
+}
+
+void TraceFile::add(std::uint64_t step, double step_start, const StepReport& report) {
+  const auto row = [&](double time, const Vec3& p, double radius, double height, double clearance, std::size_t contacts,
+                       const std::string& events, bool teleport) {
+    fmt::format_to(std::back_inserter(rows_), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}\n",
+                   step, time, p.x, p.y, p.z, radius, height, clearance, contacts, events, teleport ? 1 : 0);
+  };
+  const std::string events = joined_events(report);
+  if (step == 0) {
+    // The place that was asked for may be inside a wall; the walk starts where the body was put.
+    row(step_start, report.to, report.radius, report.height, report.axis_clearance, report.contacts.total(), events,
+        true);
+    return;
+  }
+  for (const Segment& corner : report.segments) {
+    const bool last = &corner == &report.segments.back();
+    row(step_start + corner.time, corner.position, corner.radius, corner.height, corner.axis_clearance,
+        last ? report.contacts.total() : 0, last ? events : std::string(), corner.teleport);
+  }
+  if (report.segments.empty()) {
+    row(step_start + report.elapsed, report.to, report.radius, report.height, report.axis_clearance,
+        report.contacts.total(), events, false);
+  }
+  if (rows_.size() >= block_bytes) {
+    out_ << rows_;
+    rows_.clear();
+  }
+}
+
+void TraceFile::close() {
+  out_ << rows_;
+  rows_.clear();
+  out_.close();
+  if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
+}
+
+}  // namespace roam::app

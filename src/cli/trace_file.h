@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// The trace of a walk: a row or more for each step.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "roam/walker.h"
+
+namespace roam::app {
+
+/// Writes `--trace`: a row for the start and one or more for each step. A step whose way has corners has a row for each
+/// of them; contacts and events stand in its last row, several events joined by `+`. `clearance` is certified all along
+/// the straight piece that ends in its row; 0 where nothing is certified. `radius` and `height` are those of the body
+/// on that piece.
+class TraceFile {
+ public:
+  explicit TraceFile(std::filesystem::path file);
+
+  /// `step_start` is the time in seconds when the step began.
+  void add(std::uint64_t step, double step_start, const StepReport& report);
+  /// Throws roam::Error when not all could be written.
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+  std::string rows_;
+};
+
+}  // namespace roam::app

@@ -1,0 +1,291 @@
+#include "draw/cut.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <utility>
+
+#include "draw/thin_segments.h"
+
+namespace roam::draw {
+namespace {
+
+/// Triangles that one task cuts.
+constexpr std::size_t task_triangles = 1 << 13;
+
+bool before(const Vec3& a, const Vec3& b) {
+  if (a.x != b.x) return a.x < b.x;
+  if (a.y != b.y) return a.y < b.y;
+  return a.z < b.z;
+}
+
+/// Where `side` changes its sign along the triangle's border: two points, or none.
+bool crossings(const TurnedTriangle& t, const std::array<double, 3>& side, std::array<Vec3, 2>& points) {
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < 3 && found < 2; ++k) {
+    std::size_t i = k, j = (k + 1) % 3;
+    if ((side[i] < 0.0) == (side[j] < 0.0)) continue;
+    if (before(t[j], t[i])) std::swap(i, j);  // the neighbour comes along the edge from the other end
+    points[found++] = t[i] + side[i] / (side[i] - side[j]) * (t[j] - t[i]);
+  }
+  return found == 2;
+}
+
+/// The stretches in a tree of boxes over their running numbers: most triangles are far from all of them.
+class StretchTree {
+ public:
+  explicit StretchTree(std::span<const Stretch> stretches) : stretches_(stretches) {
+    if (!stretches.empty()) build(0, stretches.size());
+  }
+
+  template <class Visit>
+  void near(const Rect& box, const Visit& visit) const {
+    if (!nodes_.empty()) descend(0, 0, stretches_.size(), box, visit);
+  }
+
+ private:
+  struct Node {
+    Rect box;
+    std::size_t second = 0;  ///< its second child; the first follows it
+  };
+  static constexpr std::size_t leaf = 4;
+
+  void build(std::size_t from, std::size_t to) {
+    const std::size_t self = nodes_.size();
+    nodes_.emplace_back();
+    for (std::size_t i = from; i < to; ++i) {
+      nodes_[self].box.include(stretches_[i].from);
+      nodes_[self].box.include(stretches_[i].to);
+    }
+    if (to - from <= leaf) return;
+    const std::size_t middle = (from + to) / 2;
+    build(from, middle);
+    nodes_[self].second = nodes_.size();
+    build(middle, to);
+  }
+
+  template <class Visit>
+  void descend(std::size_t node, std::size_t from, std::size_t to, const Rect& box, const Visit& visit) const {
+    const Rect& b = nodes_[node].box;
+    // Boxes that only touch count: a stretch along an axis has a flat one.
+    if (b.lower.x > box.upper.x || box.lower.x > b.upper.x || b.lower.y > box.upper.y || box.lower.y > b.upper.y)
+      return;
+    if (to - from <= leaf) {
+      for (std::size_t i = from; i < to; ++i) visit(stretches_[i]);
+      return;
+    }
+    const std::size_t middle = (from + to) / 2;
+    descend(node + 1, from, middle, box, visit);
+    descend(nodes_[node].second, middle, to, box, visit);
+  }
+
+  std::span<const Stretch> stretches_;
+  std::vector<Node> nodes_;
+};
+
+/// The z of the unit normal, either way up: 1 for level ground, 0 for a wall and for what has no normal.
+double levelness(const TurnedTriangle& t) {
+  const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+  const double length = glm::length(normal);
+  return length > 0.0 ? std::abs(normal.z) / length : 0.0;
+}
+
+void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double highest, const PlanView& view,
+              PlanCut& out) {
+  const Rect& area = view.map.area();
+  if (box.lower.x > area.upper.x || area.lower.x > box.upper.x || box.lower.y > area.upper.y ||
+      area.lower.y > box.upper.y) {
+    return;
+  }
+  const auto levels_in = [&](double shift, const auto& take) {
+    auto level = std::lower_bound(view.cuts.begin(), view.cuts.end(), lowest + shift);
+    for (; level != view.cuts.end() && *level <= highest + shift; ++level) {
+      const auto segment = cut_level(t, *level - shift);
+      if (segment) take(*segment, static_cast<std::uint16_t>(level - view.cuts.begin()));
+    }
+  };
+  const bool is_ground = levelness(t) > view.ground;
+  levels_in(0.0, [&](const Segment& segment, std::uint16_t level) {
+    view.map.pieces(segment, [&](const Segment& piece, const LevelMap::Cell& cell) {
+      if (cell.upper == level) (is_ground ? out.below : out.walls).push_back(piece);
+      if (cell.lower == level) out.below.push_back(piece);
+    });
+  });
+  if (is_ground) return;
+  for (const double depth : view.below) {
+    levels_in(depth, [&](const Segment& segment, std::uint16_t level) {
+      view.map.pieces(segment, [&](const Segment& piece, const LevelMap::Cell& cell) {
+        if (cell.upper == level) out.below.push_back(piece);
+      });
+    });
+  }
+}
+
+void cut_section(const TurnedTriangle& t, const Stretch& stretch, std::vector<Segment>& out) {
+  const Point way = stretch.to - stretch.from;
+  const double length = glm::length(way);
+  const Point direction = way / length;
+  std::array<double, 3> side{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    side[k] = direction.x * (t[k].y - stretch.from.y) - direction.y * (t[k].x - stretch.from.x);
+  }
+  std::array<Vec3, 2> p;
+  if (!crossings(t, side, p)) return;
+  const auto unrolled = [&](const Vec3& q) {
+    return Point(stretch.along + direction.x * (q.x - stretch.from.x) + direction.y * (q.y - stretch.from.y), q.z);
+  };
+  Segment segment{unrolled(p[0]), unrolled(p[1])};
+  const Rect part{{stretch.along, stretch.lowest}, {stretch.along + length, stretch.highest}};
+  if (clip(segment, part)) out.push_back(segment);
+}
+
+}  // namespace
+
+std::optional<Segment> cut_level(const TurnedTriangle& triangle, double height) {
+  std::array<Vec3, 2> p;
+  if (!crossings(triangle, {triangle[0].z - height, triangle[1].z - height, triangle[2].z - height}, p)) {
+    return std::nullopt;
+  }
+  return Segment{{p[0].x, p[0].y}, {p[1].x, p[1].y}};
+}
+
+std::vector<Stretch> stretches(const Way& way, const Turn& turn, double beyond, double lowest, double highest) {
+  std::vector<Stretch> result;
+  for (std::size_t i = 0; i + 1 < way.points.size(); ++i) {
+    const WayPoint &a = way.points[i], &b = way.points[i + 1];
+    if (!b.jump && b.along > a.along) {
+      result.push_back({turn.plan(a.position), turn.plan(b.position), a.along, lowest, highest});
+    }
+  }
+  if (result.empty()) {
+    // A body that never left its place: across the plan, from left to right.
+    const Point at = turn.plan(way.points.front().position);
+    return {{at - Point(beyond, 0.0), at + Point(beyond, 0.0), -beyond, lowest, highest}};
+  }
+  const auto direction = [](const Stretch& s) { return (s.to - s.from) / glm::distance(s.to, s.from); };
+  const Stretch first = result.front(), last = result.back();
+  const Point back = first.from - beyond * direction(first), ahead = last.to + beyond * direction(last);
+  result.insert(result.begin(), {back, first.from, first.along - beyond, lowest, highest});
+  result.push_back({last.to, ahead, last.along + glm::distance(last.from, last.to), lowest, highest});
+  return result;
+}
+
+struct Cutter::State {
+  Turn turn;
+  std::span<const PlanView> views;
+  std::span<const Stretch> section;
+  StretchTree tree;
+  std::uint64_t done = 0;
+  std::vector<ThinSegments> walls, below;  ///< of each view
+  ThinSegments along;
+};
+
+Cutter::Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section, std::size_t most) {
+  Rect all;
+  for (const Stretch& s : section) {
+    all.include({s.along, s.lowest});
+    all.include({s.along + glm::distance(s.from, s.to), s.highest});
+  }
+  state_ =
+      std::make_unique<State>(State{turn, views, section, StretchTree(section), 0, {}, {}, ThinSegments(all, most)});
+  for (const PlanView& view : views) {
+    state_->walls.emplace_back(view.map.area(), most);
+    state_->below.emplace_back(view.map.area(), most);
+  }
+}
+
+Cutter::~Cutter() = default;
+
+Box Cutter::box() const {
+  const State& s = *state_;
+  Box box;
+  const auto include = [&](const Point& p, double z) {
+    box.include(s.turn.origin + Vec3(s.turn.cosine * p.x - s.turn.sine * p.y, s.turn.sine * p.x + s.turn.cosine * p.y,
+                                     z - s.turn.origin.z));
+  };
+  for (const PlanView& view : s.views) {
+    if (view.cuts.empty()) continue;
+    const double deepest = view.below.empty() ? 0.0 : *std::max_element(view.below.begin(), view.below.end());
+    const Rect& area = view.map.area();
+    for (const double x : {area.lower.x, area.upper.x}) {
+      for (const double y : {area.lower.y, area.upper.y}) {
+        include({x, y}, view.cuts.front() - std::max(0.0, deepest));
+        include({x, y}, view.cuts.back());
+      }
+    }
+  }
+  for (const Stretch& stretch : s.section) {
+    for (const Point& p : {stretch.from, stretch.to}) {
+      include(p, stretch.lowest);
+      include(p, stretch.highest);
+    }
+  }
+  // By more than turning back is rounded.
+  constexpr double rounding = 1e-6;
+  return box.empty() ? box : box.grown(rounding);
+}
+
+void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uint64_t)>& goes_on) {
+  State& s = *state_;
+  struct Task {
+    const Mesh* mesh;
+    std::size_t from, to;
+    Cuts out;
+  };
+  std::vector<Task> tasks;
+  for (const Mesh& mesh : meshes) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += task_triangles) {
+      tasks.push_back({&mesh, i, std::min(i + task_triangles, mesh.triangles.size()), {}});
+    }
+  }
+  std::mutex told;
+  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t number) {
+    Task& task = tasks[number];
+    task.out.plans.resize(s.views.size());
+    for (std::size_t i = task.from; i < task.to; ++i) {
+      TurnedTriangle t = task.mesh->triangle(i);
+      Rect box;
+      for (Vec3& corner : t) {
+        corner = s.turn(corner);
+        box.include({corner.x, corner.y});
+      }
+      const auto [lowest, highest] = std::minmax({t[0].z, t[1].z, t[2].z});
+      for (std::size_t k = 0; k < s.views.size(); ++k) {
+        cut_plan(t, box, lowest, highest, s.views[k], task.out.plans[k]);
+      }
+      s.tree.near(box, [&](const Stretch& stretch) {
+        if (lowest <= stretch.highest && highest >= stretch.lowest) cut_section(t, stretch, task.out.section);
+      });
+    }
+    const std::lock_guard lock(told);
+    s.done += task.to - task.from;
+    goes_on(s.done);
+  });
+  for (Task& task : tasks) {
+    for (std::size_t k = 0; k < s.views.size(); ++k) {
+      s.walls[k].add(std::exchange(task.out.plans[k].walls, {}));
+      s.below[k].add(std::exchange(task.out.plans[k].below, {}));
+    }
+    s.along.add(std::exchange(task.out.section, {}));
+  }
+}
+
+Cuts Cutter::take() {
+  Cuts all;
+  for (std::size_t k = 0; k < state_->views.size(); ++k) {
+    all.plans.push_back({state_->walls[k].take(), state_->below[k].take()});
+  }
+  all.section = state_->along.take();
+  return all;
+}
+
+Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
+         std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on) {
+  Cutter cutter(turn, views, section);
+  cutter.add(meshes, goes_on);
+  return cutter.take();
+}
+
+}  // namespace roam::draw

@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// The plane values that a picture is made of. A point of a plan is (right, up) in metres, of a section (distance along
+/// the way, height) in metres, of a sheet (right, down) in pixels.
+
+#include <algorithm>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <vector>
+
+#include "roam/math.h"
+
+namespace roam::draw {
+
+using Point = glm::dvec2;
+using Polyline = std::vector<Point>;
+
+struct Segment {
+  Point a{0.0}, b{0.0};
+};
+
+/// A rectangle with sides along the axes; empty until something is included.
+struct Rect {
+  Point lower{std::numeric_limits<double>::infinity()};
+  Point upper{-std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y); }
+  [[nodiscard]] double width() const { return upper.x - lower.x; }
+  [[nodiscard]] double height() const { return upper.y - lower.y; }
+  [[nodiscard]] Point center() const { return 0.5 * lower + 0.5 * upper; }
+  [[nodiscard]] Rect grown(double by) const { return {lower - by, upper + by}; }
+  [[nodiscard]] bool contains(const Point& p) const {
+    return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y;
+  }
+  [[nodiscard]] bool contains(const Rect& r) const { return contains(r.lower) && contains(r.upper); }
+  [[nodiscard]] bool overlaps(const Rect& r) const {
+    return lower.x < r.upper.x && r.lower.x < upper.x && lower.y < r.upper.y && r.lower.y < upper.y;
+  }
+  void include(const Point& p) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+  }
+  static Rect around(const Point& centre, double width, double height) {
+    const Point half(0.5 * width, 0.5 * height);
+    return {centre - half, centre + half};
+  }
+};
+
+/// How a plan is laid on the sheet: the scene turned about the vertical through `origin`. Heights stay.
+struct Turn {
+  Vec3 origin{0.0};
+  double cosine = 1.0;  ///< of the angle by which the scene is turned clockwise, seen from above
+  double sine = 0.0;
+
+  /// (right, up, height) of a place, metres.
+  [[nodiscard]] Vec3 operator()(const Vec3& place) const {
+    const double x = place.x - origin.x, y = place.y - origin.y;
+    return {cosine * x + sine * y, cosine * y - sine * x, place.z};
+  }
+  /// (right, up) of a place, metres.
+  [[nodiscard]] Point plan(const Vec3& place) const {
+    const Vec3 p = (*this)(place);
+    return {p.x, p.y};
+  }
+};
+
+/// The part of the segment inside the rectangle. False where there is none.
+[[nodiscard]] inline bool clip(Segment& s, const Rect& r) {
+  const Point d = s.b - s.a;
+  double from = 0.0, to = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    if (d[k] == 0.0) {
+      if (s.a[k] < r.lower[k] || s.a[k] > r.upper[k]) return false;
+      continue;
+    }
+    const double near = (r.lower[k] - s.a[k]) / d[k], far = (r.upper[k] - s.a[k]) / d[k];
+    from = std::max(from, std::min(near, far));
+    to = std::min(to, std::max(near, far));
+  }
+  if (!(from <= to)) return false;
+  const Point a = s.a;
+  if (to < 1.0) s.b = a + to * d;
+  if (from > 0.0) s.a = a + from * d;
+  return true;
+}
+
+}  // namespace roam::draw

@@ -1,0 +1,64 @@
+#pragma once
+/// \file
+/// Texts on a sheet, none over another.
+
+#include <string>
+#include <vector>
+
+#include "draw/sheet.h"
+
+namespace roam::draw {
+
+inline constexpr Colour paper{1.0, 1.0, 1.0, 1.0};
+inline constexpr Colour ink{0.11, 0.13, 0.17, 1.0};
+
+/// The text with everything that is no printable UTF-8 replaced by "?": file and object names may be any bytes.
+[[nodiscard]] std::string printable(const std::string& text);
+
+/// The printable text in lines that are not wider than `width`, broken at spaces, or within words that are too long.
+[[nodiscard]] std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
+                                               const MeasureText& measure);
+
+/// Writes texts on a sheet and remembers where they and other things that must stay clear are.
+class Labels {
+ public:
+  Labels(Sheet& sheet, MeasureText measure) : sheet_(sheet), measure_(std::move(measure)) {}
+
+  [[nodiscard]] Rect measured(const std::string& text, double size, bool bold) const {
+    return measure_(printable(text), size, bold);
+  }
+  [[nodiscard]] const MeasureText& measure() const { return measure_; }
+
+  enum class Align : std::uint8_t { left, centre, right };
+  /// Writes a line with its baseline at `at`, wherever that is.
+  Rect write(const std::string& what, const std::string& text, const Point& at, double size, bool bold,
+             const Colour& colour, Align align = Align::left);
+
+  /// Keeps texts that are placed away from a rectangle.
+  void block(const Rect& r) { taken_.push_back(r); }
+  /// Keeps them off lines, if they find room beside them: the more, the greater `weight`.
+  void avoid(const std::vector<Polyline>& lines, double weight);
+
+  /// A label of a place: its lines, the first one bold.
+  struct Label {
+    std::string what;
+    std::vector<std::string> lines;
+    double size = 0.0;
+    Colour colour{};
+  };
+  /// Writes a label as near to `anchor` as it can be inside `panel` without covering a text or what is blocked, on a
+  /// pale ground, joined to the anchor by a thin line where it is not beside it. Writes nothing where the panel is
+  /// full, and says so by false.
+  bool place(const Label& label, const Point& anchor, const Rect& panel);
+
+ private:
+  [[nodiscard]] bool is_free(const Rect& r) const;
+  [[nodiscard]] double covered(const Rect& r) const;
+
+  Sheet& sheet_;
+  MeasureText measure_;
+  std::vector<Rect> taken_;
+  std::vector<std::pair<Point, double>> avoided_;
+};
+
+}  // namespace roam::draw

@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// The places of a walk that a picture points at.
+
+#include <string>
+#include <vector>
+
+#include "draw/survey.h"
+#include "draw/way.h"
+#include "words/walk.h"
+
+namespace roam::draw {
+
+enum class MarkKind : std::uint8_t { start, end, narrowest, nearest, blocked, fell };
+
+struct Mark {
+  MarkKind kind = MarkKind::start;
+  Vec3 point{0.0};      ///< what is marked: the body's centre, or of `blocked` the point that was touched
+  Vec3 centre{0.0};     ///< of the body that stands or falls there
+  double height = 0.0;  ///< of that body, metres
+  double along = 0.0;   ///< metres, as WayPoint::along
+  std::string name;     ///< "start", "narrowest", ...
+  std::string note;     ///< more about it, or nothing: "0.750 m clear"
+};
+
+/// In the order in which they lie along the way. `nearest`, the least certified clearance, only flying: on foot that is
+/// the ground.
+[[nodiscard]] std::vector<Mark> find_marks(const words::EndedWalk& report, const Record& record, const Way& way,
+                                           const Survey& survey);
+
+/// A length for people: "0.62 m", "12.5 m", "1.79 km"; below a centimetre in millimetres: "4.2 mm".
+[[nodiscard]] std::string length_text(double metres);
+
+}  // namespace roam::draw

@@ -1,0 +1,87 @@
+#include "draw/picture.h"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "cli/progress.h"
+#include "draw/compose.h"
+
+namespace roam::draw {
+namespace {
+
+/// By how much the way may be straightened, in radii and at most in metres: far less than a line is wide, and so little
+/// that a body on the straightened way still fits where the true one did when the survey makes it slimmer.
+constexpr double straightening = 0.04;
+constexpr double most_straightening = 0.002;
+/// Segments that are held, before those that make a line are joined.
+constexpr std::size_t held_for_each_shown = 4;
+/// Storeys that are shown one over the other are at least so many body heights apart.
+constexpr double storey_heights = 1.2;
+/// On foot two cuts more, under the body's centre: just above what it steps onto, for what stops its legs; and below
+/// what it steps down, for the ditches and pits that it may fall into.
+std::vector<double> depths_below(const WalkerSettings& settings) {
+  const double feet = 0.5 * settings.height, margin = 0.1 * settings.height;
+  const double legs = feet - settings.step - margin;
+  return legs > margin ? std::vector{legs, feet + settings.step + margin} : std::vector{feet + settings.step + margin};
+}
+
+std::vector<PlanView> plan_views(const Walked& walked, const Frames& frames, const Survey& survey, const Levels& levels,
+                                 const std::vector<Mark>& marks) {
+  const WalkerSettings& settings = walked.report.settings;
+  std::vector<double> below;
+  double ground = 1.0;
+  if (walked.report.mode == Mode::walk) {
+    below = depths_below(settings);
+    ground = std::cos(glm::radians(settings.slope_degrees));
+  }
+  std::vector<PlanView> views;
+  views.push_back({LevelMap(frames.plan.view, levels, survey.stations, frames.turn, storey_heights * settings.height),
+                   levels.cuts, below, ground});
+  for (const Detail& detail : frames.details) {
+    views.push_back({LevelMap(detail.plan.view, 0), {marks[detail.marks[0]].centre.z}, below, ground});
+  }
+  return views;
+}
+
+/// Everything that one of the sections shows.
+Rect section_range(const Frames& frames) {
+  Rect range = frames.section.view;
+  for (const Detail& detail : frames.details) {
+    range.include(detail.section.view.lower);
+    range.include(detail.section.view.upper);
+  }
+  return range;
+}
+
+}  // namespace
+
+Measured measure(const Space& space, const words::EndedWalk& report, const Record& record, const Arrive& arrive) {
+  Measured measured;
+  measured.way = simplified(record, std::min(straightening * report.settings.radius, most_straightening));
+  measured.survey = survey(space, measured.way, report.settings, report.mode, arrive);
+  return measured;
+}
+
+Sheet make_sheet(const Walked& walked) {
+  const words::EndedWalk& report = walked.report;
+  const auto& [way, measured] = walked.measured;
+  const std::vector<Mark> marks = find_marks(report, walked.record, way, measured);
+  const Frames frames = choose_frames(way, measured, marks, walked.bounds, report.settings);
+  const Levels levels = find_levels(measured.stations, report.settings.height);
+
+  const Rect range = section_range(frames);
+  const double beyond = std::max({0.0, -range.lower.x, range.upper.x - way.length});
+  const auto views = plan_views(walked, frames, measured, levels, marks);
+  const auto section = stretches(way, frames.turn, beyond, range.lower.y, range.upper.y);
+  app::Progress progress("cutting", "triangles");
+  Cutter cutter(frames.turn, views, section, held_for_each_shown * walked.most_segments);
+  walked.triangles(cutter.box(), [&](std::span<const Mesh> meshes) {
+    cutter.add(meshes, [&](std::uint64_t done) { progress.at(done, walked.triangle_count); });
+  });
+  const Cuts cuts = cutter.take();
+  return compose(
+      {walked.title, report, walked.record, way, measured, marks, levels, frames, cuts, walked.most_segments},
+      measure_text);
+}
+
+}  // namespace roam::draw

@@ -1,0 +1,33 @@
+#include "scenes/beside_scene.h"
+
+#include <fmt/format.h>
+
+#include "roam/error.h"
+
+namespace roam::app {
+
+std::filesystem::path store_beside(const std::filesystem::path& scene) {
+  std::filesystem::path path = std::filesystem::absolute(scene).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const bool relative = scene.is_relative() && scene.lexically_normal().has_parent_path() == false;
+  path += ".roam";
+  return relative ? path.filename() : path;
+}
+
+void demand_no_link(const std::filesystem::path& store) {
+  std::error_code none;
+  if (!std::filesystem::is_symlink(std::filesystem::symlink_status(store, none))) return;
+  throw Error(
+      fmt::format("{} is a link, and a store that lies beside its scene may be none: name the store that is meant, or "
+                  "delete the link",
+                  store.string()));
+}
+
+std::vector<std::string> told_notes(const StoreBuildReport& report, const std::filesystem::path& store) {
+  std::vector<std::string> told = report.notes;
+  if (report.parts_read == report.parts) return told;
+  for (std::string& note : told) note = fmt::format("of the build of {}: \"{}\"", store.string(), note);
+  return told;
+}
+
+}  // namespace roam::app

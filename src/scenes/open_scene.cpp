@@ -1,0 +1,159 @@
+#include "scenes/open_scene.h"
+
+#include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <new>
+#include <thread>
+
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "scenes/free_start.h"
+#include "store/build/fingerprint.h"
+#include "store/opened.h"
+
+namespace roam::app {
+namespace {
+
+/// Seconds. How long a body that is put somewhere may wait for what is there; then it is held, as said.
+constexpr double longest_wait = 60.0;
+
+/// How long a thread of the pager may take to name what is not known; where all of them wait for reads it is not named.
+constexpr std::chrono::milliseconds longest_naming{200};
+
+/// From now on what is large goes back to the system when it is freed, and leaves no holes.
+void keep_no_large_block() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+#endif
+}
+
+/// What was freed goes back to the system: it is not to be resident beside what comes next.
+void return_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64_t memory) {
+  if (!options.name_a_store()) return nullptr;
+  if (options.scenes.size() > 1) {
+    throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
+  }
+  if (options.says_how_to_read()) {
+    throw UsageError(options.scenes.front().string() +
+                     " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
+  }
+  return Store::open(options.scenes.front(), memory);
+}
+
+std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std::uint64_t memory) {
+  const auto said = [&] { return "--memory " + short_count(static_cast<double>(memory)) + "B"; };
+  if (memory < Pager::least_memory) {
+    throw UsageError(fmt::format("{}: a store is walked in {} MiB at least", said(), Pager::least_memory >> 20));
+  }
+  try {
+    return std::make_unique<Pager>(store, PagerOptions{.memory = memory});
+  } catch (const std::bad_alloc&) {
+    throw Error(said() + " is more than this machine gives; a store is walked in less, e.g. --memory 64M");
+  }
+}
+
+}  // namespace
+
+OpenScene::OpenScene(const SceneOptions& options, Source source)
+    : memory_(options.store_memory()), store_(open_store(options, memory_)) {
+  if (store_) {
+    keep_no_large_block();
+    pager_ = make_pager(store_, memory_);
+    return;
+  }
+  loaded_ = load(options, source);
+}
+
+const Space& OpenScene::space() const {
+  if (pager_) return *pager_;
+  return loaded_.world;
+}
+
+std::uint64_t OpenScene::triangles() const {
+  return store_ ? store_->info().triangles : loaded_.world.stats().triangles;
+}
+
+Box OpenScene::bounds() const { return store_ ? store_->info().bounds : loaded_.bounds; }
+
+std::optional<PagerStats> OpenScene::paging() const {
+  if (!pager_) return std::nullopt;
+  return pager_->stats();
+}
+
+Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
+  if (!store_) return free_start(loaded_.world, settings, mode, loaded_.floors);
+  // The pager's memory, and that of what is looked through, are not there at the same time.
+  leave();
+  const Vec3 place = free_start(*store_, memory_, settings, mode);
+  return_memory();
+  pager_ = make_pager(store_, memory_);
+  return place;
+}
+
+void OpenScene::leave() {
+  pager_.reset();
+  return_memory();
+}
+
+void OpenScene::wait_at(const Body& body, const Vec3& place) {
+  if (!pager_) return;
+  pager_->wait(body, place, Vec3(0.0), longest_wait);
+  stop_if_interrupted();
+}
+
+bool OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds) {
+  const bool known = !pager_ || pager_->wait(body, from, velocity, seconds, 1.0);
+  stop_if_interrupted();
+  return known;
+}
+
+void OpenScene::follow(const Walker& walker) {
+  if (!pager_) return;
+  pager_->wait(walker.body(), walker.position(), walker.velocity(), walker.report().elapsed);
+}
+
+SourceTriangle OpenScene::source(TriangleId triangle) const {
+  if (store_) return store_->source(triangle);
+  return {"", triangle, triangle, loaded_.world.object_name(triangle)};
+}
+
+TriangleId OpenScene::scene_triangle(TriangleId triangle) const {
+  return store_ ? store_->scene_triangle(triangle) : triangle;
+}
+
+std::string OpenScene::why_unknown(TriangleId unknown) const {
+  const auto until = std::chrono::steady_clock::now() + longest_naming;
+  std::string why = space().object_name(unknown);
+  while (why.empty() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    why = space().object_name(unknown);
+  }
+  return why;
+}
+
+void read_as(SceneOptions& scene, const Store& store) {
+  ImportOptions options;
+  store::read_as(store.state().manifest.options, options);
+  const SceneOptions unsaid;
+  if (scene.up.empty() && options.up) scene.up = "xyz"[static_cast<int>(*options.up)];
+  for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
+    if (scene.unit == unsaid.unit && parse_length_unit(unit) == options.unit) scene.unit = unit;
+  }
+  if (scene.ignore.empty()) scene.ignore = options.ignore;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,122 @@
+#include "scenes/recorded_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <locale>
+#include <sstream>
+
+#include "files/whole_file.h"
+#include "roam/error.h"
+#include "text/printable.h"
+
+namespace roam::app {
+namespace {
+
+constexpr const char* mark = "# roam: mode ";
+
+std::optional<Mode> parse_mode(const std::string& text) {
+  for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
+    if (text == to_string(mode)) return mode;
+  }
+  return std::nullopt;
+}
+
+WalkerSettings settings_of(const RecordedBody& body) {
+  WalkerSettings settings;
+  settings.radius = body.radius;
+  settings.height = body.height;
+  settings.eye = body.eye;
+  settings.step = body.step;
+  settings.slope_degrees = body.slope_degrees;
+  settings.support_radius = body.support_radius;
+  return settings;
+}
+
+std::string describe(double radius, double height) {
+  return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
+                               : fmt::format("a sphere of radius {:g} m", radius);
+}
+
+std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
+  std::istringstream in(text);
+  std::optional<RecordedBody> body;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.starts_with(mark)) continue;
+    std::istringstream words(line.substr(std::string(mark).size()));
+    words.imbue(std::locale::classic());
+    std::string word;
+    words >> word;
+    const std::optional<Mode> mode = parse_mode(word);
+    RecordedBody read;
+    bool good = mode.has_value();
+    while (good && words >> word) {
+      double* const value = word == "radius"    ? &read.radius
+                            : word == "height"  ? &read.height
+                            : word == "eye"     ? &read.eye
+                            : word == "step"    ? &read.step
+                            : word == "slope"   ? &read.slope_degrees
+                            : word == "support" ? &read.support_radius
+                                                : nullptr;
+      good = value != nullptr && words >> *value;
+    }
+    if (!good) {
+      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", name_of_file,
+                              number, printable(line), body_line({}, Mode::walk)));
+    }
+    if (!body) {
+      try {
+        check(settings_of(read));
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}:{}: {}; correct or remove the line", name_of_file, number, error.what()));
+      }
+      body = read;
+      body->mode = *mode;
+    }
+    // The places of a way that was partly flown are reached in the air alone.
+    if (*mode != Mode::walk) body->mode = Mode::fly;
+    body->ghost |= *mode == Mode::ghost;
+  }
+  return body;
+}
+
+}  // namespace
+
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
+
+RecordedPath load_recorded_path(const std::filesystem::path& file) {
+  RecordedPath path;
+  if (file.empty()) return path;
+  try {
+    const std::string text = files::read_named(file, longest_path_file);
+    std::istringstream in(text);
+    path.places = read_path(in, file.string());
+    path.body = recorded_body(text, file.string());
+  } catch (const Error& error) {
+    path.problem = error.what();
+  }
+  return path;
+}
+
+std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode) {
+  if (recorded.ghost) return "the path was recorded, in part, by a ghost: walls may stand in its way";
+  if (recorded.radius != settings.radius || recorded.height != settings.height) {
+    return fmt::format("the path was recorded by another body: {}; this is {}",
+                       describe(recorded.radius, recorded.height), describe(settings.radius, settings.height));
+  }
+  if (mode == Mode::walk && (recorded.step != settings.step || recorded.slope_degrees != settings.slope_degrees)) {
+    return fmt::format(
+        "the path was recorded by a body that steps {:g} m and climbs {:g} degrees; this one {:g} m and "
+        "{:g} degrees",
+        recorded.step, recorded.slope_degrees, settings.step, settings.slope_degrees);
+  }
+  if (mode == Mode::walk && recorded.support_radius != settings.support_radius) {
+    return fmt::format("the path was recorded by a body with a support radius of {:g} m; this one has {:g} m",
+                       recorded.support_radius, settings.support_radius);
+  }
+  if (recorded.mode == mode) return {};
+  return fmt::format("the path was recorded in mode {}; this is mode {}", to_string(recorded.mode), to_string(mode));
+}
+
+}  // namespace roam::app

@@ -1,0 +1,154 @@
+#include "scenes/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "roam/error.h"
+#include "roam/store.h"
+#include "roam/wander.h"
+
+namespace roam::app {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+World index(const SceneOptions& options, const ImportedScene& scene) {
+  Progress progress("indexing", "triangles");
+  BuildOptions build;
+  build.threads = options.threads;
+  build.lossless = options.lossless;
+  build.progress = [&](double fraction) {
+    const auto done = static_cast<double>(scene.report.triangles) * fraction;
+    return progress.goes_on(static_cast<std::uint64_t>(done), scene.report.triangles);
+  };
+  return World::build(scene.meshes, build);
+}
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& verb) {
+  verb.add_option("SCENE", scenes, "Files, or folders of photogrammetry tiles; several make one scene")
+      ->required()
+      ->type_name("");
+  add_reading_to(verb);
+  verb.add_flag("--lossless", lossless, "Answer hits within 1e-5 m instead of 2 mm; takes more memory");
+}
+
+void SceneOptions::add_reading_to(CLI::App& verb) {
+  verb.add_option("--up", up, "Axis that points up in the file, e.g. --up=-y (default: z; y for glTF)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->type_name("AXIS");
+  verb.add_option("--unit", unit, "Length of 1 in the file (default: m)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "ft", "in"}))
+      ->type_name("m|cm|mm|ft|in");
+  verb.add_option("--ignore", ignore, "Leave out objects whose name matches, e.g. --ignore 'Door*'; may be repeated")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->take_all();
+  verb.add_option("--allow", allow, "Let files of the scene refer to files in this folder, too; may be repeated")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  verb.add_option("--memory", memory,
+                  "Memory of a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
+}
+
+ImportOptions SceneOptions::import_options() const {
+  ImportOptions how;
+  if (!up.empty()) how.up = parse_up_axis(up);
+  how.unit = parse_length_unit(unit);
+  how.ignore = ignore;
+  how.allow = allow;
+  if (memory) how.memory_limit = *memory;
+  return how;
+}
+
+bool SceneOptions::says_how_to_read() const {
+  return !up.empty() || unit != "m" || !ignore.empty() || !allow.empty() || lossless;
+}
+
+bool SceneOptions::name_a_store() const {
+  return std::any_of(scenes.begin(), scenes.end(), [](const auto& scene) { return Store::is_store(scene); });
+}
+
+void SceneOptions::check_there() const {
+  std::error_code none;
+  for (const auto& scene : scenes) {
+    if (!std::filesystem::exists(scene, none)) {
+      if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
+        throw Error(scene.string() + ": cannot be looked at: " + none.message());
+      }
+      const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
+      throw Error(scene.string() + (target.empty() ? ": there is no such file or folder. Check the spelling."
+                                                   : ": is a link to " + target.string() + ", which is not there."));
+    }
+    // A store that is not complete, or whose CURRENT is gone, is no folder of photogrammetry: opening it says which.
+    int folders_of_stores = 0;
+    for (const char* name : {"manifests", "packs", "parts"}) {
+      folders_of_stores += std::filesystem::is_directory(scene / name, none) ? 1 : 0;
+    }
+    if (folders_of_stores > 1) static_cast<void>(Store::open(scene));
+  }
+}
+
+std::string SceneOptions::names() const {
+  std::string text;
+  for (const auto& scene : scenes) text += (text.empty() ? "" : ", ") + scene.string();
+  return text;
+}
+
+std::string SceneOptions::file_names() const {
+  std::string text;
+  for (const auto& path : scenes) {
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    text += (text.empty() ? "" : ", ") + name.string();
+  }
+  return text;
+}
+
+ImportedScene read_scene(const SceneOptions& options) {
+  options.check_there();
+  ImportOptions how = options.import_options();
+  ImportedScene scene;
+  {
+    Progress progress("reading " + options.names(), "B");
+    how.progress = [&](const ImportProgress& p) { return progress.goes_on(p.bytes_read, p.bytes_total); };
+    scene = import_scene(options.scenes, how);
+  }
+  for (const std::string& note : scene.report.notes) tell("note: " + note);
+  return scene;
+}
+
+LoadedScene load(const SceneOptions& options, Source source) {
+  const auto start = std::chrono::steady_clock::now();
+  ImportedScene scene = read_scene(options);
+  LoadedScene loaded;
+  loaded.read_seconds = seconds_since(start);
+  stop_if_interrupted();
+
+  const auto indexing = std::chrono::steady_clock::now();
+  loaded.world = index(options, scene);
+  loaded.build_seconds = seconds_since(indexing);
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Vec3& vertex : mesh.vertices) loaded.bounds.include(vertex);
+  }
+  loaded.floors = floor_samples(scene.meshes);
+  if (options.identify) loaded.identity = identity_of(scene.meshes);
+  if (source == Source::keep) loaded.meshes = std::move(scene.meshes);
+  loaded.report = std::move(scene.report);
+  return loaded;
+}
+
+}  // namespace roam::app

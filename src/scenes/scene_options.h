@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// The options by which every verb names its scene, and the way from them to a world.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roam/import.h"
+#include "roam/profile.h"
+#include "roam/world.h"
+
+namespace roam::app {
+
+struct SceneOptions {
+  std::vector<std::filesystem::path> scenes;
+  std::string up;
+  std::string unit = "m";
+  std::vector<std::string> ignore;
+  std::vector<std::filesystem::path> allow;
+  bool lossless = false;
+  int threads = 0;
+  std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
+  bool identify = false;                ///< no option of the command line: whether LoadedScene::identity is wanted
+
+  /// Bytes for a store's collision where `memory` is not given.
+  static constexpr std::uint64_t usual_store_memory = 64ull << 20;
+  [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
+
+  /// Adds SCENE..., --up, --unit, --ignore, --allow, --lossless, --threads and --memory.
+  void add_to(CLI::App& verb);
+  /// Adds --up, --unit, --ignore, --allow, --threads and --memory.
+  void add_reading_to(CLI::App& verb);
+  /// What the options mean to import_scene and the like.
+  [[nodiscard]] ImportOptions import_options() const;
+  /// Whether any option was given that says how files are to be read or indexed.
+  [[nodiscard]] bool says_how_to_read() const;
+  /// Whether one of the scenes is a store.
+  [[nodiscard]] bool name_a_store() const;
+  /// Throws roam::Error for a scene that is not there, and for a store that is still being built.
+  void check_there() const;
+  /// The file names for people, separated by ", ".
+  [[nodiscard]] std::string names() const;
+  /// The same without folders: what a picture is called.
+  [[nodiscard]] std::string file_names() const;
+};
+
+/// A scene that was read and indexed.
+struct LoadedScene {
+  World world;
+  std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
+  ImportReport report;
+  SceneIdentity identity;    ///< where it was asked for
+  Box bounds;                ///< of the triangles as read
+  std::vector<Vec3> floors;  ///< see floor_samples
+  double read_seconds = 0.0;
+  double build_seconds = 0.0;
+};
+
+/// What becomes of the triangles as read once the world is built.
+enum class Source : std::uint8_t { keep, release };
+
+/// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.
+[[nodiscard]] ImportedScene read_scene(const SceneOptions& options);
+
+/// Reads and indexes, with progress and the import's notes on standard error. Throws what import_scene and
+/// World::build throw.
+[[nodiscard]] LoadedScene load(const SceneOptions& options, Source source);
+
+}  // namespace roam::app

@@ -1,0 +1,58 @@
+#include "scenes/scene_profile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/tell.h"
+
+namespace roam::app {
+
+std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode mode,
+                                               const std::optional<RecordedBody>& recorded) {
+  if (mode == Mode::ghost) return std::nullopt;
+  // A scene without a name is refused by those who read it.
+  if (std::any_of(scene.scenes.begin(), scene.scenes.end(), [](const auto& file) { return file.empty(); }))
+    return std::nullopt;
+  const std::filesystem::path file = profile_path(scene.scenes);
+  std::optional<Profile> profile;
+  try {
+    profile = find_profile(scene.scenes);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + "; --no-profile does without it");
+  }
+  if (!profile) return std::nullopt;
+  if (profile->mode == Mode::fly && mode == Mode::walk) {
+    tell(fmt::format("note: {} was trained for flying: it is not used on foot", file.string()));
+    return std::nullopt;
+  }
+  const bool same =
+      !recorded ||
+      (recorded->radius == profile->radius && recorded->height == profile->height && recorded->step == profile->step &&
+       recorded->slope_degrees == profile->slope_degrees && recorded->support_radius == profile->support_radius);
+  if (!same) return std::nullopt;
+  return SceneProfile{file, std::move(*profile)};
+}
+
+void demand_belongs(const SceneProfile& profile, const SceneIdentity& scene, const std::string& scene_name) {
+  if (profile.profile.belongs_to(scene)) return;
+  throw Error(
+      fmt::format("{} is not of {}: it was trained on another scene, or on this one before it changed or read in "
+                  "another way (--up, --unit, --ignore). Train again (roam train {}), delete the file, or say "
+                  "--no-profile",
+                  profile.file.string(), scene_name, scene_name));
+}
+
+std::string describe(const SceneProfile& profile) {
+  const Profile& p = profile.profile;
+  std::string text = fmt::format("the body is that of {}: radius {:.3g} m, height {:.3g} m", profile.file.string(),
+                                 p.radius, p.height);
+  if (p.support_radius > 0.0) text += fmt::format(", foot {:.3g} m", p.support_radius);
+  if (!p.regions.empty()) {
+    text += fmt::format(", other sizes in {} region{}", p.regions.size(), p.regions.size() == 1 ? "" : "s");
+  }
+  if (!p.complete) text += "; its training was interrupted";
+  return text;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,121 @@
+#include "scenes/surveyed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/tell.h"
+#include "roam/store.h"
+#include "store/meshes.h"
+
+namespace roam::app {
+namespace {
+
+/// Bytes that a triangle of a store takes here at most: loose corners, the same once more for floor, both indexes and
+/// what building them needs.
+constexpr std::uint64_t bytes_a_triangle = 400;
+
+/// Of the machine, now; nothing where it does not say.
+std::optional<std::uint64_t> free_memory() {
+  std::ifstream in("/proc/meminfo");
+  std::string name, unit;
+  std::uint64_t kilobytes = 0;
+  while (in >> name >> kilobytes) {
+    std::getline(in, unit);
+    if (name == "MemAvailable:") return kilobytes << 10;
+  }
+  return std::nullopt;
+}
+
+std::vector<Mesh> read_store(const Store& store) {
+  const StoreInfo& info = store.info();
+  const std::uint64_t needed = info.triangles * bytes_a_triangle;
+  const auto free = free_memory();
+  if (free && needed > *free) {
+    throw Error(
+        fmt::format("{}: its {} triangles take about {}B when they are surveyed, and {}B are free; survey the "
+                    "part of the scene that matters, or take a machine with more memory",
+                    store.name(), info.triangles, short_count(static_cast<double>(needed)),
+                    short_count(static_cast<double>(*free))));
+  }
+  Mesh mesh;
+  mesh.vertices.reserve(3 * info.triangles);
+  mesh.triangles.reserve(info.triangles);
+  Progress progress("reading " + store.name(), "triangles");
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+    store::append(mesh, triangles);
+    progress.at(mesh.triangles.size(), info.triangles);
+  };
+  store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
+    // What is not known would be a hole, where a body falls, or a door that is not there.
+    throw Error(fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
+                            store.name()));
+  });
+  std::vector<Mesh> meshes;
+  meshes.push_back(std::move(mesh));
+  return meshes;
+}
+
+}  // namespace
+
+void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
+  verb.add_option("SCENE", options.scenes, "Files, folders of photogrammetry tiles, or a store; several make one scene")
+      ->required()
+      ->type_name("");
+  options.add_reading_to(verb);
+}
+
+Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
+  std::vector<Mesh> meshes;
+  SceneIdentity identity;
+  if (options.name_a_store()) {
+    if (options.scenes.size() > 1 || options.says_how_to_read()) {
+      throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
+    }
+    const auto store = Store::open(options.scenes.front());
+    identity = identity_of(store->info());
+    meshes = read_store(*store);
+  } else {
+    meshes = read_scene(options).meshes;
+    identity = identity_of(meshes);
+  }
+  stop_if_interrupted();
+  SurveyOptions how;
+  how.slope_degrees = slope_degrees;
+  how.threads = options.threads;
+  how.lossless = true;
+  Progress progress("surveying", "triangles");
+  how.progress = [&](double share) {
+    const auto done = static_cast<double>(identity.triangles) * share;
+    return progress.goes_on(static_cast<std::uint64_t>(done), identity.triangles);
+  };
+  return {Survey::build(std::move(meshes), how), std::move(identity)};
+}
+
+void check_spacing(const Surveyed& scene, double spacing, double width) {
+  constexpr double usual = 0.2;       // m
+  constexpr double overlooked = 0.7;  // of the spacing: openings under that
+  const Box bounds = scene.survey.world().bounds();
+  if (bounds.empty() || spacing <= usual) return;
+  const Vec3 size = bounds.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (spacing > 0.5 * longest) {
+    throw UsageError(fmt::format(
+        "--spacing {:g}: the scene is {:.3g} m long, so hardly a place would be looked at; {:g} m suits most scenes",
+        spacing, longest, usual));
+  }
+  if (overlooked * spacing > width) {
+    tell(
+        fmt::format("note: with --spacing {:g} openings under {:.2g} m may be overlooked; to find those of {:.2g} m "
+                    "say --spacing {:.2g} or less",
+                    spacing, overlooked * spacing, width, std::floor(100.0 * width / overlooked) / 100.0));
+  }
+}
+
+}  // namespace roam::app

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// What `roam train` and `roam probe` ask: a scene, or a store, read whole and surveyed.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "roam/profile.h"
+#include "roam/survey.h"
+#include "scenes/scene_options.h"
+
+namespace roam::app {
+
+/// Adds SCENE..., --up, --unit, --ignore and --threads, and nothing that has no meaning for a survey.
+void add_surveyed_to(CLI::App& verb, SceneOptions& options);
+
+struct Surveyed {
+  Survey survey;           ///< lossless
+  SceneIdentity identity;  ///< of what was read: the scene, or the store
+};
+
+/// Reads and surveys, with progress and the import's notes on standard error. A store is read whole, as it is stored.
+/// Throws what import_scene, Store::open and Survey::build throw, UsageError for options that mean nothing to a store,
+/// and roam::Error for a store that is larger than the memory that is free.
+[[nodiscard]] Surveyed survey_scene(const SceneOptions& options, double slope_degrees);
+
+/// Of --spacing, m: throws UsageError where it is more than half the scene's length, so that hardly a place would be
+/// looked at, and warns on standard error where openings of `width`, m, may be overlooked.
+void check_spacing(const Surveyed& scene, double spacing, double width);
+
+}  // namespace roam::app

@@ -1,0 +1,102 @@
+// Wandering by the core alone: where it goes, when it ends, what it refuses.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "messages.h"
+#include "roam/wander.h"
+#include "roam/world.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace roam;
+
+constexpr WalkerSettings person{.radius = 0.3, .height = 1.8};
+
+/// Two rooms of 6 m x 6 m, 3 m high, joined by a door of 1 m.
+World two_rooms() {
+  Mesh mesh;
+  scenes::add_floor(mesh, 0, 0, 12, 6, 0);
+  scenes::add_floor(mesh, 0, 0, 12, 6, 3);
+  scenes::add_wall(mesh, 0, 0, 12, 0, 0, 3);
+  scenes::add_wall(mesh, 0, 6, 12, 6, 0, 3);
+  scenes::add_wall(mesh, 0, 0, 0, 6, 0, 3);
+  scenes::add_wall(mesh, 12, 0, 12, 6, 0, 3);
+  scenes::add_wall(mesh, 6, 0, 6, 2.5, 0, 3);
+  scenes::add_wall(mesh, 6, 3.5, 6, 6, 0, 3);
+  return World::build({&mesh, 1});
+}
+
+/// Ten seconds; before every `period`-th step the caller looks itself, 0: never.
+RouteResult wandered(const World& world, int period) {
+  Walker walker(world, person, Mode::walk, {3, 3, 0.95});
+  Wander wander(walker, {.seconds = 10.0});
+  for (int i = 0; !wander.done(); ++i) {
+    if (period > 0 && i % period == 0) wander.look();
+    if (!wander.done()) wander.advance();
+  }
+  return wander.result();
+}
+
+TEST(Wander, GoesThroughADoorAndEndsWithItsTime) {
+  const World world = two_rooms();
+  Walker walker(world, person, Mode::walk, {3, 3, 0.95});
+  Wander wander(walker, {.seconds = 30.0});
+  std::set<int> cells;
+  bool beyond = false;
+  while (!wander.done()) {
+    const Vec3 place = wander.advance().to;
+    beyond |= place.x > 7.0;
+    cells.insert(static_cast<int>(place.x) * 100 + static_cast<int>(place.y));
+  }
+  EXPECT_TRUE(beyond);
+  EXPECT_GT(cells.size(), 15U);
+  EXPECT_EQ(wander.result().outcome, Outcome::reached);
+  EXPECT_NEAR(wander.result().simulated, 30.0, 0.02);
+  EXPECT_GT(wander.result().least_gap, 0.0);
+  EXPECT_EQ(error_of([&] { wander.advance(); }).find("the wandering has ended"), 0U);
+}
+
+TEST(Wander, IsTheSameWalkWhoeverLooks) {
+  const World world = two_rooms();
+  const RouteResult all = wandered(world, 1), some = wandered(world, 2), none = wandered(world, 0);
+  for (const RouteResult* other : {&some, &none}) {
+    EXPECT_EQ(all.steps, other->steps);
+    EXPECT_EQ(all.length, other->length);
+    EXPECT_EQ(all.end, other->end);
+  }
+}
+
+TEST(Wander, RefusesWhatCannotBe) {
+  const World world = two_rooms();
+  Walker walker(world, person, Mode::walk, {3, 3, 0.95});
+  const auto refused = [&](const WanderOptions& options) { return error_of([&] { Wander wander(walker, options); }); };
+  EXPECT_TRUE(contains(refused({.speed = 0.0}), "speed"));
+  EXPECT_TRUE(contains(refused({.speed = std::numeric_limits<double>::infinity()}), "speed"));
+  EXPECT_TRUE(contains(refused({.dt = 1e-7}), "time step"));
+  EXPECT_TRUE(contains(refused({.seconds = -1.0}), "time"));
+  EXPECT_EQ(refused({}), "");
+  walker.set_mode(Mode::ghost);
+  EXPECT_TRUE(contains(refused({}), "ghost"));
+}
+
+TEST(WanderStart, IsOnAFloorWithinWalls) {
+  const World world = two_rooms();
+  const std::optional<WanderStart> start = wander_start(world, person, Mode::walk);
+  ASSERT_TRUE(start);
+  EXPECT_GT(start->room, 0.0);
+  EXPECT_NEAR(start->place.z, 0.95, 0.01);  // not on the roof
+  EXPECT_FALSE(wander_start(world, {.radius = 2.0, .height = 8.0}, Mode::fly, {}, 0)) << "no candidate";
+  EXPECT_FALSE(wander_start(World(), person, Mode::walk)) << "an empty scene";
+  EXPECT_THROW((void)wander_start(world, {.radius = -1.0}, Mode::walk), Error);
+}
+
+TEST(WanderStart, EndsWhenGoesOnSaysNo) {
+  int asked = 0;
+  EXPECT_THROW((void)wander_start(two_rooms(), person, Mode::walk, {}, 32, [&] { return ++asked < 5; }), Cancelled);
+  EXPECT_EQ(asked, 5);
+}
+
+}  // namespace
