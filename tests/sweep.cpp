@@ -52,6 +52,33 @@ TEST(Sweep, MeetsAFaceFromEitherSide) {
   }
 }
 
+TEST(Sweep, EndsAtATimeAndIsTheSameBefore) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> in(-3.0, 5.0), fraction(0.0, 1.0);
+  int hits = 0, cut = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Body& body = i % 2 == 0 ? ball : person;
+    const Vec3 from(in(random), in(random), in(random)), motion(in(random), in(random), in(random));
+    const roam::SweepResult whole = roam::sweep(body, from, motion, floor_triangle);
+    const double until = fraction(random);
+    for (const double end : {1.0, until}) {
+      const roam::SweepResult s = roam::sweep(body, from, motion, floor_triangle, end);
+      // A hit right at the end may be seen by one of both alone.
+      if (whole.hit && std::abs(whole.time - end) < 1e-9) continue;
+      ASSERT_EQ(s.hit, whole.hit && whole.time < end) << i;
+      if (!s.hit) EXPECT_EQ(s.distance, 0.0);
+      if (s.hit) EXPECT_NEAR(s.time, whole.time, 1e-12);
+      hits += s.hit ? 1 : 0;
+      cut += whole.hit && !s.hit ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 200);
+  EXPECT_GT(cut, 50);
+  for (const double wrong : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(static_cast<void>(roam::sweep(ball, {1, 1, 2}, {0, 0, -4}, floor_triangle, wrong)), roam::Error);
+  }
+}
+
 TEST(Sweep, DoesNotDependOnTheWinding) {
   const Triangle turned{floor_triangle[0], floor_triangle[2], floor_triangle[1]};
   const auto s = roam::sweep(ball, {1, 1, 2}, {0.5, 0, -4}, floor_triangle);

@@ -6,7 +6,6 @@
 
 #include "affine.h"
 #include "osg_triangles/mesh_of.h"
-#include "sweep/seen_from.h"
 #include "vectors.h"
 
 namespace osgRoam {
@@ -128,15 +127,11 @@ void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corner
 }
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {
-  const roam::certified::LocalTriangle local = roam::certified::seen_from(from_, triangle);
-  // Rejects most triangles that pass the box test.
-  if (roam::certified::plane_separates(below_._body, motion_, local)) return;
   const double end = below_._intersectionLimit == LIMIT_NEAREST && !root_._intersections.empty()
                          ? root_._intersections.begin()->time
                          : 1.0;
-  roam::SweepResult result = roam::certified::sweep(below_._body, motion_, local, 0.0, end, 0.0);
+  const roam::SweepResult result = roam::sweep(below_._body, from_, motion_, triangle, end);
   if (!result.hit) return;
-  result.point += from_;
   const auto earlier_than = [&](const Intersection& other) {
     return result.time != other.time ? result.time < other.time : result.distance < other.distance;
   };
