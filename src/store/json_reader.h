@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -84,7 +85,8 @@ class JsonMembers {
   JsonMembers(JsonReader& reader, std::uint64_t& seen, const char* what)
       : reader_(reader), seen_(seen), what_(what), ends_(true) {}
 
-  void text(const char* name, std::string& out);
+  /// Of so many bytes at most.
+  void text(const char* name, std::string& out, std::size_t most = std::numeric_limits<std::size_t>::max());
   /// Of so many hexadecimal digits.
   void digits(const char* name, std::size_t count, std::string& out);
   void hash(const char* name, std::uint64_t& out);  ///< 16 digits

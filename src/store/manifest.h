@@ -17,6 +17,9 @@ namespace roam::store {
 /// Of what is written now. Readers refuse newer ones.
 inline constexpr std::uint32_t format_version = 1;
 
+/// Bytes of a manifest's `options`, at most.
+inline constexpr std::size_t longest_options = 64 << 10;
+
 /// A page of a shard's pack.
 struct PageRef {
   Box box;  ///< of its tiles' boxes

@@ -19,7 +19,9 @@
 #include "store/build/layout.h"
 #include "store/files.h"
 #include "store/json_reader.h"
+#include "store/manifest.h"
 #include "store/sha256.h"
+#include "text/printable.h"
 
 namespace roam::store {
 namespace {
@@ -132,29 +134,61 @@ std::string text_of(const ImportOptions& options) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+namespace {
+
+/// Takes what text_of writes. Of other texts it takes what looks like it.
+class OptionsText : public JsonReader {
+ public:
+  OptionsText() : JsonReader("the options", most) {}
+
+  void value(const JsonPlace& at, JsonValue value) override {
+    if (auto* const* text = std::get_if<std::string*>(&value)) {
+      keep(3 * sizeof(std::string) + (*text)->size());
+      if (at.path == "up") up = **text;
+      if (at.path == "ignore/*") ignore.push_back(**text);
+      if (at.path == "allow/*") allow.push_back(**text);
+    }
+    if (const double* number = std::get_if<double>(&value); number && at.path == "metres_per_unit") metres = *number;
+  }
+  void list_begins(const JsonPlace&) override {}
+  void object_begins(const JsonPlace&) override {}
+  void object_ends(const JsonPlace&) override {}
+
+  std::string up;
+  double metres = 0.0;
+  std::vector<std::string> ignore, allow;
+
+ private:
+  /// Bytes. A pattern of one character takes four in the text.
+  static constexpr std::uint64_t most = 32 * longest_options;
+};
+
+}  // namespace
+
 void read_as(const std::string& text, ImportOptions& options) {
   ImportOptions read = options;
-  bool known = false;
+  OptionsText now, then;
+  bool known = text.size() <= longest_options;
   try {
-    const Json json = Json::parse(text);
-    read.up.reset();
-    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
-      if (json.at("up") == std::string(1, "xyz"[static_cast<int>(up)])) read.up = up;
-    }
-    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
-      if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
-    }
-    read.ignore = json.at("ignore").get<std::vector<std::string>>();
-    // Which folders a scene may refer to is the user's word, never a store's.
-    if (json.value("allow", Json::array()) != Json::parse(text_of(options)).value("allow", Json::array())) {
-      throw Error("the store was built with other folders allowed (--allow): repair it with the same");
-    }
-    known = text_of(read) == text;
-  } catch (const Json::exception&) {
+    now.read(text_of(options));
+    if (known) then.read(text);
+  } catch (const Error&) {
     known = false;
   }
-  if (!known) {
-    throw Error("the store was read in a way that this program does not know (" + text +
+  read.up.reset();
+  for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
+    if (then.up == std::string(1, "xyz"[static_cast<int>(up)])) read.up = up;
+  }
+  for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
+    if (then.metres == metres_per(unit)) read.unit = unit;
+  }
+  read.ignore = then.ignore;
+  // Which folders a scene may refer to is the user's word, never a store's.
+  if (known && then.allow != now.allow) {
+    throw Error("the store was built with other folders allowed (--allow): repair it with the same");
+  }
+  if (!known || text_of(read) != text) {
+    throw Error("the store was read in a way that this program does not know (" + printable(text, longest_sentence) +
                 "): repair it with the program that built it, or build it again");
   }
   options = std::move(read);
@@ -191,7 +225,8 @@ Sources::Seen Sources::status(const fs::path& file, Number* number) {
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   // Not the time of modification: anybody may set that back.
-  return {static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
+  return {
+      static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
 void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {

@@ -22,8 +22,8 @@ namespace roam::store {
 /// The reverse: sets what the text says. Throws roam::Error for what no text_of gives.
 void read_as(const std::string& text, ImportOptions& options);
 
-/// Knows the content of the scene's files by their SHA-256. A file whose size and time of change (ctime) are those of the
-/// last time is not read again, unless it was changed so shortly before that the time cannot tell.
+/// Knows the content of the scene's files by their SHA-256. A file whose size and time of change (ctime) are those of
+/// the last time is not read again, unless it was changed so shortly before that the time cannot tell.
 ///
 /// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same.
 class Sources {
@@ -47,7 +47,7 @@ class Sources {
     std::uint64_t size = 0;
     std::int64_t changed_ns = 0;  ///< of its status: nobody can set that back
     std::string hash;             ///< SHA-256
-    bool settled = false;  ///< it was changed long before it was looked at
+    bool settled = false;         ///< it was changed long before it was looked at
     bool operator==(const Seen&) const = default;
   };
   using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< of a file, whatever its names: device and inode

@@ -43,8 +43,13 @@ class Planner {
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
     in_force_ = manifest_in_force(work_.store);
-    parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.options = text_of(work_.options.import);
+    if (plan_.options.size() > longest_options) {
+      throw Error(
+          fmt::format("the patterns to ignore and the allowed folders are longer than {} kB together; name fewer",
+                      longest_options >> 10));
+    }
+    parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.lossless = work_.options.lossless;
     work_.arena.execute([&] { sources_.look(parts_, [&] { work_.tick(); }); });
     take_records();
