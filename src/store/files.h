@@ -53,8 +53,6 @@ class NewFile {
 void write_file(const Folder& store, const std::string& name, std::string_view text);
 /// The whole of a file. Throws FileError when it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
-/// Makes a folder, and those above it, and syncs the one above each that was made. Throws roam::Error.
-void make_folder(const std::filesystem::path& folder);
 
 // Where things are in a store.
 inline constexpr const char* current_file = "CURRENT";

@@ -32,6 +32,12 @@ inline constexpr int is_something_else = 29;  // ESPIPE: a pipe, a socket, a dev
   return error == is_a_link || error == is_a_folder || error == is_something_else;
 }
 
+/// A folder that was made, and the one that it was made in.
+struct MadeFolder {
+  Descriptor above;
+  std::string name;
+};
+
 /// The folder of a store. By its path it is opened anew each time, as readers do. A builder holds it open: whatever
 /// takes its place meanwhile is not touched.
 class Folder {
@@ -41,6 +47,10 @@ class Folder {
   /// Opens it for the life of this and of all copies. Throws roam::Error, also where the last name of the path is a
   /// link and `through_link` is false.
   [[nodiscard]] static Folder held(const std::filesystem::path& path, bool through_link);
+  /// The same; makes it where it is not there, and those above it, and syncs the one above each. Adds what it makes to
+  /// `made`, also where it throws.
+  [[nodiscard]] static Folder held_or_made(const std::filesystem::path& path, bool through_link,
+                                           std::vector<MadeFolder>& made);
 
   /// As it was passed, for people; and for what only looks.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -68,6 +78,9 @@ class Folder {
 /// "packs" of "packs/a.pack", and "a.pack"; "" and "CURRENT" of "CURRENT".
 [[nodiscard]] std::pair<std::string, std::string> split(const std::string& name);
 
+/// The type of what has this name, as S_IFMT; 0 where nothing has it. No link is followed.
+[[nodiscard]] unsigned type_of(const Folder& store, std::string_view name) noexcept;
+
 // All throw FileError where a link is in the way, or something else that no store has there.
 
 /// Whether there is a file of this name, and nothing else. Throws nothing.
@@ -84,7 +97,8 @@ void make_folder_in(const Folder& store, const std::string& name);
 bool remove_file(const Folder& store, const std::string& name) noexcept;
 /// The same of an empty folder.
 bool remove_folder(const Folder& store, const std::string& name) noexcept;
-/// Removes a file, or a folder with all that is in it, as far as that can be done.
+/// Removes a file, or a folder with all that is in it, as far as that can be done. What lies deeper than anything of a
+/// store stays.
 void remove_all(const Folder& store, const std::string& name);
 
 }  // namespace roam::store

@@ -95,10 +95,10 @@ class NotComplete : public Error {
 void check_format(std::uint32_t version, const std::string& name);
 
 /// Whether a folder holds what a store consists of, though CURRENT may be gone.
-[[nodiscard]] bool holds_store(const std::filesystem::path& folder);
+[[nodiscard]] bool holds_store(const Folder& store);
 /// What is to be said of a folder that Store::is_store is false of. Throws RootDamage where it was a store, NotComplete
 /// where it is to become one, roam::Error where it is none.
-[[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
+[[noreturn]] void refuse_to_open(const Folder& store);
 
 /// CURRENT, its manifest, checked against its name. Throws RootDamage, NewerFormat, and roam::Error where a file cannot
 /// be read, or takes more than `memory` bytes.

@@ -13,7 +13,6 @@
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
-#include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/run.h"
 #include "store/files.h"
@@ -316,14 +315,6 @@ void check_output(const StoreBuildOptions& options) {
     if (fs::exists(path, error) && is_inside(path, out)) {
       throw Error(
           fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
-    }
-  }
-  // Other programs too call files CURRENT.
-  if (fs::is_directory(status) && !(Store::is_store(out) && holds_store(out))) {
-    const std::string other = other_thing_in(out);
-    if (!other.empty()) {
-      throw Error(fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
-                              out.string(), other));
     }
   }
 }
