@@ -21,13 +21,6 @@ namespace fs = std::filesystem;
 
 static_assert(is_a_link == ELOOP && is_a_folder == EISDIR && is_something_else == ESPIPE);
 
-/// Of a folder that is only passed through on the way to another.
-#ifdef O_PATH
-constexpr int passing = O_PATH;
-#else
-constexpr int passing = O_RDONLY;
-#endif
-
 /// A component of a name as the system calls want it.
 class Component {
  public:
@@ -147,7 +140,7 @@ Folder Folder::held(const fs::path& path, bool through_link) {
 
 Folder Folder::held_or_made(const fs::path& path, bool through_link, std::vector<MadeFolder>& made) {
   Folder folder(path);
-  constexpr int flags = passing | O_DIRECTORY | O_CLOEXEC;
+  constexpr int flags = not_to_read | O_DIRECTORY | O_CLOEXEC;
   Descriptor at(again([&] { return ::open(path.is_absolute() ? "/" : ".", flags); }));
   std::vector<std::string> names;
   for (const fs::path& name : path.relative_path()) {

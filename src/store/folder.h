@@ -6,6 +6,8 @@
 ///
 /// A name is relative to the store, e.g. "packs/<64 digits>.pack", and holds no "..".
 
+#include <fcntl.h>
+
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +25,13 @@ namespace roam::store {
 
 using files::Descriptor;
 using files::FileError;
+
+/// Flag of open(2) for what is only passed through or looked at: it need not be readable.
+#ifdef O_PATH
+inline constexpr int not_to_read = O_PATH;
+#else
+inline constexpr int not_to_read = O_RDONLY | O_NONBLOCK;
+#endif
 
 // What is in the place of a file or a folder of a store, as errno.
 inline constexpr int is_a_link = 40;          // ELOOP
