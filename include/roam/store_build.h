@@ -73,6 +73,7 @@ struct StoreBuildReport {
   std::uint64_t parts_read = 0;    ///< now; the others had not changed
   double read_seconds = 0.0, plan_seconds = 0.0, shard_seconds = 0.0, merge_seconds = 0.0;
   std::vector<std::string> notes;  ///< whole sentences for the user; those of the import among them
+  StoreInfo store;                 ///< as published, or `unchanged`; read before the lock was given up
 };
 
 /// There is a store in the output that has no authentication code of the key.
