@@ -123,25 +123,6 @@ TEST(ReadFile, RefusesWhatIsTooLargeForItsKind) {
   EXPECT_THROW((void)read_file(folder.path(), "absent", 4), Error);
 }
 
-TEST(StoreFolder, RemovesNothingThatLiesDeeperThanAnythingOfAStore) {
-  const TemporaryFolder folder;
-  std::string deep = "packs";
-  for (int i = 0; i < 20; ++i) {
-    make_folder_in(folder.path(), deep);
-    folder.write(deep + "/file", "text");
-    deep += "/a";
-  }
-  remove_all(folder.path(), "packs");
-  for (const char* file : {"packs/file", "packs/a/file", "packs/a/a/file"}) {
-    EXPECT_FALSE(is_file(folder.path(), file)) << file;
-  }
-  EXPECT_TRUE(is_file(folder.path(), "packs/a/a/a/file"));
-  make_folder_in(folder.path(), "scratch/runs");
-  folder.write("scratch/runs/a.run", "text");
-  remove_all(folder.path(), "scratch");
-  EXPECT_FALSE(fs::exists(folder.path() / "scratch"));
-}
-
 TEST(Pack, HoldsBlobsWhereItSays) {
   const TemporaryFolder folder;
   make_folder_in(folder.path(), "packs");
