@@ -65,6 +65,17 @@ TEST(ProfileOfWalk, IsTakenOnItsOwn) {
   EXPECT_TRUE(contains(result.err, trained.file)) << result.err;
 }
 
+TEST(ProfileOfWalk, IsToldWithTheStepAndTheSlopeThatAreNotTheUsualOnes) {
+  Trained trained;
+  std::string told = trained.walk().err;
+  EXPECT_TRUE(contains(told, "height 1.7 m, step 0.2 m\n")) << told;
+  trained.profile.step = roam::WalkerSettings{}.step;
+  trained.profile.slope_degrees = 80.0;
+  trained.save();
+  told = trained.walk().err;
+  EXPECT_TRUE(contains(told, "height 1.7 m, slope 80 degrees\n")) << told;
+}
+
 TEST(ProfileOfWalk, IsOverruledByARadiusInAll) {
   const Trained trained;
   const ProgramResult result = trained.walk({"--radius", "0.3"});

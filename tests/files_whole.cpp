@@ -191,6 +191,20 @@ TEST(WholeFile, IsRemovedWhenTheProgramMustEndAtOnce) {
   EXPECT_EQ(files_in(folder), 0U);
 }
 
+TEST(WholeFile, IsRemovedWhereItIsWhateverTookThePlaceOfItsFolder) {
+  const TestFolder folder;
+  fs::create_directory(folder.file("own"));
+  const WholeFile file(folder.file("own/a.txt"));
+  const std::string name = file.temporary().filename().string();
+  fs::rename(folder.file("own"), folder.file("aside"));
+  fs::create_directory(folder.file("theirs"));
+  folder.write("theirs/" + name, "precious");
+  fs::create_directory_symlink(folder.file("theirs"), folder.file("own"));
+  roam::files::Unfinished::remove_all();
+  EXPECT_TRUE(fs::exists(folder.file("theirs/" + name)));
+  EXPECT_TRUE(fs::is_empty(folder.file("aside")));
+}
+
 TEST(WholeFile, IsRemovedWhenItIsNotCommitted) {
   const TestFolder folder;
   { WholeFile(folder.file("a.txt")).write(bytes_of("half")); }

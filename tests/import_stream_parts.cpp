@@ -153,6 +153,19 @@ TEST_F(ImportStreamParts, OfATileThatIsMissingGiveNothingAndSaySo) {
   EXPECT_TRUE(pieces.triangles.empty());
 }
 
+TEST_F(ImportStreamParts, AreRefusedWhereFoldersLieInEachOtherWithoutEnd) {
+  static_cast<void>(write_scene("scene"));
+  fs::path deep = "scene/east/Data/Tile_1";
+  for (int i = 0; i < 80; ++i) deep /= "a";
+  fs::create_directories(folder_.path() / deep);
+  try {
+    static_cast<void>(scene_parts(std::vector<fs::path>{folder_.path() / "scene/east/Data"}));
+    ADD_FAILURE() << "they were looked through";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("Data/Tile_1: more than"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(ImportStreamParts, AreRefusedAsTheSceneIs) {
   const auto error_of = [](const std::vector<fs::path>& paths) -> std::string {
     try {

@@ -73,10 +73,13 @@ TEST(StoreBuildDisk, SaysWhatOfARepairCouldNotBeRemoved) {
 TEST(StoreBuildDisk, SyncsTheFolderAboveEachThatItMakes) {
   const TestFolder folder;
   syncs = 0;
-  roam::store::make_folder(folder.file("a/b/c"));
+  std::vector<roam::store::MadeFolder> made;
+  static_cast<void>(roam::store::Folder::held_or_made(folder.file("a/b/c"), false, made));
+  EXPECT_EQ(made.size(), 3U);
   EXPECT_TRUE(fs::is_directory(folder.file("a/b/c")));
   EXPECT_EQ(syncs, 3);
-  roam::store::make_folder(folder.file("a/b/c"));
+  static_cast<void>(roam::store::Folder::held_or_made(folder.file("a/b/c"), false, made));
+  EXPECT_EQ(made.size(), 3U);
   EXPECT_EQ(syncs, 3);
 }
 

@@ -1,6 +1,7 @@
 // What a build reads of the scene's files to know whether they have changed.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -29,7 +30,7 @@ std::vector<std::string> fingerprints(const std::vector<std::string>& files, std
   }
   Sources sources(folder.file(""), std::nullopt);
   std::atomic<std::int64_t> ticks = 0;
-  sources.look(parts, [&] {
+  sources.look(parts, {}, [&] {
     // Once for each file besides.
     if (++ticks > most + 2 * static_cast<std::int64_t>(files.size())) throw roam::Cancelled();
   });
@@ -98,6 +99,56 @@ TEST(StoreSources, ReadAFileOnceWhateverItsNames) {
   // A copy is another file, and says the same.
   fs::create_directory(folder.file("copy"));
   EXPECT_EQ(fingerprints({folder.write("copy/file", std::string(8 * mebibyte, 'x'))}, 16)[0], found[0]);
+}
+
+TEST(StoreSources, ReadNoPipeAndNothingOutsideThatTookAFilesPlace) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("scene/inner"));
+  folder.write("secret", "secret");
+  folder.write("inner/file", "secret");
+  const std::string slow = folder.write("scene/a", std::string(4 * mebibyte, 'x'));
+  const std::string file = folder.write("scene/inner/file", "text");
+  const auto said = [&](const std::function<void()>& swap) {
+    fs::remove_all(folder.file("scene/inner"));
+    fs::remove_all(folder.file("aside"));
+    fs::create_directory(folder.file("scene/inner"));
+    folder.write("scene/inner/file", "text");
+    roam::ScenePart part;
+    part.name = "part";
+    part.path = slow;
+    part.files = {slow, file};
+    Sources sources(folder.file(""), std::nullopt);
+    try {
+      swap();
+      sources.look({part}, {}, [] {});
+      sources.check_unchanged(part);
+    } catch (const roam::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(said([] {}), "");
+  const auto refused = [&](const std::function<void()>& swap) {
+    EXPECT_NE(said(swap).find("cannot read " + file), std::string::npos) << said(swap);
+  };
+  refused([&] {
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  });
+  refused([&] {
+    fs::remove(file);
+    fs::create_symlink(folder.file("secret"), file);
+  });
+  refused([&] {
+    fs::rename(folder.file("scene/inner"), folder.file("aside"));
+    fs::create_directory_symlink(folder.file("inner"), folder.file("scene/inner"));
+  });
+  // One that stays in the scene is followed.
+  EXPECT_EQ(said([&] {
+              fs::rename(file, folder.file("scene/other"));
+              fs::create_symlink(folder.file("scene/other"), file);
+            }),
+            "");
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(ReadFile, RefusesWhatIsTooLargeForItsKind) {
 
 TEST(Pack, HoldsBlobsWhereItSays) {
   const TemporaryFolder folder;
-  make_folder(folder.path() / "packs");
+  make_folder_in(folder.path(), "packs");
   PackWriter pack(folder.path());
   std::mt19937 random(1);
   std::vector<std::pair<std::uint64_t, std::vector<std::byte>>> blobs;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "memory_cost.h"
+#include "store/build/fingerprint.h"
 #include "store/made.h"
 
 namespace {
@@ -120,6 +121,35 @@ TEST_F(HostileStore, AManifestIsRefusedBeforeItTakesMemory) {
     EXPECT_LT(small.mebibytes, 16U) << c.what;
     EXPECT_NE(small.said, "") << c.what;
   }
+}
+
+TEST_F(HostileStore, OptionsOfManyOrDeepListsAreRefusedInLittleMemory) {
+  const std::string deep = "{\"allow\":" + std::string(120'000, '[') + std::string(120'000, ']') + "}";
+  std::string many = "{\"allow\":[{}";
+  for (int i = 0; i < 340'000; ++i) many += ",{}";
+  for (const std::string& text : {deep, many + "]}"}) {
+    // The depth alone, too, in a text that is short enough.
+    for (const std::string& options : {text, text.substr(0, store::longest_options)}) {
+      ImportOptions import;
+      const Cost reading = cost_of([&] { store::read_as(options, import); });
+      EXPECT_LT(reading.mebibytes, 8U);
+      EXPECT_NE(reading.said.find("does not know"), std::string::npos) << reading.said;
+      EXPECT_LT(reading.said.size(), 2000U);
+    }
+    store::Manifest m = manifest();
+    m.options = text;
+    const std::string written = store::to_text(m);
+    const Cost cost = cost_of([&] { static_cast<void>(store::parse_manifest(written, "m")); });
+    EXPECT_LT(cost.mebibytes, 8U);
+    EXPECT_NE(cost.said.find("'options' of the manifest"), std::string::npos) << cost.said;
+  }
+  // Those of an import are read back.
+  ImportOptions import, read;
+  import.up = UpAxis::y;
+  import.unit = LengthUnit::ft;
+  import.ignore = {"a*", "\"b\""};
+  store::read_as(store::text_of(import), read);
+  EXPECT_EQ(store::text_of(read), store::text_of(import));
 }
 
 TEST_F(HostileStore, SizesThatCannotBeAreRefusedBeforeAnythingIsAllocated) {

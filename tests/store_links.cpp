@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "store/folder.h"
 #include "store_builds.h"
 
 namespace {
@@ -249,6 +250,24 @@ TEST_F(StoreLinks, TheStoreItselfMayBeReachedByALink) {
   EXPECT_TRUE(roam::Store::is_store(link));
   EXPECT_TRUE(roam::verify_store(link).whole());
   EXPECT_TRUE(roam::build_store(options({scene()}, link)).unchanged);
+}
+
+TEST(StoreFolder, RemovesNothingThatLiesDeeperThanAnythingOfAStore) {
+  const TestFolder folder;
+  const roam::store::Folder store(folder.file(""));
+  std::string deep = "packs";
+  for (int i = 0; i < 20; ++i) {
+    make_folder_in(store, deep);
+    folder.write(deep + "/file", "text");
+    deep += "/a";
+  }
+  remove_all(store, "packs");
+  for (const char* file : {"packs/file", "packs/a/file", "packs/a/a/file"}) EXPECT_FALSE(is_file(store, file)) << file;
+  EXPECT_TRUE(is_file(store, "packs/a/a/a/file"));
+  make_folder_in(store, "scratch/runs");
+  folder.write("scratch/runs/a.run", "text");
+  remove_all(store, "scratch");
+  EXPECT_FALSE(fs::exists(folder.file("scratch")));
 }
 
 }  // namespace

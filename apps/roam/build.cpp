@@ -132,7 +132,7 @@ void tell_shards(const BuildVerb& verb, std::uint64_t count) {
 
 /// What a store that is complete came to.
 void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
-  const StoreInfo info = Store::open(verb.output)->info();
+  const StoreInfo& info = report.store;
   const double per_triangle = static_cast<double>(info.bytes) / static_cast<double>(info.triangles);
   if (verb.json) {
     Json json = json_report(verb, report, seconds);

@@ -96,6 +96,9 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   return sizes;
 }
 
+/// What a search keeps of a place.
+constexpr std::uint64_t bytes_a_place = 128;
+
 /// The question as the options ask it.
 ProbeQuestion question_of(const ProbeOptions& o) {
   ProbeQuestion q;
@@ -114,6 +117,7 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   q.step = o.step.value_or(q.step);
   q.support_radius = o.support_radius.value_or(q.support_radius);
   q.spacing = o.spacing.value_or(q.spacing);
+  if (o.scene.memory) q.most_places = std::min(q.most_places, *o.scene.memory / bytes_a_place);
   return q;
 }
 

@@ -71,6 +71,7 @@ struct StoreBuildReport {
   std::uint64_t parts_read = 0;    ///< by this call
   double read_seconds = 0.0, plan_seconds = 0.0, shard_seconds = 0.0, merge_seconds = 0.0;
   std::vector<std::string> notes;  ///< sentences for the user, with those of the import
+  StoreInfo store;                 ///< as published, or `unchanged`
 };
 
 /// The store in `output` has no authentication code of the key.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <span>
 
 #include "roam/error.h"
 
@@ -23,8 +24,7 @@ std::string joined_events(const StepReport& report) {
 
 }  // namespace
 
-TraceFile::TraceFile(std::filesystem::path file) : path_(std::move(file)), out_(path_) {
-  if (!out_) throw Error("cannot write the trace " + path_.string() + "; check its folder and permissions");
+TraceFile::TraceFile(const std::filesystem::path& file) : out_(file) {
   rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
 }
 
@@ -50,17 +50,22 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
     row(step_start + report.elapsed, report.to, report.radius, report.height, report.axis_clearance,
         report.contacts.total(), events, false);
   }
-  if (rows_.size() >= block_bytes) {
-    out_ << rows_;
-    rows_.clear();
+  if (rows_.size() >= block_bytes) write_rows();
+}
+
+void TraceFile::write_rows() {
+  try {
+    if (!failure_) out_.write(std::as_bytes(std::span(rows_)));
+  } catch (const Error&) {
+    failure_ = std::current_exception();
   }
+  rows_.clear();
 }
 
 void TraceFile::close() {
-  out_ << rows_;
-  rows_.clear();
-  out_.close();
-  if (!out_) throw Error("cannot write all of the trace " + path_.string() + "; is the disk full?");
+  write_rows();
+  if (failure_) std::rethrow_exception(failure_);
+  out_.commit();
 }
 
 }  // namespace roam::app

@@ -3,10 +3,11 @@
 /// The trace of a walk: a row or more for each step.
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "files/whole_file.h"
 #include "roam/walker.h"
 
 namespace roam::app {
@@ -14,10 +15,11 @@ namespace roam::app {
 /// Writes `--trace`: a row for the start and one or more for each step. A step whose way has corners has a row for each
 /// of them; contacts and events stand in its last row, several events joined by `+`. `clearance` is certified all along
 /// the straight piece that ends in its row; 0 where nothing is certified. `radius` and `height` are those of the body
-/// on that piece.
+/// on that piece. Until close() the file is as it was.
 class TraceFile {
  public:
-  explicit TraceFile(std::filesystem::path file);
+  /// Throws roam::Error when it cannot be written.
+  explicit TraceFile(const std::filesystem::path& file);
 
   /// `step_start` is the time in seconds when the step began.
   void add(std::uint64_t step, double step_start, const StepReport& report);
@@ -25,9 +27,11 @@ class TraceFile {
   void close();
 
  private:
-  std::filesystem::path path_;
-  std::ofstream out_;
+  void write_rows();
+
+  files::WholeFile out_;
   std::string rows_;
+  std::exception_ptr failure_;  ///< the first; what comes after it is not written
 };
 
 }  // namespace roam::app

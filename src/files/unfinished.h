@@ -2,11 +2,12 @@
 /// \file
 /// Which files this process has under a temporary name, so that a program that must end at once can remove them.
 
-#include <filesystem>
+#include <unistd.h>
+
 #include <mutex>
 #include <set>
 #include <string>
-#include <system_error>
+#include <utility>
 
 namespace roam::files {
 
@@ -14,36 +15,36 @@ namespace roam::files {
 class Unfinished {
  public:
   Unfinished() = default;
-  explicit Unfinished(const std::filesystem::path& file) { begin(file); }
   ~Unfinished() { end(); }
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
 
-  void begin(const std::filesystem::path& file) {
+  /// The file `name` in an open folder, which stays open as long. By the folder's path another one could be meant by
+  /// then.
+  void begin(int folder, std::string name) {
     end();
-    std::error_code none;
-    name_ = std::filesystem::absolute(file, none).string();
+    file_ = {folder, std::move(name)};
     const std::lock_guard lock(all().mutex);
-    all().names.insert(name_);
+    all().files.insert(file_);
   }
   void end() {
-    if (name_.empty()) return;
+    if (file_.second.empty()) return;
     const std::lock_guard lock(all().mutex);
-    all().names.erase(name_);
-    name_.clear();
+    all().files.erase(file_);
+    file_ = {};
   }
 
   /// Removes all that are unfinished now, whatever their writers do next.
   static void remove_all() {
     const std::lock_guard lock(all().mutex);
-    std::error_code none;
-    for (const std::string& name : all().names) std::filesystem::remove(name, none);
+    for (const auto& [folder, name] : all().files) ::unlinkat(folder, name.c_str(), 0);
   }
 
  private:
+  using File = std::pair<int, std::string>;
   struct All {
     std::mutex mutex;
-    std::set<std::string> names;
+    std::set<File> files;
   };
   /// Never destroyed: threads may end after it would be.
   static All& all() {
@@ -51,7 +52,7 @@ class Unfinished {
     return them;
   }
 
-  std::string name_;
+  File file_{-1, {}};
 };
 
 }  // namespace roam::files

@@ -105,7 +105,7 @@ bool WholeFile::begin(std::uint64_t number) {
     fail_to_write(error);
   }
   file_ = Descriptor(file);
-  listed_.begin(temporary());
+  listed_.begin(folder_.number(), temporary_);
   return true;
 }
 

@@ -55,12 +55,19 @@ class PartList : public reader::StreamReceiver {
   std::vector<fs::path> files_;
 };
 
+/// Deepest nesting of folders in a tile's folder: the cost of looking at them grows with its cube.
+constexpr int deepest = 64;
+
 /// Regular files below a folder, sorted. Links that lead out of the scene are not followed.
 std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope& scope) {
   std::vector<fs::path> files;
   std::error_code none;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
+    if (entry.depth() > deepest) {
+      throw Error(fmt::format("{}: more than {} folders lie in each other there, as in no scene; remove them",
+                              folder.string(), deepest));
+    }
     if (!scope.find(entry->path()).empty()) files.push_back(entry->path());
     entry.increment(none);
   }

@@ -48,6 +48,11 @@ std::string describe(const SceneProfile& profile) {
   std::string text = fmt::format("the body is that of {}: radius {:.3g} m, height {:.3g} m", profile.file.string(),
                                  p.radius, p.height);
   if (p.support_radius > 0.0) text += fmt::format(", foot {:.3g} m", p.support_radius);
+  const WalkerSettings usual;
+  if (p.mode == Mode::walk && p.step != usual.step) text += fmt::format(", step {:.3g} m", p.step);
+  if (p.mode == Mode::walk && p.slope_degrees != usual.slope_degrees) {
+    text += fmt::format(", slope {:.3g} degrees", p.slope_degrees);
+  }
   if (!p.regions.empty()) {
     text += fmt::format(", other sizes in {} region{}", p.regions.size(), p.regions.size() == 1 ? "" : "s");
   }

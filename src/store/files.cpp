@@ -115,22 +115,6 @@ std::vector<std::byte> read_file(const Folder& store, const std::string& name, s
   return bytes;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return;
-  // Each level is synced by itself: a folder that is not synced may be lost in a power cut, with all its contents.
-  fs::path path;
-  for (const fs::path& name : folder) {
-    path /= name;
-    if (fs::is_directory(path, error)) continue;
-    if (!fs::create_directory(path, error) && error) fail("make the folder", folder, "", error.value());
-    const fs::path above = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    const Descriptor opened = open_folder(above, "");
-    if (!opened.is_open()) fail("open", above, "", errno);
-    sync_folder(opened.number(), above);
-  }
-}
-
 bool is_digits(std::string_view text, std::size_t count) {
   return text.size() == count && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }

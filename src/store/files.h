@@ -54,8 +54,6 @@ class NewFile {
 void write_file(const Folder& store, const std::string& name, std::string_view text);
 /// The content of a file. Throws FileError if it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
-/// Makes a folder and its missing parents, and syncs the parent of each one made. Throws roam::Error.
-void make_folder(const std::filesystem::path& folder);
 
 // Names of files in a store.
 inline constexpr const char* current_file = "CURRENT";

@@ -88,6 +88,35 @@ struct CloseFolder {
   void operator()(DIR* folder) const { ::closedir(folder); }
 };
 
+/// The names in an open folder; false, and errno set, where it cannot be read.
+bool list(Descriptor folder, std::vector<std::string>& names) {
+  const std::unique_ptr<DIR, CloseFolder> entries(::fdopendir(folder.number()));
+  if (!entries) return false;
+  (void)folder.release();  // which `entries` closes
+  while (const dirent* entry = ::readdir(entries.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  return true;
+}
+
+/// Removes what is in an open folder, so many folders deep.
+void empty(const Descriptor& folder, int depth) {
+  Descriptor again_open(again([&] { return ::openat(folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  std::vector<std::string> names;
+  if (!again_open.is_open() || !list(std::move(again_open), names)) return;
+  for (const std::string& name : names) {
+    if (::unlinkat(folder.number(), name.c_str(), 0) == 0 || depth == 0) continue;
+    const Descriptor inner = open_component(folder.number(), name, O_RDONLY, S_IFDIR);
+    if (!inner.is_open()) continue;
+    empty(inner, depth - 1);
+    ::unlinkat(folder.number(), name.c_str(), AT_REMOVEDIR);
+  }
+}
+
+/// Folders in a folder of a store: scratch/runs.
+constexpr int deepest = 2;
+
 bool remove(const Folder& store, const std::string& name, int flags) noexcept {
   const std::size_t slash = name.rfind('/');
   const bool nested = slash != std::string::npos;
@@ -107,6 +136,46 @@ Folder Folder::held(const fs::path& path, bool through_link) {
   const int error = errno;
   std::error_code none;
   fail("open", path, "", !through_link && fs::is_symlink(fs::symlink_status(path, none)) ? is_a_link : error);
+}
+
+Folder Folder::held_or_made(const fs::path& path, bool through_link, std::vector<MadeFolder>& made) {
+  Folder folder(path);
+  constexpr int flags = not_to_read | O_DIRECTORY | O_CLOEXEC;
+  Descriptor at(again([&] { return ::open(path.is_absolute() ? "/" : ".", flags); }));
+  std::vector<std::string> names;
+  for (const fs::path& name : path.relative_path()) {
+    if (!name.empty() && name != ".") names.push_back(name.string());
+  }
+  for (const std::string& name : names) {
+    const int own = flags | (&name == &names.back() && !through_link ? O_NOFOLLOW : 0);
+    Descriptor next(again([&] { return ::openat(at.number(), name.c_str(), own); }));
+    if (!next.is_open() && errno == ENOENT) {
+      if (::mkdirat(at.number(), name.c_str(), 0777) == 0) {
+        made.push_back({std::move(at), name});
+        at = Descriptor(again([&] { return ::openat(made.back().above.number(), ".", O_RDONLY | O_CLOEXEC); }));
+        if (!at.is_open()) fail("open", path, "", errno);
+        sync_folder(at.number(), path);
+        next = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), flags | O_NOFOLLOW); }));
+      } else if (errno == EEXIST) {  // another builder has made it, or it is a link that leads nowhere
+        next = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), own); }));
+      } else {
+        fail("make the folder", path, "", errno);
+      }
+    }
+    if (!next.is_open()) {
+      const int error = errno;
+      struct stat status {};
+      const bool link = (own & O_NOFOLLOW) != 0 &&
+                        ::fstatat(at.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                        S_ISLNK(status.st_mode);
+      fail("open", path, "", link ? is_a_link : error);
+    }
+    at = std::move(next);
+  }
+  folder.held_ = std::make_shared<const Descriptor>(
+      again([&] { return ::openat(at.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  if (!folder.held_->is_open()) fail("open", path, "", errno);
+  return folder;
 }
 
 Descriptor Folder::open() const noexcept {
@@ -168,15 +237,18 @@ std::pair<std::string, std::string> split(const std::string& name) {
   return {name.substr(0, slash), name.substr(slash + 1)};
 }
 
-bool is_file(const Folder& store, std::string_view name) noexcept {
+unsigned type_of(const Folder& store, std::string_view name) noexcept {
   const std::size_t slash = name.rfind('/');
   const bool nested = slash != std::string_view::npos;
   const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
   const Component last(name.substr(nested ? slash + 1 : 0));
   struct stat status {};
-  return folder.is_open() && last.fits() && ::fstatat(folder.number(), last.get(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
-         S_ISREG(status.st_mode);
+  const bool there =
+      folder.is_open() && last.fits() && ::fstatat(folder.number(), last.get(), &status, AT_SYMLINK_NOFOLLOW) == 0;
+  return there ? status.st_mode & S_IFMT : 0;
 }
+
+bool is_file(const Folder& store, std::string_view name) noexcept { return type_of(store, name) == S_IFREG; }
 
 std::optional<std::uint64_t> size_of(const Folder& store, const std::string& name) {
   const auto [folder_name, last] = split(name);
@@ -196,14 +268,10 @@ std::vector<std::string> names_in(const Folder& store, const std::string& folder
     if (errno == ENOENT) return {};
     fail("read", store, folder, errno);
   }
-  const std::unique_ptr<DIR, CloseFolder> entries(::fdopendir(opened.number()));
-  if (!entries) fail("read", store, folder, errno);
-  (void)opened.release();  // which `entries` closes
   std::vector<std::string> names;
-  while (const dirent* entry = ::readdir(entries.get())) {
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") names.push_back(folder.empty() ? std::string(name) : folder + "/" + entry->d_name);
-  }
+  if (!list(std::move(opened), names)) fail("read", store, folder, errno);
+  if (folder.empty()) return names;
+  for (std::string& name : names) name.insert(0, folder + "/");
   return names;
 }
 
@@ -234,8 +302,10 @@ bool remove_file(const Folder& store, const std::string& name) noexcept { return
 bool remove_folder(const Folder& store, const std::string& name) noexcept { return remove(store, name, AT_REMOVEDIR); }
 
 void remove_all(const Folder& store, const std::string& name) {
-  if (remove_file(store, name) || !open_folder(store, name).is_open()) return;
-  for (const std::string& inner : names_in(store, name)) remove_all(store, inner);
+  if (remove_file(store, name)) return;
+  const Descriptor folder = open_folder(store, name);
+  if (!folder.is_open()) return;
+  empty(folder, deepest);
   remove_folder(store, name);
 }
 

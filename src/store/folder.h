@@ -6,6 +6,8 @@
 ///
 /// A name is relative to the store, e.g. "packs/<64 digits>.pack", and holds no "..".
 
+#include <fcntl.h>
+
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +26,13 @@ namespace roam::store {
 using files::Descriptor;
 using files::FileError;
 
+/// Flag of open(2) for what is only passed through or looked at: it need not be readable.
+#ifdef O_PATH
+inline constexpr int not_to_read = O_PATH;
+#else
+inline constexpr int not_to_read = O_RDONLY | O_NONBLOCK;
+#endif
+
 // What is in the place of a file or a folder of a store, as errno.
 inline constexpr int is_a_link = 40;          // ELOOP
 inline constexpr int is_a_folder = 21;        // EISDIR
@@ -31,6 +40,12 @@ inline constexpr int is_something_else = 29;  // ESPIPE: a pipe, a socket, a dev
 [[nodiscard]] constexpr bool is_foreign(int error) {
   return error == is_a_link || error == is_a_folder || error == is_something_else;
 }
+
+/// A folder that was made, and the one that it was made in.
+struct MadeFolder {
+  Descriptor above;
+  std::string name;
+};
 
 /// The folder of a store. By its path it is opened anew each time, as readers do. A builder holds it open: whatever
 /// takes its place meanwhile is not touched.
@@ -41,6 +56,10 @@ class Folder {
   /// Opens it for the life of this and of all copies. Throws roam::Error, also where the last name of the path is a
   /// link and `through_link` is false.
   [[nodiscard]] static Folder held(const std::filesystem::path& path, bool through_link);
+  /// The same; makes it where it is not there, and those above it, and syncs the one above each. Adds what it makes to
+  /// `made`, also where it throws.
+  [[nodiscard]] static Folder held_or_made(const std::filesystem::path& path, bool through_link,
+                                           std::vector<MadeFolder>& made);
 
   /// As it was passed, for people; and for what only looks.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -68,6 +87,9 @@ class Folder {
 /// "packs" of "packs/a.pack", and "a.pack"; "" and "CURRENT" of "CURRENT".
 [[nodiscard]] std::pair<std::string, std::string> split(const std::string& name);
 
+/// The type of what has this name, as S_IFMT; 0 where nothing has it. No link is followed.
+[[nodiscard]] unsigned type_of(const Folder& store, std::string_view name) noexcept;
+
 // All throw FileError where a link is in the way, or something else that no store has there.
 
 /// Whether there is a file of this name, and nothing else. Throws nothing.
@@ -84,7 +106,8 @@ void make_folder_in(const Folder& store, const std::string& name);
 bool remove_file(const Folder& store, const std::string& name) noexcept;
 /// The same of an empty folder.
 bool remove_folder(const Folder& store, const std::string& name) noexcept;
-/// Removes a file, or a folder with all that is in it, as far as that can be done.
+/// Removes a file, or a folder with all that is in it, as far as that can be done. What lies deeper than anything of a
+/// store stays.
 void remove_all(const Folder& store, const std::string& name);
 
 }  // namespace roam::store

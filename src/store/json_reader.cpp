@@ -187,9 +187,10 @@ T& JsonMembers::as(const char* name) const {
   return *found;
 }
 
-void JsonMembers::text(const char* name, std::string& out) {
+void JsonMembers::text(const char* name, std::string& out, std::size_t most) {
   if (!is(name)) return;
   std::string& found = *as<std::string*>(name);
+  if (found.size() > most) bad(name);
   reader_.keep(found.size());
   out = found;  // copied, so that it takes only its own size
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -84,7 +85,8 @@ class JsonMembers {
   JsonMembers(JsonReader& reader, std::uint64_t& seen, const char* what)
       : reader_(reader), seen_(seen), what_(what), ends_(true) {}
 
-  void text(const char* name, std::string& out);
+  /// A text of at most `most` bytes.
+  void text(const char* name, std::string& out, std::size_t most = std::numeric_limits<std::size_t>::max());
   /// A text of `count` hexadecimal digits.
   void digits(const char* name, std::size_t count, std::string& out);
   void hash(const char* name, std::uint64_t& out);  ///< 16 digits

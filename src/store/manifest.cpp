@@ -1,6 +1,7 @@
 #include "store/manifest.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -49,27 +50,25 @@ RootDamage::RootDamage(const std::string& store, std::string damaged, std::strin
       what_is_damaged(std::move(damaged)),
       why(std::move(reason)) {}
 
-bool holds_store(const std::filesystem::path& folder) {
-  std::error_code none;
-  return std::filesystem::is_directory(folder / "packs", none) ||
-         std::filesystem::is_directory(folder / "manifests", none);
+bool holds_store(const Folder& store) {
+  return type_of(store, "packs") == S_IFDIR || type_of(store, "manifests") == S_IFDIR;
 }
 
-void refuse_to_open(const std::filesystem::path& folder) {
+void refuse_to_open(const Folder& store) {
   namespace fs = std::filesystem;
-  const std::string name = folder.string();
+  const std::string name = store.string();
   std::error_code none;
-  if (!fs::exists(folder, none)) {
+  if (!store.open().is_open() && !fs::exists(store.path(), none)) {
     throw Error(fmt::format("{} is not there{}; make a store with roam build", name,
-                            fs::is_symlink(folder, none) ? ": it is a link that leads nowhere" : ""));
+                            fs::is_symlink(store.path(), none) ? ": it is a link that leads nowhere" : ""));
   }
-  if (!holds_store(folder)) throw Error(fmt::format("{} is no store; make one with roam build", name));
-  const fs::path current = folder / current_file;
-  if (fs::is_symlink(current, none)) throw RootDamage(name, current_file, "it is a symbolic link, which no store has");
-  if (fs::exists(current, none)) throw RootDamage(name, current_file, "it is no file");
-  const bool has_manifest = !fs::is_empty(folder / "manifests", none) && !none;
+  if (!holds_store(store)) throw Error(fmt::format("{} is no store; make one with roam build", name));
+  const unsigned current = type_of(store, current_file);
+  if (current == S_IFLNK) throw RootDamage(name, current_file, "it is a symbolic link, which no store has");
+  if (current != 0) throw RootDamage(name, current_file, "it is no file");
+  const bool has_manifest = type_of(store, "manifests") == S_IFDIR && !names_in(store, "manifests").empty();
   // A build killed just before it writes CURRENT has written its manifest and still has its plan.
-  if (fs::exists(folder / "scratch/plan.json", none) || (!has_manifest && fs::is_directory(folder / "scratch", none))) {
+  if (type_of(store, "scratch/plan.json") != 0 || (!has_manifest && type_of(store, "scratch") == S_IFDIR)) {
     throw NotComplete(fmt::format(
         "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
   }

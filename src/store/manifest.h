@@ -17,6 +17,9 @@ namespace roam::store {
 /// Version of the format that is written. Newer ones are refused.
 inline constexpr std::uint32_t format_version = 1;
 
+/// Bytes of a manifest's `options`, at most.
+inline constexpr std::size_t longest_options = 64 << 10;
+
 /// A page of a shard's pack.
 struct PageRef {
   Box box;  ///< the box of its tiles' boxes
@@ -93,10 +96,10 @@ class NotComplete : public Error {
 void check_format(std::uint32_t version, const std::string& name);
 
 /// Whether a folder contains parts of a store, even if CURRENT is missing.
-[[nodiscard]] bool holds_store(const std::filesystem::path& folder);
+[[nodiscard]] bool holds_store(const Folder& store);
 /// Explains why a folder is not a store. Call it only if Store::is_store is false. Throws RootDamage if it was a store,
 /// NotComplete if it is being built, and roam::Error otherwise.
-[[noreturn]] void refuse_to_open(const std::filesystem::path& folder);
+[[noreturn]] void refuse_to_open(const Folder& store);
 
 /// Reads CURRENT and its manifest, and checks the manifest against its name. Throws RootDamage, NewerFormat, and
 /// roam::Error if a file cannot be read or takes more than `memory` bytes.

@@ -221,7 +221,7 @@ class ManifestText : public JsonReader {
   void list(JsonMembers& m) {
     m.whole("format", manifest.format);
     m.truth("lossless", manifest.lossless);
-    m.text("options", manifest.options);
+    m.text("options", manifest.options, longest_options);
     m.box("bounds", manifest.bounds);
     m.hash("geometry_hash", manifest.geometry_hash);
     m.list("parts");

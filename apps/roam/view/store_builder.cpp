@@ -1,5 +1,6 @@
 #include "view/store_builder.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -7,6 +8,7 @@
 #include <future>
 #include <utility>
 
+#include "roam/error.h"
 #include "scenes/beside_scene.h"
 #include "scenes/user_key.h"
 #include "view/collision_loader.h"
@@ -79,7 +81,12 @@ void StoreBuilder::build() {
                               return build_store(options);
                             }).get();
   loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
-  auto pager = std::make_shared<Pager>(Store::open(output_), PagerOptions{.memory = memory_});
+  std::shared_ptr<const Store> store = Store::open(output_);
+  if (store->info().hash != report.store.hash) {
+    throw Error(fmt::format("{} is not what was built just now: another store has taken its place; build again",
+                            output_.string()));
+  }
+  auto pager = std::make_shared<Pager>(std::move(store), PagerOptions{.memory = memory_});
   wait_at(*pager, walker_, place(), [this] { return loading_.wanted(); });
   loading_.with_state([&](LoadState& state) {
     state = {};

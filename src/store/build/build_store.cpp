@@ -74,6 +74,9 @@ void note(StoreBuildReport& report, std::string sentence) {
   if (!sentence.empty()) report.notes.push_back(std::move(sentence));
 }
 
+/// Of the folder that is held, whatever its path leads to by now.
+StoreInfo info_of(const Folder& store) { return Store::open(files_of(store), store.string())->info(); }
+
 /// Before anything is planned: what was the root of the store is put right, or out of the way. Returns what was wrong,
 /// for the user.
 std::string mend_or_remove_root(const Folder& store) {
@@ -120,6 +123,7 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   }
   std::string left = tidy(work.store);  // a build may have been killed after it had published
   report.unchanged = true;
+  report.store = info_of(work.store);
   const Manifest manifest = *manifest_in_force(work.store);
   report.shards = manifest.shards.size();
   Notes notes;
@@ -159,7 +163,8 @@ double distance2(const Stretch& stretch, const Vec3& place) {
         return AbsoluteCurve::curve_origin +
                AbsoluteCurve::cell_size * double(AbsoluteCurve::gather(key >> k & AbsoluteCurve::axis_mask));
       };
-      const double beside = std::max({0.0, metres(lower) - place[k], place[k] - metres(upper) - AbsoluteCurve::cell_size});
+      const double beside =
+          std::max({0.0, metres(lower) - place[k], place[k] - metres(upper) - AbsoluteCurve::cell_size});
       sum += beside * beside;
     }
     least = std::min(least, sum);
@@ -203,6 +208,7 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
 void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
   const Timer timer(report.merge_seconds);
   note(report, merge(work, plan));
+  report.store = info_of(work.store);
 }
 
 }  // namespace

@@ -14,12 +14,15 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "import/scene_scope.h"
 #include "roam/error.h"
 #include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/files.h"
 #include "store/json_reader.h"
+#include "store/manifest.h"
 #include "store/sha256.h"
+#include "text/printable.h"
 
 namespace roam::store {
 namespace {
@@ -37,13 +40,46 @@ constexpr std::uint64_t sources_memory = 128u << 20;
 /// nothing, and whoever hashes it as much as other bytes.
 constexpr std::uint64_t most_holes = 16u << 20, holes_per_byte = 16;
 
+/// Opens what is at the end of a path without links; `flags` as of open(2). Not open where a link is in the way by now.
+Descriptor open_without_links(const fs::path& real, int flags) {
+  Descriptor at(again([&] { return ::open("/", not_to_read | O_DIRECTORY | O_CLOEXEC); }));
+  for (const fs::path& name : real.parent_path().relative_path()) {
+    if (!at.is_open()) break;
+    constexpr int folder = not_to_read | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+    at = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), folder); }));
+  }
+  if (!at.is_open()) return at;
+  return Descriptor(again([&] {
+    return ::openat(at.number(), real.filename().c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  }));
+}
+
+/// The state of an open file of a scene. Throws where it is none.
+struct stat state_of(const Descriptor& file, const fs::path& name) {
+  struct stat status {};
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) {
+    throw Error(fmt::format("cannot read {}: {}", name.string(), std::strerror(errno)));
+  }
+  if (!S_ISREG(status.st_mode)) throw Error(fmt::format("cannot read {}: it is no ordinary file", name.string()));
+  return status;
+}
+
+[[noreturn]] void fail_changed(const std::string& name) {
+  throw Error(fmt::format("{} was changed while the scene was read; build again when it is finished", name));
+}
+
 /// Hashes a file as its bytes, those of holes without reading them.
 class FileHash {
  public:
-  FileHash(const fs::path& file, const std::function<void()>& tick)
-      : file_(file), tick_(tick), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (!descriptor_.is_open() || ::fstat(descriptor_.number(), &status_) != 0) fail();
-  }
+  /// `real`: without links.
+  FileHash(const fs::path& real, const std::function<void()>& tick)
+      : file_(real),
+        tick_(tick),
+        descriptor_(open_without_links(real, O_RDONLY)),
+        status_(state_of(descriptor_, real)) {}
+
+  /// Device and inode.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> number() const { return {status_.st_dev, status_.st_ino}; }
 
   std::string digits() {
     off_t at = 0;
@@ -106,7 +142,7 @@ class FileHash {
   fs::path file_;
   const std::function<void()>& tick_;
   Descriptor descriptor_;
-  struct stat status_ {};
+  struct stat status_;
   std::uint64_t holes_ = 0;  ///< bytes
   std::vector<std::byte> piece_ = std::vector<std::byte>(1 << 20);
   Sha256 hash_;
@@ -132,29 +168,61 @@ std::string text_of(const ImportOptions& options) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+namespace {
+
+/// Takes what text_of writes. Of other texts it takes what looks like it.
+class OptionsText : public JsonReader {
+ public:
+  OptionsText() : JsonReader("the options", most) {}
+
+  void value(const JsonPlace& at, JsonValue value) override {
+    if (auto* const* text = std::get_if<std::string*>(&value)) {
+      keep(3 * sizeof(std::string) + (*text)->size());
+      if (at.path == "up") up = **text;
+      if (at.path == "ignore/*") ignore.push_back(**text);
+      if (at.path == "allow/*") allow.push_back(**text);
+    }
+    if (const double* number = std::get_if<double>(&value); number && at.path == "metres_per_unit") metres = *number;
+  }
+  void list_begins(const JsonPlace&) override {}
+  void object_begins(const JsonPlace&) override {}
+  void object_ends(const JsonPlace&) override {}
+
+  std::string up;
+  double metres = 0.0;
+  std::vector<std::string> ignore, allow;
+
+ private:
+  /// Bytes. A pattern of one character takes four in the text.
+  static constexpr std::uint64_t most = 32 * longest_options;
+};
+
+}  // namespace
+
 void read_as(const std::string& text, ImportOptions& options) {
   ImportOptions read = options;
-  bool known = false;
+  OptionsText now, then;
+  bool known = text.size() <= longest_options;
   try {
-    const Json json = Json::parse(text);
-    read.up.reset();
-    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
-      if (json.at("up") == to_string(up)) read.up = up;
-    }
-    for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
-      if (json.at("metres_per_unit") == metres_per(unit)) read.unit = unit;
-    }
-    read.ignore = json.at("ignore").get<std::vector<std::string>>();
-    // Which folders a scene may refer to is the user's word, never a store's.
-    if (json.value("allow", Json::array()) != Json::parse(text_of(options)).value("allow", Json::array())) {
-      throw Error("the store was built with other folders allowed (--allow): repair it with the same");
-    }
-    known = text_of(read) == text;
-  } catch (const Json::exception&) {
+    now.read(text_of(options));
+    if (known) then.read(text);
+  } catch (const Error&) {
     known = false;
   }
-  if (!known) {
-    throw Error("the store was read in a way that this program does not know (" + text +
+  read.up.reset();
+  for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
+    if (then.up == to_string(up)) read.up = up;
+  }
+  for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
+    if (then.metres == metres_per(unit)) read.unit = unit;
+  }
+  read.ignore = then.ignore;
+  // Which folders a scene may refer to is the user's word, never a store's.
+  if (known && then.allow != now.allow) {
+    throw Error("the store was built with other folders allowed (--allow): repair it with the same");
+  }
+  if (!known || text_of(read) != text) {
+    throw Error("the store was read in a way that this program does not know (" + printable(text, longest_sentence) +
                 "): repair it with the program that built it, or build it again");
   }
   options = std::move(read);
@@ -181,11 +249,8 @@ Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std:
   }
 }
 
-Sources::Seen Sources::status(const fs::path& file, Number* number) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) {
-    throw Error(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
-  }
+Sources::Seen Sources::status(const fs::path& real, Number* number) {
+  const struct stat status = state_of(open_without_links(real, not_to_read), real);
   if (number != nullptr) *number = {status.st_dev, status.st_ino};
   std::timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
@@ -195,20 +260,31 @@ Sources::Seen Sources::status(const fs::path& file, Number* number) {
       static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
-void Sources::look(const std::vector<ScenePart>& parts, const std::function<void()>& tick) {
+void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path> allow,
+                   const std::function<void()>& tick) {
   struct File {
     std::string name;
+    const reader::SceneScope* scope;
+    fs::path real;
     Seen seen;
     Number number;
     bool hashed = false;
   };
   std::vector<File> files;
+  std::map<fs::path, reader::SceneScope> scopes;
   for (const ScenePart& part : parts) {
-    for (const fs::path& file : part.files) files.push_back({fs::absolute(file).lexically_normal().string(), {}, {}});
+    if (!scopes.contains(part.path)) scopes.emplace(part.path, reader::scope_of(part.path, allow));
+    const reader::SceneScope* const scope = &scopes.at(part.path);
+    for (const fs::path& file : part.files) {
+      files.push_back({fs::absolute(file).lexically_normal().string(), scope, {}, {}, {}});
+    }
   }
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     File& file = files[i];
-    file.seen = status(file.name, &file.number);
+    // Somebody may change the folder meanwhile: from here on no link is followed.
+    file.real = file.scope->find(file.name);
+    if (file.real.empty()) throw Error(fmt::format("cannot read {}: it is no file of the scene any more", file.name));
+    file.seen = status(file.real, &file.number);
     const auto known = known_.find(file.name);
     if (known != known_.end() && known->second.size == file.seen.size &&
         known->second.changed_ns == file.seen.changed_ns) {
@@ -230,10 +306,13 @@ void Sources::look(const std::vector<ScenePart>& parts, const std::function<void
   }
   tbb::parallel_for(std::size_t{0}, unread.size(), [&](std::size_t k) {
     File& file = files[unread[k]];
-    file.seen.hash = FileHash(file.name, tick).digits();
+    FileHash hash(file.real, tick);
+    if (hash.number() != file.number) fail_changed(file.name);
+    file.seen.hash = hash.digits();
   });
   for (File& file : files) {
     if (!file.hashed) file.seen.hash = files[first.at(file.number)].seen.hash;
+    if (file.real != file.name) linked_.insert({file.name, file.real});
     seen_.insert({std::move(file.name), file.seen});
   }
 }
@@ -254,10 +333,9 @@ std::string Sources::fingerprint(const ScenePart& part, const std::string& optio
 void Sources::check_unchanged(const ScenePart& part) const {
   for (const fs::path& file : part.files) {
     const std::string name = fs::absolute(file).lexically_normal().string();
-    const Seen before = seen_.at(name), now = status(name);
-    if (before.size != now.size || before.changed_ns != now.changed_ns) {
-      throw Error(fmt::format("{} was changed while the scene was read; build again when it is finished", name));
-    }
+    const auto linked = linked_.find(name);
+    const Seen before = seen_.at(name), now = status(linked == linked_.end() ? fs::path(name) : linked->second);
+    if (before.size != now.size || before.changed_ns != now.changed_ns) fail_changed(name);
   }
 }
 

@@ -1,6 +1,8 @@
 #include "store/build/output_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +12,10 @@
 
 #include "roam/error.h"
 #include "store/build/layout.h"
+#include "store/manifest.h"
 
 namespace roam::store {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Whether a build puts something of this name into the folder of a store.
 bool is_ours(const std::string& name) {
@@ -35,6 +36,16 @@ bool holds_results(const Folder& store) {
   return false;
 }
 
+/// Throws where a folder holds what no build puts there, and is no store. Other programs too call files CURRENT.
+void demand_no_other_things(const Folder& store) {
+  if (is_file(store, current_file) && holds_store(store)) return;
+  for (const std::string& name : names_in(store, "")) {
+    if (is_ours(name)) continue;
+    throw Error(fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
+                            store.string(), name));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress) {
@@ -52,28 +63,10 @@ std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& prog
   }
 }
 
-std::string other_thing_in(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    std::string name = entry.path().filename().string();
-    if (!is_ours(name)) return name;
-  }
-  if (error) throw Error(fmt::format("cannot read the folder {}: {}", folder.string(), error.message()));
-  return "";
-}
-
 OutputFolder::OutputFolder(Folder& store, bool through_link, const BuildProgress& progress) : store_(store) {
-  std::error_code error;
-  fs::path path = fs::absolute(store.path(), error).lexically_normal();
-  if (!path.has_filename()) path = path.parent_path();
-  // A link that leads nowhere is there, too.
-  while (!fs::exists(fs::symlink_status(path, error)) && path != path.parent_path()) {
-    made_.insert(path);
-    path = path.parent_path();
-  }
   try {
-    make_folder(store.path());
-    store = store_ = Folder::held(store.path(), through_link);
+    store = store_ = Folder::held_or_made(store.path(), through_link, made_);
+    demand_no_other_things(store_);
     const bool had_lock = is_file(store_, lock_file);
     lock_ = locked(store_, progress);
     for (const std::string& name : names_in(store_, "")) there_.insert(name);
@@ -95,10 +88,10 @@ OutputFolder::~OutputFolder() {
   if (store_.is_in_place()) remove_made_folders();
 }
 
-/// As far as they are empty: others may have put things there.
+/// As far as they are empty: others may have put things there. It removes no file and no link.
 void OutputFolder::remove_made_folders() const {
-  std::error_code error;
-  std::for_each(made_.rbegin(), made_.rend(), [&](const fs::path& folder) { fs::remove(folder, error); });
+  std::for_each(made_.rbegin(), made_.rend(),
+                [](const MadeFolder& folder) { ::unlinkat(folder.above.number(), folder.name.c_str(), AT_REMOVEDIR); });
 }
 
 }  // namespace roam::store

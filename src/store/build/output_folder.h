@@ -2,11 +2,11 @@
 /// \file
 /// The folder that a build writes into.
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "roam/store_build.h"
 #include "store/files.h"
@@ -25,7 +25,8 @@ using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 /// keep() was called, it was there before, or there is something that a later build goes on from.
 class OutputFolder {
  public:
-  /// Holds `store` open from then on. Throws as `locked` and Folder::held.
+  /// Holds `store` open from then on. Throws as `locked` and Folder::held, and where the folder that is held has other
+  /// things in it than a store: before anything is written.
   OutputFolder(Folder& store, bool through_link, const BuildProgress& progress);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -36,13 +37,10 @@ class OutputFolder {
   void remove_made_folders() const;
 
   Folder store_;
-  std::set<std::filesystem::path> made_;  ///< folders that were not there before, the store's and those above it
-  std::set<std::string> there_;           ///< what was in the store before
+  std::vector<MadeFolder> made_;  ///< folders that were not there before, those above the store and its own
+  std::set<std::string> there_;   ///< what was in the store before
   std::unique_ptr<BuildLock> lock_;
   bool keeps_ = false;
 };
-
-/// The name of something in a folder that no build puts there; "" where there is nothing. Throws roam::Error.
-[[nodiscard]] std::string other_thing_in(const std::filesystem::path& folder);
 
 }  // namespace roam::store

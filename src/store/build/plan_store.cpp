@@ -13,7 +13,6 @@
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
-#include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/run.h"
 #include "store/files.h"
@@ -43,10 +42,15 @@ class Planner {
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
     in_force_ = manifest_in_force(work_.store);
-    parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.options = text_of(work_.options.import);
+    if (plan_.options.size() > longest_options) {
+      throw Error(
+          fmt::format("the patterns to ignore and the allowed folders are longer than {} kB together; name fewer",
+                      longest_options >> 10));
+    }
+    parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.lossless = work_.options.lossless;
-    work_.arena.execute([&] { sources_.look(parts_, [&] { work_.tick(); }); });
+    work_.arena.execute([&] { sources_.look(parts_, work_.options.import.allow, [&] { work_.tick(); }); });
     take_records();
     report_.parts = parts_.size();
     if (unchanged()) {
@@ -311,14 +315,6 @@ void check_output(const StoreBuildOptions& options) {
     if (fs::exists(path, error) && is_inside(path, out)) {
       throw Error(
           fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
-    }
-  }
-  // Other programs too call files CURRENT.
-  if (fs::is_directory(status) && !(Store::is_store(out) && holds_store(out))) {
-    const std::string other = other_thing_in(out);
-    if (!other.empty()) {
-      throw Error(fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
-                              out.string(), other));
     }
   }
 }

@@ -32,7 +32,7 @@ std::vector<std::string> whole_manifests(const Folder& store) {
 /// Whether there is, or was, a root at all. A build that was never published has none.
 bool has_root(const Folder& store) {
   try {
-    if (!is_file(store, current_file)) refuse_to_open(store.path());
+    if (!is_file(store, current_file)) refuse_to_open(store);
   } catch (const RootDamage&) {
     return true;
   } catch (const Error&) {
@@ -43,7 +43,7 @@ bool has_root(const Folder& store) {
 
 std::string wrong_with_root(const Folder& store) {
   try {
-    if (!is_file(store, current_file)) refuse_to_open(store.path());
+    if (!is_file(store, current_file)) refuse_to_open(store);
     static_cast<void>(read_manifest(*files_of(store), store.string()));
     return "";
   } catch (const RootDamage& damage) {
@@ -69,7 +69,7 @@ RootMending mend_root(const Folder& store) {
   if (!has_root(store)) return mending;
   mending.wrong = wrong_with_root(store);
   if (mending.wrong.empty()) return mending;
-  if (!holds_store(store.path())) {
+  if (!holds_store(store)) {
     throw Error(
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
