@@ -55,6 +55,40 @@ TEST(TrainedParts, AreNamedEachWithItsPlaceItsFloorAndWhetherItCounts) {
   EXPECT_TRUE(says(t, roam::words::why(roof->left_out))) << answer(t);
 }
 
+TEST(TrainedParts, AreRoomsAndNotTheBottomsOfShafts) {
+  Mesh mesh;
+  shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});
+  shells::add_wall_with_door(mesh, 0, 8, 3, 4, 1.2);
+  shells::add_room(mesh, {9, 0, -4}, {9.5, 2.2, 3});  // 1.1 m2, and no way leads there
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  ASSERT_TRUE(t.largest);
+  EXPECT_NEAR(*t.largest, 0.6, 1e-3) << answer(t);
+  const ConnectedPart* shaft = part_near(t, {9.25, 1.1, -4}, 1.2);
+  ASSERT_NE(shaft, nullptr);
+  EXPECT_FALSE(shaft->trained);
+  EXPECT_EQ(shaft->left_out, roam::LeftOut::much_smaller);
+  // Alone it is the scene.
+  Mesh alone;
+  shells::add_room(alone, {9, 0, -4}, {9.5, 2.2, 3});
+  const Training only = roam::train(survey_of({alone}), {.height = 1.8});
+  ASSERT_FALSE(only.parts.empty());
+  EXPECT_TRUE(only.parts.front().trained);
+}
+
+TEST(TrainedParts, AreNotARoofThatIsLargerThanTheRoomsBelow) {
+  Mesh mesh;
+  for (const double x : {0.0, 3.0, 6.0, 9.0}) shells::add_room(mesh, {x, 0, 0}, {x + 2.8, 4, 3});
+  scenes::add_floor(mesh, -2, -1, 13.8, 8, 3.5);  // more than half of it over nothing
+  const Training t = roam::train(survey_of({mesh}), {.height = 1.8});
+  const ConnectedPart* roof = part_near(t, {5.9, 3.5, 3.5}, 8.0);
+  ASSERT_NE(roof, nullptr);
+  EXPECT_FALSE(roof->trained) << answer(t);
+  EXPECT_EQ(roof->left_out, roam::LeftOut::on_top);
+  const ConnectedPart* room = part_near(t, {1.4, 2, 0}, 2.0);
+  ASSERT_NE(room, nullptr);
+  EXPECT_TRUE(room->trained) << answer(t);
+}
+
 TEST(TrainedParts, AreThoseThatAPathLeadsThrough) {
   Mesh mesh;
   shells::add_room(mesh, {0, 0, 0}, {8, 6, 3});

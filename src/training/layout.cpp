@@ -26,6 +26,9 @@ constexpr double narrowest = 0.05;
 /// A part that no body gets to from a part with more than so many times its places is no part that paths are planned
 /// in: tops of plinths, closets without a door.
 constexpr std::size_t least_part = 100;
+/// m2. Less floor, and less than a tenth of that of the largest part, is no room: the bottom of a shaft.
+constexpr double least_room = 2.0;
+constexpr std::size_t beside_room = 10;
 
 /// How many paths each component gets, 0 for as many as it needs, or none: each its dead ends where it is not said how
 /// many, else one each, as far as they go round, and the largest the rest.
@@ -184,7 +187,12 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); });
   // Most places first.
   const auto largest = std::find_if(found.begin(), found.end(), [](const Component& c) { return c.inside; });
-  const std::size_t least = largest == found.end() ? 0 : largest->nodes.size() / least_part;
+  const std::size_t most = largest == found.end() ? 0 : largest->nodes.size();
+  std::size_t least = most / least_part;
+  if (options.mode == Mode::walk) {
+    const auto room = static_cast<std::size_t>(least_room / (options.spacing * options.spacing));
+    least = std::max(least, std::min(room, most / beside_room));
+  }
   const auto is_roamed = [&](const Component& c) { return c.inside && c.nodes.size() >= least; };
   std::stable_partition(found.begin(), found.end(), is_roamed);
   for (Component& component : found) {

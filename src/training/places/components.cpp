@@ -38,8 +38,6 @@ constexpr std::uint64_t least_closed = 1'000;
 constexpr std::size_t newest = 16;
 constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
-/// Of the floors, to know where a scene is detailed.
-constexpr std::size_t triangles_asked = 10'000;
 /// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
 /// many. Where something is known to be grown on anyway, what meets it need not go on at all.
 constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
@@ -286,34 +284,12 @@ class Search {
   void mark_waste(std::vector<Component>& found) const {
     const auto is_whole = [](const Component& c) { return c.whole; };
     if (std::all_of(found.begin(), found.end(), is_whole) || std::none_of(found.begin(), found.end(), is_whole)) return;
-    const std::vector<std::size_t> details = details_of(found);
+    const std::vector<std::size_t> details = floor_details(survey_, tree_, found);
     std::size_t most = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found[i].whole) most = std::max(most, details[i]);
     for (std::size_t i = 0; i < found.size(); ++i)
       if (!found[i].whole && details[i] < most) found[i].verdict = Verdict::unfinished;
-  }
-
-  /// How many of some triangles of the floors are under the places of each.
-  [[nodiscard]] std::vector<std::size_t> details_of(const std::vector<Component>& found) const {
-    Columns places{reached_column};
-    for (std::uint32_t i = 0; i < found.size(); ++i)
-      for (const ways::NodeId node : found[i].nodes) places.add(tree_.node(node).place, i);
-    const auto ids = survey_.floor_triangles();
-    const std::size_t step = 1 + ids.size() / triangles_asked;
-    std::vector<std::size_t> counts(found.size(), 0), counted(found.size(), ids.size());
-    for (std::size_t i = 0; i < ids.size(); i += step) {
-      const Triangle t = survey_.triangle(ids[i]);
-      const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-      (void)places.any(middle, 0, [&](const auto& e) {
-        if (std::abs(e.z - middle.z) <= reached_column && counted[e.owner] != i) {
-          counted[e.owner] = i;
-          ++counts[e.owner];
-        }
-        return false;
-      });
-    }
-    return counts;
   }
 
   const Survey& survey_;

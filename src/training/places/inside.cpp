@@ -111,13 +111,13 @@ class Judge {
     c.open_share = static_cast<double>(open) / static_cast<double>(chosen.size());
   }
 
-  [[nodiscard]] bool is_on_top(std::uint32_t i) const {
+  [[nodiscard]] bool is_on_top(std::uint32_t i) {
     const bool open = components_[i].open_share > majority;
     if (measure_.mode != Mode::walk) {
       // Who flies is over everything when outside: what is closed is the scene, where it is a good part of it.
       return open && closed_sees_ >= least_seen_share * static_cast<double>(seen_[i]);
     }
-    return (open && is_lid(i)) || is_ledge(i);
+    return (open && (is_lid(i) || is_over_more(i))) || is_ledge(i);
   }
 
   void see_surfaces() {
@@ -146,6 +146,25 @@ class Judge {
       if (columns_.any(place, 0, [&](const auto& e) { return e.owner != i && e.z < place.z - measure_.step; })) ++over;
     }
     return static_cast<double>(over) > majority * static_cast<double>(chosen.size());
+  }
+
+  /// What is closed and lies straight under some of its places has more of the floors' triangles: the roof of a house
+  /// that is larger than the rooms.
+  [[nodiscard]] bool is_over_more(std::uint32_t i) {
+    std::vector<bool> below(components_.size(), false);
+    for (const ways::NodeId id : some(components_[i])) {
+      const Vec3 place = tree_.node(id).place;
+      (void)columns_.any(place, 0, [&](const auto& e) {
+        if (e.z < place.z - measure_.step && components_[e.owner].open_share <= majority) below[e.owner] = true;
+        return false;
+      });
+    }
+    if (std::find(below.begin(), below.end(), true) == below.end()) return false;
+    if (details_.empty()) details_ = floor_details(survey_, tree_, components_);
+    std::size_t details = 0;
+    for (std::size_t j = 0; j < below.size(); ++j)
+      if (below[j]) details += details_[j];
+    return details > details_[i];
   }
 
   /// Most places are open to the sky and lie straight over a room in which a lower body could be.
@@ -290,8 +309,9 @@ class Judge {
   const ways::WidestTree& tree_;
   std::vector<Component>& components_;
   bool trusted_ = false;
-  std::vector<std::size_t> seen_;  ///< flying: surfaces, of each component
-  double closed_sees_ = 0.0;       ///< the most of what is closed
+  std::vector<std::size_t> seen_;     ///< flying: surfaces, of each component
+  std::vector<std::size_t> details_;  ///< of each component, where they were asked for
+  double closed_sees_ = 0.0;          ///< the most of what is closed
   Columns columns_{column};
 };
 

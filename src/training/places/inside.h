@@ -39,6 +39,11 @@ inline constexpr double reversed_ratio = 2.0;
 [[nodiscard]] std::vector<std::size_t> surfaces_seen(const Survey& survey, const ways::WidestTree& tree,
                                                      std::span<const Component> components);
 
+/// How many of some triangles of the floors are under the places of each component: where a scene is detailed is what
+/// people come for.
+[[nodiscard]] std::vector<std::size_t> floor_details(const Survey& survey, const ways::WidestTree& tree,
+                                                     std::span<const Component> components);
+
 /// Sets shares and verdicts of components, most places first, whose nodes are known. `trusted`: windings can be.
 void judge(const Survey& survey, const ways::Measure& measure, const ways::WidestTree& tree, bool trusted,
            std::vector<Component>& components);

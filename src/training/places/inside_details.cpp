@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include "training/places/columns.h"
+#include "training/places/inside.h"
+
+namespace roam::training {
+namespace {
+
+/// m: the columns in which places are looked up, and how much higher or lower a place may be than a triangle.
+constexpr double column = 0.3;
+/// Triangles that are looked at, about.
+constexpr std::size_t triangles_asked = 10'000;
+
+}  // namespace
+
+std::vector<std::size_t> floor_details(const Survey& survey, const ways::WidestTree& tree,
+                                       std::span<const Component> components) {
+  Columns places{column};
+  for (std::uint32_t i = 0; i < components.size(); ++i)
+    for (const ways::NodeId node : components[i].nodes) places.add(tree.node(node).place, i);
+  const auto ids = survey.floor_triangles();
+  const std::size_t step = 1 + ids.size() / triangles_asked;
+  std::vector<std::size_t> counts(components.size(), 0), counted(components.size(), ids.size());
+  for (std::size_t i = 0; i < ids.size(); i += step) {
+    const Triangle t = survey.triangle(ids[i]);
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
+    (void)places.any(middle, 0, [&](const auto& e) {
+      if (std::abs(e.z - middle.z) <= column && counted[e.owner] != i) {
+        counted[e.owner] = i;
+        ++counts[e.owner];
+      }
+      return false;
+    });
+  }
+  return counts;
+}
+
+}  // namespace roam::training
