@@ -295,6 +295,25 @@ TEST(Training, ThatIsToldToEndAnswersWhatItKnowsAndSaysSo) {
   EXPECT_FALSE(says(paper, "0.000 m")) << answer(paper);
 }
 
+TEST(Training, TellsAShareOfTheWorkThatOnlyRisesFromNothingToAll) {
+  for (const TrainOptions& asked : std::vector<TrainOptions>{
+           {.paths = 1, .height = 1.8}, {.paths = 1}, {.method = Method::paper, .paths = 1, .height = 1.8}}) {
+    std::vector<double> told;
+    TrainOptions options = asked;
+    options.progress = [&](roam::TrainStage, double done) {
+      told.push_back(done);
+      return true;
+    };
+    EXPECT_TRUE(roam::train(corridor({.door = 0.6, .split = 0.5}), options).complete);
+    ASSERT_GT(told.size(), 10u);
+    EXPECT_EQ(told.front(), 0.0);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.back(), 1.0);
+    EXPECT_EQ(std::count(told.begin(), told.end(), 1.0), 1) << "nothing is done after all";
+    EXPECT_GT(std::unique(told.begin(), told.end()) - told.begin(), 10);
+  }
+}
+
 TEST(Training, RefusesOptionsThatNobodyCanMean) {
   const Survey survey = corridor({});
   EXPECT_THROW((void)roam::train(survey, {.mode = Mode::ghost}), roam::Error);

@@ -43,12 +43,13 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
           ""};
 }
 
-/// Training in the stages that it names, on standard error.
+/// Training in the stages that it names, on standard error. Stages take what they take in each scene: no time left
+/// follows from the share that is done.
 class StagedProgress {
  public:
   bool at(TrainStage stage, double done) {
     if (!progress_ || stage != stage_) {
-      progress_.emplace(words::stage(stage), "");
+      progress_.emplace(std::string("training: ") + words::stage(stage), "", Progress::Rate::uneven);
       stage_ = stage;
     }
     constexpr std::uint64_t whole = 1000;

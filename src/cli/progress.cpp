@@ -38,8 +38,8 @@ std::string short_time(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(const std::string& what, std::string unit)
-    : what_(printable_part(what)), unit_(std::move(unit)), terminal_(isatty(STDERR_FILENO) != 0) {
+Progress::Progress(const std::string& what, std::string unit, Rate rate)
+    : what_(printable_part(what)), unit_(std::move(unit)), rate_(rate), terminal_(isatty(STDERR_FILENO) != 0) {
   next_ = start_ + (terminal_ ? Clock::duration(terminal_period) : Clock::duration(log_period));
 }
 
@@ -71,7 +71,8 @@ void Progress::show(std::uint64_t done, std::uint64_t total) {
       text += fmt::format(", {} of {} {}, {} {}/s", short_count(static_cast<double>(done)),
                           short_count(static_cast<double>(total)), unit_, short_count(rate), unit_);
     }
-    if (done > 0 && done < total) text += ", " + short_time((1.0 / fraction - 1.0) * seconds) + " left";
+    if (rate_ == Rate::even && done > 0 && done < total)
+      text += ", " + short_time((1.0 / fraction - 1.0) * seconds) + " left";
   } else {
     text += fmt::format("{} {}, {} {}/s", short_count(static_cast<double>(done)), unit_, short_count(rate), unit_);
   }

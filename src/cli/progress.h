@@ -20,7 +20,10 @@ class Progress {
  public:
   /// `what` is being done, counted in `unit`, e.g. "reading mine.dae" and "B" or "indexing" and "triangles"; empty:
   /// only what share of it is done is told.
-  Progress(const std::string& what, std::string unit);
+  ///
+  /// The time left follows from the rate so far. `rate` is `uneven` where that says nothing about the rest.
+  enum class Rate : std::uint8_t { even, uneven };
+  Progress(const std::string& what, std::string unit, Rate rate = Rate::even);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -36,6 +39,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string what_;
   std::string unit_;
+  Rate rate_;
   bool terminal_;
   bool line_is_open_ = false;
   Clock::time_point start_ = Clock::now();

@@ -53,12 +53,17 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
   const cracks::CrackOptions how = crack_options(options, layout.measure);
   std::optional<cracks::RimEdges> others;
   cracks::RimEdges& edges = ahead.options() == how ? ahead : others.emplace(survey, how);
-  for (std::size_t i = 0; i < layout.components.size() && i < most_searched && !stages.ended(); ++i) {
+  const double least = least_searched * static_cast<double>(layout.components[0].nodes.size());
+  const auto is_searched = [&](const Component& c) { return static_cast<double>(c.nodes.size()) >= least; };
+  const auto small = std::find_if_not(layout.components.begin(), layout.components.end(), is_searched);
+  const std::size_t count =
+      std::min(most_searched, static_cast<std::size_t>(std::distance(layout.components.begin(), small)));
+  for (std::size_t i = 0; i < count && !stages.ended(); ++i) {
     const Component& component = layout.components[i];
-    if (static_cast<double>(component.nodes.size()) < least_searched * layout.components[0].nodes.size()) break;
     const Reached reached(survey, layout, options.spacing, {&component, 1});
     std::vector<cracks::FoundCrack> found = find_cracks(
-        survey, edges, [&](const Vec3& foot) { return reached(foot); }, [&](double done) { return stages.at(done); });
+        survey, edges, [&](const Vec3& foot) { return reached(foot); },
+        [&](double done) { return stages.at((static_cast<double>(i) + done) / static_cast<double>(count)); });
     // Floor behind a thin wall counts, for what is an open drop there is one on this side too; not for a crack.
     std::erase_if(found, [&](const cracks::FoundCrack& crack) {
       return crack.kind != Crack::Kind::open_drop &&

@@ -1,17 +1,42 @@
 #pragma once
 /// \file
-/// What training tells while it works, and how it is told to end.
+/// How far training is, and whether it is to end.
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 #include "roam/train.h"
 
 namespace roam::training {
 
-/// Passes progress on, one thread at a time, and remembers that it was told to stop: everything asked afterwards ends
-/// at once. Safe to call from any thread, but for begin().
+/// The part of the whole work that a stage is: where it begins and where it ends, in [0, 1]. Rough: each scene
+/// differs. Only a training that is complete comes to 1.
+[[nodiscard]] constexpr std::pair<double, double> part_of_work(TrainStage stage) {
+  switch (stage) {
+    case TrainStage::places:
+      return {0.0, 0.4};
+    case TrainStage::planning:
+      return {0.4, 0.5};
+    case TrainStage::cracks:
+      return {0.5, 0.65};
+    case TrainStage::walking:
+      return {0.65, 0.8};
+    case TrainStage::beside_paths:
+      return {0.8, 0.85};
+    case TrainStage::trials:
+      return {0.85, 0.99};
+    case TrainStage::roaming_paths:
+      return {0.5, 0.99};
+  }
+  return {0.0, 1.0};
+}
+
+/// Passes progress on, one thread at a time, and remembers that the caller wants an end: every later call returns
+/// false. What it passes on never falls, also where a stage begins once more. Safe to call from any thread, but for
+/// begin() and complete().
 class Stages {
  public:
   explicit Stages(const std::function<bool(TrainStage, double)>& progress) : progress_(progress) {}
@@ -22,13 +47,19 @@ class Stages {
     stage_ = stage;
     at(0.0);
   }
-  /// So much of it is done. False: end.
+  /// So much of the stage is done, in [0, 1]. False: end.
   bool at(double done) {
     if (ended_) return false;
     if (!progress_) return true;
     const std::lock_guard lock(mutex_);
-    if (!ended_ && !progress_(stage_, done)) ended_ = true;
+    const auto [from, to] = part_of_work(stage_);
+    done_ = std::max(done_, from + (to - from) * std::clamp(done, 0.0, 1.0));
+    if (!ended_ && !progress_(stage_, done_)) ended_ = true;
     return !ended_;
+  }
+  /// All is done, unless it was ended before: then it is too late to end it.
+  void complete() {
+    if (!ended_ && progress_) progress_(stage_, 1.0);
   }
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] TrainStage stage() const { return stage_; }
@@ -36,6 +67,7 @@ class Stages {
  private:
   const std::function<bool(TrainStage, double)>& progress_;
   TrainStage stage_ = TrainStage::places;
+  double done_ = 0.0;  ///< of the whole work
   std::mutex mutex_;
   std::atomic<bool> ended_{false};
 };

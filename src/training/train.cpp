@@ -208,6 +208,7 @@ Training trained(const Survey& survey, const TrainOptions& options) {
   } else {
     find_interval(survey, settled, kind, layout, rims, stages, training);
   }
+  stages.complete();
   training.complete = !stages.ended();
   if (!training.complete) {
     training.feasible = false;

@@ -58,6 +58,8 @@ class Search {
         goes_on_(goes_on) {}
 
   std::vector<Component> run(const std::vector<Vec3>& samples) {
+    if (measure_.mode == Mode::walk)
+      most_expected_ = std::min(cells_of_floors(), static_cast<double>(most_places_ * all_factor));
     std::size_t batch = first_batch;
     // What is huge and closed would else be begun again and again, until nothing is left for the rest.
     while (done_ < samples.size() && tree_.size() < most_places_ && asked_to_go_on()) {
@@ -110,8 +112,14 @@ class Search {
   };
 
   bool asked_to_go_on() {
-    if (!ended_ && goes_on_ && !goes_on_(share_done_)) ended_ = true;
+    if (!ended_ && goes_on_ && !goes_on_(std::max(share_done_, share_reached()))) ended_ = true;
     return !ended_;
+  }
+
+  /// Of the work, by the places that there are already: at most one for each cell of the floors is expected.
+  [[nodiscard]] double share_reached() const {
+    if (!(most_expected_ > 0.0)) return 0.0;
+    return samples_share * std::min(1.0, static_cast<double>(tree_.size()) / most_expected_);
   }
 
   [[nodiscard]] bool is_reached(const Vec3& place) const {
@@ -222,14 +230,18 @@ class Search {
   /// fronts is a good part of all floors: see judge().
   [[nodiscard]] bool backs_may_be_the_scene() const {
     if (closed_places_ == 0) return true;
+    const auto closed = static_cast<double>(closed_places_);
+    return closed * reversed_ratio < cells_of_floors() - closed;
+  }
+
+  /// How many cells of the lattice all floors cover, seen from above.
+  [[nodiscard]] double cells_of_floors() const {
     double area = 0.0;
     for (const TriangleId id : survey_.floor_triangles()) {
       const Triangle t = survey_.triangle(id);
       area += 0.5 * std::abs(glm::cross(t[1] - t[0], t[2] - t[0]).z);
     }
-    const double cell = tree_.spacing();
-    const double closed = static_cast<double>(closed_places_) * cell * cell;
-    return closed * reversed_ratio < area - closed;
+    return area / (tree_.spacing() * tree_.spacing());
   }
 
   /// Nobody is carried over a gap to whose bottom he walks: what hangs together only so comes apart. By id: which of
@@ -307,7 +319,8 @@ class Search {
   std::vector<ways::NodeId> came_out_;  ///< roots of what began closed and goes on in the open
   std::uint64_t closed_places_ = 0;     ///< that were reached from closed samples
   std::size_t done_ = 0;
-  double share_done_ = 0.0;  ///< of all the work
+  double share_done_ = 0.0;     ///< of all the work
+  double most_expected_ = 0.0;  ///< places; 0: not known
   bool open_was_cut_ = false;
   bool look_was_cut_ = false;  ///< something closed is larger than what is looked at first
   bool ended_ = false;
