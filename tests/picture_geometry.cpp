@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace roam::app::picture;
+using namespace roam::draw;
 using roam::Mesh;
 using roam::Vec3;
 using scenes::Random;

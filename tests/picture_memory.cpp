@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace roam::app::picture;
+using namespace roam::draw;
 using roam::Mesh;
 
 void nobody(std::uint64_t) {}
