@@ -3,6 +3,8 @@
 /// name begins with "PWNED" when it succeeds.
 
 #include <filesystem>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -66,5 +68,29 @@ inline std::vector<std::string> marks_in(const std::string& folder) {
 
 /// A word of a shell.
 inline std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+/// A system call that `strace -f` saw.
+struct TracedCall {
+  std::string process;
+  std::string text;
+};
+
+/// The calls of a trace. A call that another process's interrupted stands in two lines there.
+inline std::vector<TracedCall> traced_calls(const std::string& trace) {
+  std::vector<TracedCall> calls;
+  std::map<std::string, std::string> unfinished;
+  std::istringstream lines(trace);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string process = line.substr(0, line.find(' '));
+    std::string text = line.substr(line.find_first_not_of(' ', process.size()));
+    if (const auto end = text.find(" <unfinished ...>"); end != std::string::npos) {
+      unfinished[process] = text.substr(0, end);
+      continue;
+    }
+    if (text.starts_with("<... ")) text = unfinished[process] + text;
+    calls.push_back({process, text});
+  }
+  return calls;
+}
 
 inline bool can_trace() { return run_program("/bin/sh", {"-c", "strace -o /dev/null true"}).status == 0; }

@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "hostile_scene.h"
 #include "import_files.h"
@@ -61,18 +60,16 @@ struct Named {
 Named named_behind_walls(const std::string& trace) {
   Named files;
   std::set<std::string> walled;
-  std::istringstream lines(trace);
-  const std::regex opened("^(\\d+) +open(?:at)?\\((?:AT_FDCWD, )?\"([^\"]*)\".*= \\d+$");
-  const std::regex named("^(\\d+) +\\w+\\((?:AT_FDCWD, )?\"([^\"]+)\"");
-  for (std::string line; std::getline(lines, line);) {
-    const std::string process = line.substr(0, line.find(' '));
-    if (contains(line, "landlock_restrict_self(") || contains(line, "syscall_0x1be(")) walled.insert(process);
+  const std::regex opened("^open(?:at)?\\((?:AT_FDCWD, )?\"([^\"]*)\".*= \\d+$");
+  const std::regex named("^\\w+\\((?:AT_FDCWD, )?\"([^\"]+)\"");
+  for (const auto& [process, text] : traced_calls(trace)) {
+    if (contains(text, "landlock_restrict_self(") || contains(text, "syscall_0x1be(")) walled.insert(process);
     std::smatch found;
     if (!walled.contains(process)) continue;
-    if (std::regex_search(line, found, opened)) {
-      files.opened.insert(found[2]);
-    } else if (std::regex_search(line, found, named)) {
-      files.others.insert(found[2]);
+    if (std::regex_search(text, found, opened)) {
+      files.opened.insert(found[1]);
+    } else if (std::regex_search(text, found, named)) {
+      files.others.insert(found[1]);
     }
   }
   return files;

@@ -9,9 +9,9 @@
 #include <osg/Texture2D>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "graphics/shading.h"
+#include "hostile_scene.h"
 #include "view/page_source.h"
 #include "view_scenes.h"
 
@@ -44,24 +44,14 @@ struct Call {
 };
 
 std::vector<Call> calls_in(const std::string& trace) {
-  std::vector<std::pair<std::string, std::string>> calls;
+  const std::vector<TracedCall> calls = traced_calls(trace);
   std::set<std::string> readers;
-  std::map<std::string, std::string> parent, unfinished;
+  std::map<std::string, std::string> parent;
   const std::regex born("(?:clone|clone3|fork|vfork)[^=]*=.*?(\\d+)$");
-  std::istringstream lines(trace);
-  for (std::string line; std::getline(lines, line);) {
-    const std::string process = line.substr(0, line.find(' '));
-    std::string text = line.substr(line.find_first_not_of(' ', process.size()));
-    // A call that another process's interrupted is in two lines.
-    if (const auto end = text.find(" <unfinished ...>"); end != std::string::npos) {
-      unfinished[process] = text.substr(0, end);
-      continue;
-    }
-    if (text.starts_with("<... ")) text = unfinished[process] + text;
+  for (const auto& [process, text] : calls) {
     if (text.starts_with("execve(") && contains(text, "roam-reader\"")) readers.insert(process);
     std::smatch child;
     if (std::regex_search(text, child, born)) parent[child[1]] = process;
-    calls.emplace_back(process, text);
   }
   std::vector<Call> all;
   for (const auto& [process, text] : calls) {
