@@ -156,6 +156,15 @@ ROAM_ROW row_contacts(const roam::World& world, Queries queries) {
   roam::Contact contacts[32];
   for (const Query& q : queries) kept += double(world.contacts(q.body, q.from, Vec3(0.0), 0.05, contacts));
 }
+/// Floor within a band about the start: most triangles around are steep, or at other heights.
+ROAM_ROW row_floor(const roam::World& world, Queries queries) {
+  const roam::Floor floor{.slope_degrees = 45.0, .band = 0.25};
+  for (const Query& q : queries) {
+    roam::Floor here = floor;
+    here.point = q.from;
+    kept += world.floor_clearance({0.0, here.band}, q.from, 0.85, here).distance;
+  }
+}
 ROAM_ROW row_walker_step_on_foot(roam::Walker& walker, int steps) { step_all(walker, steps, 1.4); }
 ROAM_ROW row_walker_step_flying(roam::Walker& walker, int steps) { step_all(walker, steps, 20.0); }
 
@@ -193,6 +202,8 @@ int main() try {
   row_clearance_of_way(world, spheres);
   row("contacts", ways.size());
   row_contacts(world, ways);
+  row("floor", spheres.size());
+  row_floor(world, spheres);
 
   constexpr int steps = 600;
   const Vec3 start{0.5 * width, 0.5 * width, 0.5 * height};

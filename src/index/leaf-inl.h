@@ -150,17 +150,23 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
 
 /// Accepts bounds at most settled_gap below the distance.
 struct Tight {
-  static constexpr bool is_loose = false;
+  static constexpr bool is_loose = false, is_boxed = false;
   Tight(double, double, double, double) {}
   /// The greatest distance for which the bound is good enough.
   [[nodiscard]] HWY_INLINE VF enough(VF bound) const { return hn::Add(bound, set(settled_gap)); }
+};
+
+/// The same for triangles between two heights: boxes are tested first.
+struct Layer : Tight {
+  static constexpr bool is_boxed = true;
+  using Tight::Tight;
 };
 
 /// Accepts bounds that lose part of the gap. Of the distance to the stored triangle less the radius and the tile's
 /// error, a bound must keep at least 1 - part. This holds only within `reach`: beyond it, a loose bound could report a
 /// triangle as nearer than `reach`.
 struct Slack {
-  static constexpr bool is_loose = true;
+  static constexpr bool is_loose = true, is_boxed = true;
   float factor, less, farthest;
 
   Slack(double part, double radius, double error, double reach)
@@ -193,9 +199,9 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// except for rounding.
 ///
 /// Any w gives a bound. For the whole motion m, seen from any point of the axis at the fraction t of the motion,
-/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w leads from the closest point to the
-/// nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one of
-/// their ends.
+/// |w| distance >= min_i w.(t m - v_i) - h |w_z| - max(t w.m, (t - 1) w.m). A good w leads from the closest point to
+/// the nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one
+/// of their ends.
 template <class Bounds>
 HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
                           VF& left, Children& out, float* most) {

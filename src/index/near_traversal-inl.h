@@ -35,24 +35,23 @@ HWY_INLINE void leave_out(Children& children, const Beyond& beyond) {
 }
 
 /// Visits everything near a body during its motion, nearest boxes first, within a reach that visits may shrink.
-/// `Bounds` is Slack for a gap that may lose part of itself, else Tight.
+/// `Bounds` is Slack for a gap that may lose part of itself, Layer for triangles between two heights, else Tight.
 template <class Bounds>
 class NearTraversal {
  public:
-  NearTraversal(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context)
+  NearTraversal(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context)
       : index_(index),
         piece_(piece),
         way_(piece.motion, piece.body.half_height),
-        asked_(reach),
-        reach_(reach),
-        part_(part),
+        near_(near),
+        reach_(near.reach),
         visit_(visit),
         context_(context) {}
 
   double run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double more = margin_of(index_);
-    const Around around = around_of(frame, axis_reach(more));
+    const Around around = around_of(frame, axis_reach(more), more);
     Passed passed;
     Stack stack;
     search(
@@ -64,7 +63,7 @@ class NearTraversal {
           }
           Children children;
           const Node& node = look_at(index_.top, e.number, frame, around, margin(top_steps, frame), axis_reach(more),
-                                     few_tiles(index_), passed, children);
+                                     Bounds::is_loose ? few_tiles(index_) : 0, passed, children);
           push_children(node, children, index_.top, nullptr, stack);
           prefetch_tiles(index_, node, children);
         });
@@ -100,9 +99,15 @@ class NearTraversal {
     Swept box;
     float reach;
   };
-  [[nodiscard]] HWY_INLINE Around around_of(const Frame& frame, float reach) const {
-    if (!Bounds::is_loose || !boxed_) return {Swept(), reach};
-    return {Swept(frame, Reach(piece_.motion, double(reach), piece_.body.half_height), 0.0F), reach};
+  /// `error`: metres by which stored triangles are grown.
+  [[nodiscard]] HWY_INLINE Around around_of(const Frame& frame, float reach, double error) const {
+    if (!Bounds::is_boxed || !boxed_) return {Swept(), reach};
+    Reach around(piece_.motion, double(reach), piece_.body.half_height);
+    if constexpr (!Bounds::is_loose) {
+      around.lower[2] = std::max(around.lower[2], -round_up(error - near_.lowest));
+      around.upper[2] = std::min(around.upper[2], round_up(error + near_.highest));
+    }
+    return {Swept(frame, around, 0.0F), reach};
   }
 
   /// Tests the children of a node. A node with only one inner child around the motion is replaced by that child,
@@ -112,7 +117,7 @@ class NearTraversal {
                                  float grown, float reach, int few, Passed& passed, Children& children) const {
     std::uint32_t met = ~0U;
     const Node* node = &nodes[at].node;
-    if (Bounds::is_loose && boxed_) {
+    if (Bounds::is_boxed && boxed_) {
       passed.entry = std::min(passed.entry, around.reach);  // the boxes exclude only triangles farther than that
       for (;;) {
         met = met_children(*node, around.box);
@@ -160,14 +165,14 @@ class NearTraversal {
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
     const auto error = double(t.error);
-    const Bounds bounds(part_, piece_.body.radius, error, asked_);
+    const Bounds bounds(near_.part, piece_.body.radius, error, near_.reach);
     float reach = axis_reach(error);
     const float grown = margin(tile_steps, frame);
     Passed passed;
     const auto beyond = [&](float key) { return passed.over(key, reach); };
-    const Around around = around_of(frame, reach);
+    const Around around = around_of(frame, reach, error);
     const auto look = [&](std::uint32_t at, Children& children) -> const Node& {
-      return look_at(nodes, at, frame, around, grown, reach, 1, passed, children);
+      return look_at(nodes, at, frame, around, grown, reach, Bounds::is_loose ? 1 : 0, passed, children);
     };
     const auto look_at_leaf = [&](std::uint32_t leaf) {
       looked_ = true;
@@ -206,7 +211,7 @@ class NearTraversal {
                         const LookAtLeaf& look_at_leaf) {
     stack_.clear();
     std::uint32_t met = ~0U;
-    if (Bounds::is_loose && boxed_) {
+    if (Bounds::is_boxed && boxed_) {
       passed.entry = std::min(passed.entry, around.reach);
       met = met_children(root.node, around.box);
       if (met == 0) return;
@@ -260,9 +265,9 @@ class NearTraversal {
   const Index& index_;
   const Piece& piece_;
   Way way_;
-  double asked_, reach_;
-  double part_;
-  bool boxed_ = way_.longest <= short_motion;  ///< for a gap, integer boxes are tested first, as in a sweep
+  const Near& near_;
+  double reach_;
+  bool boxed_ = way_.longest <= short_motion;  ///< integer boxes are tested first, as in a sweep, if Bounds says so
   double left_ = std::numeric_limits<double>::infinity();
   bool looked_ = false;  ///< a leaf was tested
   Visit visit_;

@@ -1,6 +1,7 @@
 #include "index/traverse.h"
 
 #include <cassert>
+#include <cmath>
 
 #include "math/largest.h"
 
@@ -20,9 +21,17 @@ Impact FirstImpact(const Index& index, const Piece& piece, double until) {
                              : SweepTraversal<NoRay>(index, piece, until).run();
 }
 
-double VisitNear(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
-  return part > 0.0 ? NearTraversal<Slack>(index, piece, reach, part, visit, context).run()
-                    : NearTraversal<Tight>(index, piece, reach, part, visit, context).run();
+/// Runs the traversal with the bounds that suit.
+template <class... Roots>
+double VisitNearWith(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context,
+                     const Roots&... roots) {
+  if (near.part > 0.0) return NearTraversal<Slack>(index, piece, near, visit, context).run(roots...);
+  return std::isinf(near.highest) ? NearTraversal<Tight>(index, piece, near, visit, context).run(roots...)
+                                  : NearTraversal<Layer>(index, piece, near, visit, context).run(roots...);
+}
+
+double VisitNear(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context) {
+  return VisitNearWith(index, piece, near, visit, context);
 }
 
 bool Gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out) {
@@ -34,10 +43,9 @@ Impact FirstImpactFrom(const Index& index, std::span<const Root> roots, const Pi
   return SweepTraversal<NoRay>(index, piece, until).run(roots);
 }
 
-double VisitNearFrom(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
-                     Visit visit, void* context) {
-  return part > 0.0 ? NearTraversal<Slack>(index, piece, reach, part, visit, context).run(roots)
-                    : NearTraversal<Tight>(index, piece, reach, part, visit, context).run(roots);
+double VisitNearFrom(const Index& index, std::span<const Root> roots, const Piece& piece, const Near& near, Visit visit,
+                     void* context) {
+  return VisitNearWith(index, piece, near, visit, context, roots);
 }
 
 }  // namespace roam::index::HWY_NAMESPACE
@@ -56,8 +64,8 @@ Impact first_impact(const Index& index, const Piece& piece, double until) {
   return HWY_DYNAMIC_DISPATCH(FirstImpact)(index, piece, until);
 }
 
-double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context) {
-  return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, reach, part, visit, context);
+double visit_near(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context) {
+  return HWY_DYNAMIC_DISPATCH(VisitNear)(index, piece, near, visit, context);
 }
 
 bool gather(const Index& index, std::uint32_t owner, const Box& box, Roots& out) {
@@ -68,9 +76,9 @@ Impact first_impact(const Index& index, std::span<const Root> roots, const Piece
   return HWY_DYNAMIC_DISPATCH(FirstImpactFrom)(index, roots, piece, until);
 }
 
-double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
-                  Visit visit, void* context) {
-  return HWY_DYNAMIC_DISPATCH(VisitNearFrom)(index, roots, piece, reach, part, visit, context);
+double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, const Near& near, Visit visit,
+                  void* context) {
+  return HWY_DYNAMIC_DISPATCH(VisitNearFrom)(index, roots, piece, near, visit, context);
 }
 
 }  // namespace roam::index

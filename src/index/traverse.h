@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "index/block.h"
@@ -97,15 +98,22 @@ struct Nearness {
 /// before.
 using Visit = double (*)(void* context, const Place& place, const Nearness& near);
 
-/// Visits all triangles that may come within `reach` (m) of the body's surface during the piece, each at least once,
-/// roughly nearest first. Triangles are grown by their tile's error, as above; absent tiles are reported too. Returns a
-/// lower bound of the distance of all others from the surface, metres. Nearness::least may lose `part` of the gap,
-/// which saves time.
-double visit_near(const Index& index, const Piece& piece, double reach, double part, Visit visit, void* context);
+/// The triangles that visit_near() looks for.
+struct Near {
+  double reach;       ///< metres from the body's surface
+  double part = 0.0;  ///< Nearness::least may lose this part of the gap, which saves time
+  /// Metres above the start of the piece. Unless infinite, triangles entirely below or above may be left out.
+  double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
+};
+
+/// Visits all triangles that are looked for during the piece, each at least once, roughly nearest first. Triangles are
+/// grown by their tile's error, as above; absent tiles are reported too. Returns a lower bound of the distance of all
+/// others within the heights from the surface, metres.
+double visit_near(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context);
 
 /// The same, beginning at gathered roots. Everything within the reach must lie in their box too.
-double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, double reach, double part,
-                  Visit visit, void* context);
+double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, const Near& near, Visit visit,
+                  void* context);
 
 /// The stored triangle in coordinates relative to `start`.
 [[nodiscard]] certified::LocalTriangle local_triangle(const Index& index, const Place& place, const Vec3& start);

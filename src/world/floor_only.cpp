@@ -100,6 +100,11 @@ FloorPieces FloorOnly::pieces(const certified::LocalTriangle& triangle) const {
   return pieces;
 }
 
+std::pair<double, double> FloorOnly::heights(double reach) const {
+  const double most = band_ + reach * std::hypot(rise_x_, rise_y_);
+  return {level_ - most, level_ + most};
+}
+
 bool FloorOnly::may_lie_in(const Box& box, double reach, double margin) const {
   if (std::isinf(band_)) return true;
   // The rise of the plane over the part of the box within reach. It is linear, so its extremes are at the ends.

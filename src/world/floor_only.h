@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 
 #include "roam/space.h"
 #include "sweep/certified.h"
@@ -34,6 +35,9 @@ class FloorOnly {
 
   /// The part of the triangle that counts: nothing, all of it, or its part in the band.
   [[nodiscard]] FloorPieces pieces(const certified::LocalTriangle& triangle) const;
+
+  /// Heights over the start between which all floor of the band lies, within `reach` (m) of the start's x and y.
+  [[nodiscard]] std::pair<double, double> heights(double reach) const;
 
   /// Whether an unknown box may hold floor of the band within `reach` (m) of the start's x and y. Its contents may
   /// extend beyond the box by `margin` (m).

@@ -173,22 +173,26 @@ Contact contact_at(const index::Index& index, const index::Piece& piece, const i
 
 namespace {
 
-/// The part of a gap that may be lost.
-double part_of(const Collector& collector) { return collector.bounds_only() ? gap_part : 0.0; }
+index::Near near_of(const Collector& collector, const index::Piece& piece) {
+  const double reach = collector.enough();
+  if (const FloorOnly* const floor = collector.floor()) {
+    const auto [lowest, highest] = floor->heights(piece.body.radius + reach);
+    return {reach, 0.0, lowest, highest};
+  }
+  return {reach, collector.bounds_only() ? gap_part : 0.0};
+}
 
 }  // namespace
 
 void visit_near(const index::Index& index, const index::Piece& piece, TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
-  collector.left_out(
-      index::visit_near(index, piece, collector.enough(), part_of(collector), visitor.visit_one(), &visitor));
+  collector.left_out(index::visit_near(index, piece, near_of(collector, piece), visitor.visit_one(), &visitor));
 }
 
 void visit_near(const index::Index& index, std::span<const index::Root> roots, const index::Piece& piece,
                 TriangleId base, Collector& collector) {
   Visitor visitor{index, piece, base, collector};
-  collector.left_out(
-      index::visit_near(index, roots, piece, collector.enough(), part_of(collector), visitor.visit_one(), &visitor));
+  collector.left_out(index::visit_near(index, roots, piece, near_of(collector, piece), visitor.visit_one(), &visitor));
 }
 
 void collect(const WorldData& world, const Query& query, const Part& part, TriangleId base, Collector& collector,
