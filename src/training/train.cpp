@@ -36,7 +36,7 @@ void check(const TrainOptions& options) {
     if (!(value >= low && value <= high))
       throw Error(fmt::format("training: the {} is {:g}; it must be from {:g} to {:g}", what, value, low, high));
   };
-  if (options.mode == Mode::ghost) throw Error("training: a ghost passes ways::everywhere; train to walk or to fly");
+  if (options.mode == Mode::ghost) throw Error("training: a ghost passes everything; train to walk or to fly");
   in("smallest radius", options.radius_min, 0.01, most_metres);
   in("largest radius", options.radius_max, 0.01, most_metres);
   in("largest support radius", options.support_max, 0.1, most_metres);
