@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// `roam walk --picture`: plan and section of the way that was walked, as an SVG or a PNG. docs/pictures.md shows one.
+/// `roam walk --picture`: plan and section of a walk, as an SVG or a PNG. docs/pictures.md shows one.
 ///
 /// A picture is made in steps, each a file of its own and each, but for the last, from values to values:
 ///   way       the places of all steps -> few corners, and how far along they lie
@@ -28,7 +28,7 @@
 
 namespace roam::draw {
 
-/// What must be measured while the space is there.
+/// Measurements that need the space.
 struct Measured {
   Way way;
   Survey survey;
@@ -37,10 +37,10 @@ struct Measured {
 [[nodiscard]] Measured measure(const Space& space, const words::EndedWalk& report, const Record& record,
                                const Arrive& arrive = {});
 
-/// Hands out all triangles that meet a box, little by little.
+/// Passes all triangles that meet a box to `take`, in parts.
 using Triangles = std::function<void(const Box&, const std::function<void(std::span<const Mesh>)>& take)>;
 
-/// What a picture is made from.
+/// The input of a picture.
 struct Walked {
   std::string title;  ///< the scene and the path, for people
   const words::EndedWalk& report;
