@@ -72,8 +72,8 @@ inline void add_duct(Mesh& mesh, const std::array<Vec3, 4>& from, const std::arr
   }
 }
 
-/// Two rooms of 5 m by 4 m by 3 m, one `rise` metres higher, and a duct `width` m wide and `height` m high (in its
-/// wall) between them, `length` m long seen from above.
+/// Two rooms of 5 m by 4 m by 3 m, one `rise` metres higher, with a duct between them. The duct is `width` m wide,
+/// `height` m high (in its wall), and `length` m long seen from above.
 inline Mesh joined_by_duct(double width, double height, double length, double rise) {
   Mesh m;
   const double half = 0.5 * width, sill = 1.0;

@@ -66,7 +66,7 @@ inline void add_holes(std::vector<FloorCase>& cases) {
   cases.push_back({.name = "CrossingSplits",
                    .mesh = holed({strip(4.03, 3.0, 0.5, 0.0), strip(4.0, 3.01, 0.5, 90.0)}),
                    .cracks = {0.25 * std::numbers::sqrt2}});
-  // Of the four corners three lie on a circle that holds no fourth: two sides of 60 degrees, 0.4 / sin 60 long.
+  // Three of the four corners lie on a circle that holds no fourth: two sides of 60 degrees, 0.4 / sin 60 long.
   cases.push_back({.name = "ObliquelyCrossingSplits",
                    .mesh = holed({strip(4.03, 3.0, 0.4, 10.0), strip(4.0, 3.01, 0.4, 70.0)}),
                    .cracks = {0.4 / std::sin(std::numbers::pi / 3.0) / std::numbers::sqrt3}});

@@ -41,7 +41,7 @@ class TroubledBytes : public roam::StoreBytes {
  public:
   explicit TroubledBytes(const std::filesystem::path& folder) : files_(roam::store::files_of(folder)) {}
 
-  /// Of every thousand reads of packs: how many fail, are too short, or have a flipped bit.
+  /// How many of every thousand reads of packs fail, are too short, or have a flipped bit.
   std::atomic<int> errors{0}, short_reads{0}, flips{0};
   std::atomic<int> delay_us{0};
   std::atomic<std::uint64_t> reads{0};

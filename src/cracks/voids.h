@@ -61,7 +61,7 @@ struct RimPlace {
 
 class RimEdges;
 
-/// Of a floor triangle, the edges without a void outside, reached or not: bit k is the edge from corner k to the next.
+/// The edges of a floor triangle without a void outside, reached or not: bit k is the edge from corner k to the next.
 /// Bits of `known` stay set; the other edges are examined.
 [[nodiscard]] std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options,
                                               const Triangle& floor, std::uint8_t known);

@@ -148,7 +148,7 @@ class Composer {
 
   [[nodiscard]] std::vector<std::string> full_label(std::size_t i) const {
     const Mark& m = c_.marks[i];
-    // A few falls are named; if there are many, none is.
+    // A few falls are named; many are not.
     if (m.kind == MarkKind::fell && count_falls() > most_named_falls) return {};
     std::vector<std::string> lines{m.name};
     for (std::size_t from = 0; from < m.note.size();) {

@@ -46,7 +46,7 @@ void demand_foot(const std::string& member, double radius) {
   }
 }
 
-/// Throws what a Walker would throw for such a body.
+/// Throws the error that a Walker would throw for such a body.
 void demand_body(const std::string& member, const Profile& profile, double radius) {
   WalkerSettings body;
   body.radius = radius;

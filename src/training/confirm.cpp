@@ -308,7 +308,7 @@ class Confirmation {
   Layout& layout_;
   Stages& stages_;
   const Crossings crossings_;
-  /// What was tried for a crack.
+  /// The attempts at one crack.
   struct Asked {
     double before = 0.0;  ///< Evidence::carried, before
     int times = 0;

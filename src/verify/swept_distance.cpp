@@ -42,8 +42,8 @@ long double segment_segment(const Point& a0, const Point& a1, const Point& b0, c
   return least;
 }
 
-/// A triangle, or the parallelogram of which it is half: all corner + s * e1 + r * e2 with s, r >= 0, and s + r <= 1 or
-/// s, r <= 1.
+/// A triangle, or the parallelogram of which it is half: all corner + s * e1 + r * e2 with s, r >= 0. For a triangle s
+/// + r <= 1, for a parallelogram s, r <= 1.
 struct Face {
   Point corner, e1, e2;
   bool parallelogram;

@@ -40,7 +40,7 @@ class Sources {
   /// other file, and for a file that is hardly more than a hole.
   void look(const std::vector<ScenePart>& parts, std::span<const std::filesystem::path> allow,
             const std::function<void()>& tick);
-  /// Of a part that look() has examined.
+  /// The fingerprint of a part that look() has examined.
   [[nodiscard]] std::string fingerprint(const ScenePart& part, const std::string& options) const;
   /// Throws roam::Error if a file of the part has changed since look().
   void check_unchanged(const ScenePart& part) const;

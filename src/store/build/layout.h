@@ -19,9 +19,9 @@ inline constexpr int scratch_version = 1;
 inline constexpr std::size_t record_digits = 24;
 inline constexpr const char* scratch_folder = "scratch";
 inline constexpr const char* plan_file = "scratch/plan.json";
-/// Of a finished shard: a ShardInfo.
+/// The ShardInfo of a finished shard.
 inline std::string shard_file(const std::string& key) { return "scratch/shards/" + key + ".json"; }
-/// Of a part that has been read. `id`: see PartRecord.
+/// The record of a part that has been read. `id`: see PartRecord.
 inline std::string record_file(const std::string& id) { return "scratch/parts/" + id + ".json"; }
 inline std::string run_file(const std::string& id, std::size_t run) {
   return fmt::format("scratch/runs/{}.{}.run", id, run);

@@ -317,7 +317,7 @@ class Search {
   std::vector<ways::NodeId> seen_;      ///< not reached yet, ascending
   std::vector<ways::NodeId> whole_;     ///< roots of trees that cannot grow further
   std::vector<Start> open_, backs_;     ///< samples that are grown later
-  std::vector<ways::NodeId> large_;     ///< roots of closed components that were looked at, not grown whole
+  std::vector<ways::NodeId> large_;     ///< roots of closed components that were begun, not grown whole
   std::vector<ways::NodeId> came_out_;  ///< roots of components that began closed and continue in the open
   std::uint64_t closed_places_ = 0;     ///< reached from closed samples
   std::size_t done_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The parts of a scene that are meant to be walked in, judged by what lies above, behind and within them.
+/// The parts of a scene to walk in, judged by surfaces above, behind and around them.
 
 #include <span>
 #include <vector>

@@ -98,7 +98,7 @@ class WidestTree {
   /// Removes places from the lattice, and clears all trees that contained them: see join.
   void close(std::span<const NodeId> places);
 
-  /// Of the lattice, metres.
+  /// The lattice's spacing, metres.
   [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
   /// The number of steps that other cores computed ahead of the growth.

@@ -120,7 +120,7 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
 
 void WalkLattice::look_ahead(NodeId id) {
   Column& column = columns_[id];
-  // Where nothing limits a body, queries are faster than sending scouts.
+  // If nothing limits a body, queries are faster than sending scouts.
   if (column.is_scouted || column.settled == all_directions || nodes_[id].clearance >= steps_.unlimited()) return;
   column.is_scouted = true;
   const Standing here = standing(id);

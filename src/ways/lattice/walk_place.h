@@ -20,7 +20,7 @@ struct Stand {
   double lift = 0.0;  ///< spheres only: over bumps, kerbs and slopes, in [0, step]
 };
 
-/// The largest radius that is tried: measure.widest, or what the height leaves above the knee.
+/// The largest radius to try: measure.widest, or half of the height above the knee if that is less.
 [[nodiscard]] double largest_radius(const Measure& measure);
 
 /// The body for queries: the sphere itself, or a capsule's part above the knee.

@@ -36,7 +36,7 @@ inline constexpr std::size_t directions = 8;
   return {at.x + x[direction], at.y + y[direction], at.z};
 }
 
-/// Where the points of a lattice lie.
+/// The position of a lattice's points.
 struct LatticePlan {
   double spacing = 0.0;
   Vec3 origin{0.0};

@@ -15,8 +15,8 @@ namespace roam::ways {
 /// The nearest places of two trees that do not meet, as an opening of no width half way between them.
 [[nodiscard]] std::optional<Opening> gap_between(const WidestTree& tree, NodeId one, NodeId other);
 
-/// Whether two such trees come near each other without a wall between, only a step or a gap of the floor: `narrowest`
-/// goes straight from a place of the one to the nearest of the other.
+/// Whether two such trees come near each other with only a step or a gap of the floor between them, and no wall. Then
+/// `narrowest` goes straight from a place of the one to the nearest of the other.
 [[nodiscard]] bool only_floor_parts(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one,
                                     NodeId other);
 
