@@ -1,4 +1,4 @@
-// PxCapsuleController: a capsule 2 mm high, the least allowed height that differs from a sphere.
+// PxCapsuleController: a capsule whose cylinder is 2 mm high, the least allowed height that differs from a sphere.
 // Questions: 0, radius, walking (1 or 0), place; or 1, velocity, seconds. Answers: the place.
 function make(vertices, indices) {
   const { geometry, bytes } = cook(vertices, indices);
