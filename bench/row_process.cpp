@@ -106,8 +106,7 @@ struct Heard {
 
 /// Reads until the other end is closed, or the row exceeds its limits. Empty after Ctrl-C, and if reading fails.
 std::optional<Heard> listen(int end, pid_t row, std::size_t ways, const PaperOptions& options) {
-  constexpr int look_up =
-      50;  // ms: a signal may arrive just before the call that it must interrupt, and memory grows fast
+  constexpr int look_up = 50;  // ms: a signal may come just before the interruptible call, and memory grows fast
   // A way checks the clock only between its steps. The minute covers work before, between and after the ways.
   const std::chrono::duration<double> walking(static_cast<double>(ways) * options.patience + 60.0);
   const std::chrono::duration<double> loading(options.loading);

@@ -20,7 +20,7 @@ namespace {
 
 /// m of the way on both sides of an opening or a crack that a trial covers at least.
 constexpr double run_up = 1.5;
-/// m, at most: within this distance a body that an opening must stop needs room to stand.
+/// m: the longest run-up. Within it, a body that an opening must stop needs room to stand.
 constexpr double longest_run_up = 12.0;
 
 /// m: a path must continue beyond an opening by this and a body's radius, or the opening stops no body.

@@ -39,8 +39,9 @@ constexpr std::uint64_t least_closed = 1'000;
 constexpr std::size_t newest = 16;
 constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
-/// A closed component may call its callback this often without a new place, plus once per so many new places (usually a
-/// call brings four times as many). Then it has met a tree that was cut. Such a tree is grown later anyway.
+/// A look at a closed component ends after this many calls of its callback without a new place, plus one call for each
+/// `places_a_turn` new places. Usually a call brings four times as many. The look has then met a tree of an earlier
+/// look. If a look was cut, the first number is 0, because the large component is grown later anyway.
 constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
 
 /// Surroundings of a sample, in the order in which components are grown. Closed ones come first: they are soon

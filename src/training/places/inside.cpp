@@ -41,7 +41,7 @@ constexpr std::size_t least_places = 8;
 /// m: a component no wider is a ledge if a body falls from one side of it, even if nothing at all lies on the other
 /// side.
 constexpr double ledge_width = 2.5;
-/// A component open to the sky beside a closed one needs this share of its places. Otherwise it is a roof, or a niche
+/// A component open to the sky needs this share of a closed one's places beside it. Otherwise it is a roof, or a niche
 /// outside.
 constexpr double least_open_share = 0.1;
 /// Flying: closed components must see this share of the triangles that an open one sees, or they are not the scene.

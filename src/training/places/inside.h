@@ -27,9 +27,8 @@ struct Surroundings {
 /// Whether winding_share() is at least 0.9.
 [[nodiscard]] bool windings_can_be_trusted(const Survey& survey);
 
-/// Windings are reversed if components that look at fronts have fewer places than those that look at backs, divided by
-/// this. Then the front side is outside, or within the walls. In a city the streets have more places, relative to the
-/// inside of its blocks.
+/// Windings are reversed if the places that look at backs are more than this many times those that look at fronts. Then
+/// the fronts face outside, or into the walls. In a city the streets have a larger share of the places than that.
 inline constexpr double reversed_ratio = 2.0;
 
 /// Whether a component has too few places for a path.

@@ -62,8 +62,7 @@ FlyCells::Cell FlyCells::measured(std::int32_t x, std::int32_t y, std::int32_t z
   const double side = unit_ * static_cast<double>(std::int32_t{1} << (deepest - depth));
   const Vec3 place = middle(cell);
   const Vec3 beyond = glm::max(within_.lower - place, place - within_.upper);
-  if (std::max({beyond.x, beyond.y, beyond.z}) > 0.5 * side)
-    return cell;  // outside the searched air: no body can be here
+  if (std::max({beyond.x, beyond.y, beyond.z}) > 0.5 * side) return cell;  // outside the searched air
   const double reach = std::min(measure_.widest + std::sqrt(3.0) * side, farthest_look);
   const Clearance near = survey_.world().clearance({0.0, 0.0}, place, reach);
   cell.free = rounded_down(std::max(0.0, near.distance));

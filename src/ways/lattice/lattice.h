@@ -64,8 +64,8 @@ using Neighbours = InlineList<NodeId, 26>;
 inline constexpr Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                                 Vec3(std::numeric_limits<double>::infinity())};
 
-/// Limits for steps computed ahead on other cores, on foot. Beyond them, all of them are forgotten. They change no
-/// result.
+/// Limits for steps computed ahead on other cores, on foot. If one is exceeded, all requests are forgotten. That
+/// changes no result.
 struct AheadLimits {
   std::size_t places = 8192;     ///< with steps in progress or not used yet
   std::size_t points = 1 << 20;  ///< with steps requested so far; some megabytes

@@ -15,9 +15,8 @@ constexpr std::size_t places_between_questions = 256;
 constexpr std::size_t looked_ahead = 6;
 /// A step out of the tree that may be taken.
 struct Edge {
-  float width = 0.0F;  ///< the smaller clearance of its two places
-  std::uint64_t number =
-      0;  ///< order of discovery; among equal widths the first goes first, so ways stay short where everything is wide
+  float width = 0.0F;        ///< the smaller clearance of its two places
+  std::uint64_t number = 0;  ///< order of discovery, among equals: ways stay short where everything is wide
   NodeId from = no_node, to = no_node;
 };
 struct Narrower {

@@ -115,8 +115,8 @@ class Search {
     best.places = budget_.add(tree_.size());
     return best;
   }
-  /// Steep stairs, or a gap below a sill, may be passable in one direction of search only if the lattice lies badly. If
-  /// walls separate the ends everywhere, a search from the other end is useless.
+  /// If the lattice lies badly, a search may find steep stairs, or a gap below a sill, from one end only. If walls
+  /// separate the ends everywhere, a search from the other end is useless.
   [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_parts_; }
 
  private:

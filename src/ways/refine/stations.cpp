@@ -89,8 +89,7 @@ void smooth(Stations& way) {
     Vec3 before = way.front().place;
     for (std::size_t i = 1; i + 1 < way.size(); ++i) {
       const Vec3 here = way[i].place;
-      const double z =
-          here.z;  // heights jump at kerbs, so keep at least the own height for the next search of the floor
+      const double z = here.z;  // heights jump at kerbs, and the search for the floor starts at its own height
       way[i].place = 0.25 * before + 0.5 * here + 0.25 * way[i + 1].place;
       way[i].place.z = std::max(z, way[i].place.z);
       before = here;
