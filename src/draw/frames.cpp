@@ -19,7 +19,7 @@ constexpr double detail_gap = 30.0;
 constexpr double detail_height = 0.62;  ///< of its plan's width
 constexpr std::size_t most_details = 4;
 
-// Shares of the best scale of any turn that a plan keeps if it is not turned, or turned by right angles.
+// The least share of the best turn's scale for a plan that is not turned, or turned by a right angle.
 constexpr double unturned = 0.75;
 constexpr double right_angled = 0.85;
 constexpr double lowness = 0.4;

@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 /// Nanoseconds. Two changes of a file within the resolution of the file system's clock (2 s on FAT) have the same time,
 /// but different content.
 constexpr std::int64_t clock_steps = 3'000'000'000;
-/// The remembered data of some 100,000 files. Larger files are ignored.
+/// Bytes for the remembered data of files, some 100,000 of them. A larger record is ignored.
 constexpr std::uint64_t sources_memory = 128u << 20;
 
 /// Bytes of holes that a file may have, in total and for each byte on the disk. A hole costs its author nothing, but
