@@ -22,8 +22,7 @@ void write(const std::string& text) {
   throw Error(std::string("cannot write the result: ") + std::strerror(errno));
 }
 
-/// A JSON text with the same data but without control characters, which occur only in its strings, except for line
-/// ends.
+/// Of a text that is JSON: the same data without controls. They stand in its strings alone, save for its line ends.
 std::string without_controls(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
@@ -61,7 +60,7 @@ Json to_json(const PagerStats& paging) {
 }
 
 void print(const Json& report) {
-  // Names come from files and may be any bytes; invalid UTF-8 becomes U+FFFD.
+  // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
   write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
 }
 

@@ -18,13 +18,13 @@ using Json = nlohmann::ordered_json;
 /// {"min": [x, y, z], "max": [x, y, z]}
 [[nodiscard]] inline Json to_json(const Box& box) { return {{"min", to_json(box.lower)}, {"max", to_json(box.upper)}}; }
 
-/// The statistics of a pager.
+/// What a pager held and did.
 [[nodiscard]] Json to_json(const PagerStats& paging);
 
-/// Writes the report to standard output. Throws BrokenPipe if its reader has closed it, and roam::Error if it cannot be
-/// written, e.g. to a full disk.
+/// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
+/// written, e.g. to a disk that is full.
 void print(const Json& report);
-/// The same for lines for people, made printable.
+/// The same of lines for people, made printable.
 void print(const std::string& text);
 
 }  // namespace roam::app

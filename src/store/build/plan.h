@@ -30,7 +30,7 @@ struct Plan {
 };
 
 /// The key of a shard: a hash of everything that decides its content. That is the format, the version of the builder,
-/// the import options, and the stretch of each part.
+/// the import options, the stretch, and its parts.
 [[nodiscard]] std::string key_of(const Stretch& stretch, const Plan& plan);
 
 /// The plan in the scratch folder. Throws roam::Error if there is no usable plan, if it was made with another key, or

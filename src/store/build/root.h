@@ -15,7 +15,7 @@ std::string keep_spare(const Folder& store, const Manifest& manifest);
 /// Result of mend_root.
 struct RootMending {
   std::string wrong;    ///< "CURRENT: it is not there"; empty when all is well
-  bool mended = false;  ///< the root is repaired; false: no manifest has an undamaged copy, and nothing was changed
+  bool mended = false;  ///< if `wrong`: the root is repaired; else no manifest has a whole copy, and nothing changed
 };
 
 /// If CURRENT or the manifest cannot be used, puts a manifest with an undamaged copy in force again. The store must be
