@@ -11,10 +11,10 @@
 namespace roam::bench {
 namespace {
 
-// Of the picture, in its own units.
+// Sizes of the picture, in its own units.
 constexpr double width = 810.0, left = 200.0, right = 240.0, top = 56.0, row = 20.0, gap = 34.0, bottom = 24.0;
 
-/// Three digits, and more only before the point.
+/// Three digits, more only before the decimal point.
 std::string figure(double value) { return fmt::format(fmt::runtime(value < 1000.0 ? "{:.3g}" : "{:.0f}"), value); }
 
 std::string escaped(const std::string& text) {
@@ -55,7 +55,7 @@ Axis axis_of(const std::vector<BarGroup>& groups) {
     }
   }
   if (least > greatest) return {};
-  // Half of it, so that the shortest bar can be seen.
+  // Half of the least value, so that the shortest bar is visible.
   const int from = static_cast<int>(std::floor(std::log10(0.5 * least)));
   return {from, std::max(from + 1, static_cast<int>(std::ceil(std::log10(greatest))))};
 }

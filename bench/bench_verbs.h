@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What roam-bench does, one file each.
+/// The verbs of roam-bench, one file each.
 
 #include "cli/command_line.h"
 

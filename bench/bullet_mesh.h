@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A mesh as Bullet sweeps against it: a btBvhTriangleMeshShape with quantized nodes, its margin 0 (the default of 4 cm
-/// would make it hit that much earlier).
+/// A mesh for Bullet's sweeps: a btBvhTriangleMeshShape with quantized nodes and a margin of 0. The default margin of 4
+/// cm would give hits that much earlier.
 
 #include <btBulletCollisionCommon.h>
 
@@ -14,10 +14,10 @@
 
 namespace roam::bench {
 
-/// Bullet keeps pointers into it: it stays where it is.
+/// Bullet keeps pointers into it, so it cannot move.
 struct BulletMesh {
   explicit BulletMesh(FloatMesh triangles) : mesh(std::move(triangles)) {
-    // A quantized node has 21 bits for a triangle and 10 for the part that it is of.
+    // A quantized node has 21 bits for a triangle and 10 for its part.
     constexpr std::size_t part_triangles = 1u << 21;
     arrays = std::make_unique<btTriangleIndexVertexArray>();
     const std::size_t count = mesh.indices.size() / 3;
@@ -45,15 +45,15 @@ struct BulletMesh {
   btCollisionObject object;
 };
 
-/// Upright, at a place (metres, rounded to floats).
+/// An upright transform at a place (metres, rounded to floats).
 inline btTransform at(const Vec3& p) {
   btTransform transform = btTransform::getIdentity();
   transform.setOrigin({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   return transform;
 }
 
-/// Where a body that goes straight from one place to another meets the mesh first. What convexSweepTest calls for each
-/// object; asked directly it saves the broad phase, which has one object here.
+/// The first contact of a body that moves straight from one place to another. convexSweepTest makes the same call for
+/// each object; this skips the broad phase, which has only one object here.
 inline btCollisionWorld::ClosestConvexResultCallback sweep(BulletMesh& world, const btConvexShape& body,
                                                            const Vec3& from, const Vec3& to) {
   const btTransform start = at(from), end = at(to);

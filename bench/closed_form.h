@@ -19,7 +19,7 @@ using Point = glm::vec<3, Real, glm::highp>;
 template <class Real>
 using Corners = std::array<Point<Real>, 3>;
 
-/// The point of the triangle nearest to the origin (Ericson, 5.1.5, with edges first so that slivers are no case).
+/// The point of the triangle nearest to the origin (Ericson, 5.1.5; edges first, so that slivers need no special case).
 template <class Real>
 [[nodiscard]] Point<Real> nearest_to_origin(const Corners<Real>& corner) {
   Point<Real> best = corner[0];
@@ -100,7 +100,7 @@ template <class Real>
   return first;
 }
 
-/// Calls `visit` with each triangle whose union is the surface of the triangle extruded by `half_height` up and down.
+/// Calls `visit` with triangles whose union is the surface of the triangle extruded by `half_height` up and down.
 template <class Real, class Visit>
 void extrude(const Corners<Real>& corner, Real half_height, const Visit& visit) {
   if (half_height == 0) {
@@ -124,7 +124,7 @@ template <class Real>
   if (half_height == 0) return false;
   const Point<Real> up{0, 0, 1};
   const Point<Real> n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-  if (n.z == 0) return false;  // the edges answer for a triangle that stands upright
+  if (n.z == 0) return false;  // a vertical triangle is covered by its edges
   const Real z = glm::dot(n, corner[0]) / n.z;
   if (std::abs(z) > half_height) return false;
   int turn = 0;

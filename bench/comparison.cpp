@@ -9,7 +9,7 @@
 namespace roam::bench {
 namespace {
 
-/// Asks, and notes how the engine ended if it does: then it is not asked again.
+/// Queries an engine. If the engine fails, notes how, and does not query it again.
 class Guarded {
  public:
   explicit Guarded(const Ask& ask) : ask_(ask) {}
@@ -29,7 +29,7 @@ class Guarded {
   const Ask& ask_;
 };
 
-/// As many answers as the engine gives in the time that a round may take, at least one portion.
+/// As many answers as the engine gives within the time of a round, at least one portion.
 std::vector<Answer> ask_patiently(Guarded& engine, std::span<const Query> queries, const ComparisonOptions& options) {
   constexpr std::size_t portion = 32;
   std::vector<Answer> answers(queries.size());

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A space that counts what a walker asks of it.
+/// A space that counts a walker's queries.
 
 #include <array>
 #include <chrono>
@@ -11,14 +11,14 @@
 
 namespace roam::bench {
 
-/// Passes every query on to another space, counts it and takes its time.
+/// Passes every query on to another space, counts it and times it.
 class CountedSpace final : public Space {
  public:
   enum Kind : std::size_t { sweeps, gaps, clearances, contact_lists, floors, kinds };
   static constexpr std::array<const char*, kinds> names{"sweep", "gap", "clearance", "contacts", "floor"};
   struct Tally {
     std::uint64_t asked = 0;
-    double nanoseconds = 0.0;  ///< in all, with what reading the clock takes
+    double nanoseconds = 0.0;  ///< in total, including reading the clock
   };
 
   explicit CountedSpace(const Space& space) : space_(space) {}
@@ -34,7 +34,7 @@ class CountedSpace final : public Space {
     return Space::ask_first_of(space_, query, vicinity);
   }
   void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override {
-    // The contact of a sweep is part of that.
+    // The contact of a sweep counts as part of the sweep.
     const bool completes = collector.kind() == Collector::Kind::one_contact;
     const Kind kind = completes ? sweeps : kind_of(collector);
     const Timed timed{tallies_[kind]};

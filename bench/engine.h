@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// What the benchmarks ask of an engine, and the engines there are.
+/// The interface of an engine for the benchmarks, and all engines.
 ///
 /// Each engine gets the whole scene as one static world and is used in the way that is fastest for these queries; its
-/// file says how. Engines that compute in floats get the coordinates rounded to floats: the benchmark puts the scene's
-/// centre at (0, 0, 0) unless told otherwise, which is the best place for them.
+/// file says how. Engines that compute in floats get coordinates rounded to floats. By default the benchmark moves the
+/// scene's centre to (0, 0, 0), where floats are most precise.
 
 #include <cstddef>
 #include <functional>
@@ -19,12 +19,12 @@ namespace roam::bench {
 
 struct Engine {
   std::string name;           ///< with its version
-  std::string used;           ///< how it is used, for the reader of a table
-  bool spheres_only = false;  ///< it knows no capsule
-  bool says_when = true;      ///< false: it answers hit or free, but not when
-  std::size_t bytes = 0;      ///< resident, everything that queries need; 0 when it cannot be told
+  std::string used;           ///< how it is used, for readers of a table
+  bool spheres_only = false;  ///< it has no capsules
+  bool says_when = true;      ///< false: it reports hit or free, without a time
+  std::size_t bytes = 0;      ///< resident, everything that queries need; 0 if unknown
   double build_one = 0;       ///< seconds on one thread
-  double build_two = 0;       ///< seconds on two threads; 0 when it builds on one only
+  double build_two = 0;       ///< seconds on two threads; 0 if it builds on one only
   Ask ask{};
 };
 
@@ -40,19 +40,19 @@ struct Engine {
 /// The paper's own equations, without any index.
 [[nodiscard]] Engine make_paper(const Scene& scene);
 
-/// fcl::distance and steps as long as what it says is free.
+/// fcl::distance; each step is as long as the last distance.
 [[nodiscard]] Engine make_fcl(const Scene& scene);
 
 /// "physx" or "jolt" from the node_modules of the folder `modules`, in a node process: see wasm/channel.mjs. Throws
-/// roam::Error when it does not start or ends.
+/// roam::Error if it does not start, or ends.
 [[nodiscard]] Engine make_wasm(const Scene& scene, const std::string& name, const std::string& modules);
 
-/// Where engines are that are not linked.
+/// Places of the engines that are not linked.
 struct EnginePlaces {
-  std::string wasm;  ///< the folder that holds node_modules with physx-js-webidl and jolt-physics; empty: nowhere
+  std::string wasm;  ///< folder whose node_modules hold physx-js-webidl and jolt-physics; empty: none
 };
 
-/// An engine that may be here or not.
+/// An engine that may be installed or not.
 struct EngineOffer {
   std::string name;     ///< as --engines takes it
   std::string missing;  ///< empty, or what to install

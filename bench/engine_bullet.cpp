@@ -1,4 +1,4 @@
-// Bullet as Debian builds it: floats. Its allowed penetration is 0, as is the margin of the mesh.
+// Bullet as Debian builds it: floats. Its allowed penetration and the margin of the mesh are 0.
 
 #include <memory>
 

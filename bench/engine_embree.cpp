@@ -1,5 +1,5 @@
-// Embree has no sweep. Its point query visits the triangles near a place, so a sweep is a row of point queries along
-// the motion, each covering a stretch of a few radii; what they visit goes to a sphere test in doubles. The row stops
+// Embree has no sweep. Its point query visits the triangles near a place. So a sweep is a row of point queries along
+// the motion, each for a stretch of a few radii. A sphere test in doubles decides the visited triangles. The row stops
 // at the first stretch that begins behind the first touch so far.
 
 #if ROAM_BENCH_EMBREE >= 4
@@ -64,8 +64,8 @@ struct EmbreeWorld {
 struct Visit {
   const EmbreeWorld* world;
   const Query* query;
-  double first;                       // touch so far, in parts of the motion; more than 1 when there is none
-  std::array<float, 3> lower, upper;  // what the body sweeps until then, rounded outwards
+  double first;                       // touch so far, as a fraction of the motion; more than 1 if there is none
+  std::array<float, 3> lower, upper;  // box of the body's sweep until then, rounded outwards
 };
 
 void bound(Visit& state) {
@@ -91,7 +91,7 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
   }
   const Corners<double> corner{Vec3(a[0], a[1], a[2]) - query.from, Vec3(b[0], b[1], b[2]) - query.from,
                                Vec3(c[0], c[1], c[2]) - query.from};
-  // The whole way on one side of the triangle's plane, farther off than the body reaches.
+  // The whole motion is on one side of the triangle's plane, farther off than the body reaches.
   const Vec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double from = -glm::dot(n, corner[0]);
   const double to = from + std::min(state.first, 1.0) * glm::dot(n, query.motion);
@@ -107,9 +107,9 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 Answer sweep(const EmbreeWorld& world, const Query& query) {
   constexpr double behind_end = 2;
-  constexpr double shortest_reach = 0.05;  // m: a point would need a stretch without end
+  constexpr double shortest_reach = 0.05;  // m: a point as body would need infinitely many stretches
   const double length = glm::length(query.motion);
-  // As long as the body is wide: the fastest of 1 to 8 radii, with and without a shortest length, over all sets.
+  // One body's width: the fastest of 1 to 8 radii, with and without a least length, over all sets.
   const double reach = query.body.radius + query.body.half_height;
   const int stretches = std::max(1, static_cast<int>(std::ceil(length / (2 * std::max(reach, shortest_reach)))));
   Visit state{&world, &query, behind_end, {}, {}};

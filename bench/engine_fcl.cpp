@@ -1,6 +1,6 @@
-// FCL as Debian builds it: doubles. Its own continuous collision is conservative advancement over the mesh, which is
-// done here with its distance query, so that the steps can be as long as a translation allows: each is as long as the
-// last distance says is free, until the body is within `touch` of the mesh.
+// FCL as Debian builds it: doubles. Its own continuous collision is conservative advancement over the mesh. Here its
+// distance query does the same with longer steps, as a translation allows: each is as long as the last distance, until
+// the body is within `touch` of the mesh.
 
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -21,7 +21,7 @@ namespace {
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
 constexpr double touch = 1e-4;       // m: nearer than this is a hit
-constexpr int most_distances = 200;  // along a graze the steps become as short as the gap
+constexpr int most_distances = 200;  // at grazing contacts the steps become as short as the gap
 
 std::shared_ptr<Model> model_of(const Scene& scene) {
   auto model = std::make_shared<Model>();

@@ -1,6 +1,6 @@
 // The method of Xie and Niu (2020) as printed: each triangle that the box of the swept sphere may touch goes through
-// equations (1) to (6). Objects whose box is beyond that box are left out as a whole, as the scene graph would. There
-// is no scene graph and no intersector around it here, which is in its favour.
+// equations (1) to (6). Objects outside that box are skipped whole, as a scene graph would do. There is no scene graph
+// and no intersector around it here, which favours it.
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
-// osgUtil::PolytopeIntersector with the box of the swept body, one geode for each object of the scene, as a file would
-// bring them. It gives no time of impact: it is asked whether any triangle is in the box, and stops at the first one,
-// its fastest setting. Its false hits are the box's corners.
+// osgUtil::PolytopeIntersector with the box of the swept body, and one geode for each object of the scene, as in a
+// file. It gives no time of impact. It only tests whether any triangle is in the box, and stops at the first one, its
+// fastest setting. Its false hits lie in the box's corners.
 
 #include <osg/KdTree>
 #include <osg/Version>
@@ -25,7 +25,7 @@ Engine make_polytope(const Scene& scene, bool with_kd_tree) {
       osg::ref_ptr<osg::KdTreeBuilder> builder = new osg::KdTreeBuilder;
       group->accept(*builder);
     }
-    group->getBound();  // computed on first use, which should not be a query's
+    group->getBound();  // computed on first use, so that no query pays for it
   });
   engine.bytes = allocated_bytes() - before;
   engine.ask = timed([group](const Query& query) {

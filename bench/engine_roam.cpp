@@ -13,7 +13,7 @@ Engine make_roam(const Scene& scene) {
   *world = World();
   const std::size_t before = allocated_bytes();
   engine.build_two = seconds([&] { *world = World::build(scene.meshes, {.threads = 2, .progress = {}}); });
-  // What malloc counts, if it can be asked, so that nothing is forgotten that the world does not know of.
+  // The allocator's count, if available, also covers memory that the world does not count.
   const std::size_t after = allocated_bytes();
   engine.bytes = after > before ? after - before : world->stats().bytes;
   engine.ask = timed([world](const Query& query) {

@@ -1,5 +1,5 @@
-// Engines that npm brings as WebAssembly. Each runs in a node process of its own, gets the scene and the queries
-// through one pipe and answers through another; the time of a query is measured in there, around the engine's own call.
+// Engines from npm, as WebAssembly. Each runs in a node process of its own, gets the scene and the queries through one
+// pipe and replies through another. The time of a query is measured there, around the engine's own call.
 
 #include <memory>
 #include <nlohmann/json.hpp>

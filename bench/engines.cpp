@@ -1,4 +1,4 @@
-// roam beside other engines, on the same queries in one run. Wrong answers come before times.
+// Compares roam with other engines, on the same queries in one run. Wrong answers come before times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,12 +27,12 @@ struct Options : RunOptions {
   bool json = false;
 };
 
-/// An engine that is here, and ended while it was built or asked.
+/// A failure of an engine while it was built or queried.
 struct Failure {
   std::string name, set, why;  // the set is empty while it is built
 };
 
-/// What a run found.
+/// The results of a run.
 struct Findings {
   std::string scene;
   std::uint64_t triangles = 0;
@@ -44,7 +44,7 @@ struct Findings {
 
 void note(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
-/// The engines that were asked for. Throws where none of them is here.
+/// The requested engines. Throws if none of them is installed.
 std::vector<EngineOffer> asked_engines(const Options& options) {
   std::vector<EngineOffer> offers = engine_offers(options.places);
   const auto& wanted = options.engines;

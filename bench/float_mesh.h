@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The scene as engines that compute in floats take it.
+/// The scene for engines that compute in floats.
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-// Times roam alone: what to run while changing the index. Wrong answers come before times.
+// Times roam alone, for changes of the index. Wrong answers come before times.
 
 #include <hwy/targets.h>
 
@@ -26,7 +26,7 @@ struct Options : RunOptions {
   std::string instructions;
 };
 
-// Highway takes the best instruction set that is left of those that it was compiled for.
+// Highway chooses the best remaining instruction set of those that it was compiled for.
 void restrict_instructions(const std::string& name) {
   std::string known;
   for (auto left = hwy::SupportedTargets(); left != 0; left &= left - 1) {

@@ -27,7 +27,7 @@ Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth, st
     verdict.hits += truth[i].hit ? 1 : 0;
     const double length = glm::length(query.motion);
     const double free_until = answer.hit ? (says_when ? answer.time : 0.0) : 1.0;
-    // Depth and gap change by no more than the body moves: only answers that differ by more need a closer look.
+    // Depth and gap change by at most the motion's length. So only answers that differ by more need a closer look.
     if (truth[i].hit && (free_until - truth[i].time) * length > depth_allowed) {
       const double depth = depth_on_way(query, free_until, reference);
       if (depth > depth_allowed) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How many of an engine's answers are wrong, and by how much.
+/// Counts an engine's wrong answers, and measures the errors.
 
 #include <cstddef>
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace roam::bench {
 
-/// Deeper than this is a wrong answer: the body is in a wall. Ten times the depth that roam promises never to reach.
+/// A deeper answer is wrong: the body is in a wall. Ten times the depth that roam promises never to reach.
 constexpr double depth_allowed = 1e-5;  // m
-/// An answer that stops the body farther off than this keeps it out of places that it fits into.
+/// An answer that stops the body farther off than this keeps it out of places where it fits.
 constexpr double gap_allowed = 1e-3;  // m
 
-/// Wrong answers among some queries. "Depth" is radius minus the smallest distance of the body's axis from any triangle
-/// on the whole way that the engine calls free, as the reference measures it: a body that is let through a sheet and
-/// out at its other side is counted by what happened in between.
+/// Wrong answers among some queries. "Depth" is the radius minus the smallest distance of the body's axis from any
+/// triangle, on the whole way that the engine calls free, by the reference. So a body that passes through a sheet and
+/// out on the other side counts too.
 struct Verdict {
   std::size_t queries = 0;
   std::size_t hits = 0;        ///< by the reference
@@ -30,8 +30,8 @@ struct Verdict {
   [[nodiscard]] std::size_t wrong() const { return missed + late + early + false_hits; }
 };
 
-/// `says_when` false: the engine tells only hit or free, and a hit can be neither late nor early; a hit is false
-/// where the body never comes within gap_allowed of a triangle.
+/// `says_when` false: the engine only reports hit or free. Then no hit is late or early; a hit is false if the body
+/// never comes within gap_allowed of a triangle.
 [[nodiscard]] Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth,
                             std::span<const Query> queries, const Reference& reference, bool says_when = true);
 

@@ -1,4 +1,4 @@
-// The program roam-bench, which `roam bench` starts: it links other people's engines, which roam itself does not.
+// The program roam-bench, which `roam bench` starts. It links other people's engines; roam does not.
 #include <string_view>
 
 #include "bench_verbs.h"
@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == roam::bench::row_verb) return roam::bench::row_main(argc, argv);
-  // What a user typed was `roam bench ...`, and messages speak of that.
+  // The user typed `roam bench ...`, so messages use that name.
   CLI::App program{"roam bench: roam measured beside other engines.", "roam bench"};
   program.footer(
       "\n`roam bench VERB --help` explains a verb, with examples.\n"

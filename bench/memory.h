@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// What a data structure costs, asked of the allocator.
+/// The memory of a data structure, by the allocator's count.
 
 #include <cstddef>
 
 namespace roam::bench {
 
-/// Bytes that the program holds from malloc right now, all threads and mapped blocks included; 0 where the C library
-/// cannot tell. Allocators that go past malloc are not seen.
+/// Bytes that the program holds from malloc now, including all threads and mapped blocks. 0 if the C library cannot
+/// count them. Allocators that bypass malloc are not counted.
 [[nodiscard]] std::size_t allocated_bytes();
 
 }  // namespace roam::bench

@@ -1,6 +1,6 @@
-// The comparison of Xie and Niu (2020): their intersector's successor, osgRoam::BoxIntersector, and
-// osgUtil::PolytopeIntersector on path 1 of the gallery, in scene graphs as they come: one geode or many, with and
-// without KdTree. Times are the thread's own, so that others on the machine do not count.
+// The comparison of Xie and Niu (2020): osgRoam::BoxIntersector, the successor of their intersector, and
+// osgUtil::PolytopeIntersector, on path 1 of the gallery. In common scene graphs: one geode or many, with and without
+// KdTree. Times are the thread's own, so other programs do not count.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -30,7 +30,7 @@ using roam::bench::to_osg;
 constexpr double radius = 0.5;         ///< metres
 constexpr double step_length = 0.833;  ///< metres: 50 m/s at 60 Hz
 
-/// The triangles in so many geodes of about the same size, in the order in which the gallery is made.
+/// The triangles in `geodes` geodes of about the same size, in the gallery's order.
 osg::ref_ptr<osg::Group> graph_of(const std::vector<roam::Mesh>& meshes, std::size_t geodes, bool kd_tree) {
   std::size_t triangles = 0, done = 0;
   for (const roam::Mesh& mesh : meshes) triangles += mesh.triangles.size();
@@ -66,7 +66,7 @@ osg::ref_ptr<osg::Group> graph_of(const std::vector<roam::Mesh>& meshes, std::si
   return scene;
 }
 
-/// Whether anything is in the way.
+/// Whether the box meets any triangle.
 bool ask_box(osg::Node& scene, const Vec3& from, const Vec3& to) {
   osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector({.radius = radius}, to_osg(from), to_osg(to));
   osgUtil::IntersectionVisitor visitor(box);

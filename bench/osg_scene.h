@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes and the boxes of swept bodies as OpenSceneGraph has them.
+/// Meshes, and boxes of swept bodies, for OpenSceneGraph.
 
 #include <algorithm>
 #include <osg/Geode>
@@ -13,7 +13,7 @@ namespace roam::bench {
 
 inline osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// A geode as a file would bring it. `shift` is added to all places before they are rounded to floats.
+/// A geode as in a file. `shift` is added to all places before they are rounded to floats.
 inline osg::ref_ptr<osg::Geode> to_geode(const Mesh& mesh, const Vec3& shift = Vec3(0.0)) {
   osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
   vertices->reserve(mesh.vertices.size());
@@ -29,7 +29,7 @@ inline osg::ref_ptr<osg::Geode> to_geode(const Mesh& mesh, const Vec3& shift = V
   return geode;
 }
 
-/// The box of a body that goes straight from one place to another. `reach`: half of the body's own box, metres.
+/// The box of a body that moves straight from one place to another. `reach`: half of the body's own box, metres.
 inline osg::Polytope box_of_sweep(const Vec3& reach, const Vec3& from, const Vec3& to) {
   osg::Polytope polytope;
   for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
-// A pager beside a world of the same triangles: queries when everything is in memory, and a flight through a store that
-// has not been read yet, in little memory, with the clock running.
+// Compares a pager with a world of the same triangles. First queries with everything in memory, then a flight in real
+// time through a store that has not been read yet, with little memory.
 
 #include "roam/pager.h"
 
@@ -47,7 +47,7 @@ void print(const char* what, const std::string& set, const Summary& world, const
   std::fflush(stdout);
 }
 
-/// The same queries of a world and of a pager that has everything in memory, in turns.
+/// Times the same queries on a world and on a pager with everything in memory, in turns.
 void compare(const Options& options, const Scene& scene, const roam::World& world, const roam::Pager& pager) {
   const Reference reference(scene.meshes);
   std::printf("%-10s %-9s %8s %8s %8s %8s   ratio\n", "query", "set", "world50", "world99", "pager50", "pager99");
@@ -83,7 +83,7 @@ void print(const char* what, std::vector<double> times) {
   std::printf("%-10s p50 %7.2f  p99 %7.2f  p99.9 %7.2f  max %8.2f us\n", what, at(0.5), at(0.99), at(0.999), at(1.0));
 }
 
-/// Flies to and fro, 60 steps a second by the clock; through a space that need not be updated when `pager` is null.
+/// Flies to and fro, 60 steps a second in real time. `pager` is null for a space that needs no update.
 void fly(const Options& options, const roam::Space& space, roam::Pager* pager, const Vec3& start) {
   using Clock = std::chrono::steady_clock;
   roam::Walker walker(space, {.radius = 0.3, .height = 0.6, .eye = 0.3}, roam::Mode::fly, start);

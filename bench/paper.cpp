@@ -1,5 +1,5 @@
-// roam bench paper: the paper's two tables. Each row is a process of its own, so that its memory is its own and a crash
-// is one row's.
+// roam bench paper: the paper's two tables. Each row is a process of its own, so that memory and crashes belong to one
+// row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::vector<std::string> row_names() {
   return names;
 }
 
-/// Judged when all rows have ended: the scene comes a second time, and never as a whole.
+/// Judges after all rows have ended. The scene is read a second time, never as a whole.
 void judge(PaperFindings& findings, const PaperScene& scene) {
   PaperJudge judge;
   for (const RowFindings& row : findings.rows) {
@@ -48,7 +48,7 @@ void judge(PaperFindings& findings, const PaperScene& scene) {
   }
 }
 
-/// The rows that were asked for. Throws where none of them can be run.
+/// The requested rows. Throws if none of them can run.
 std::vector<PaperRow> asked_rows(const Options& options) {
   std::vector<PaperRow> rows = paper_rows(options.paper.wasm);
   const auto& wanted = options.rows;
@@ -126,7 +126,7 @@ void add_paper(CLI::App& program, app::Run& run) {
   CLI::Option* scene = verb->add_option("--scene", paper.scene,
                                         "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
                            ->type_name("FILE");
-  constexpr std::uint64_t least = 50'000;  // with fewer the gallery leaves out the grotto of the last two ways
+  constexpr std::uint64_t least = 50'000;  // smaller galleries have no grotto for the last two ways
   app::add_triangles(*verb, "--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB",
                      least)
       ->excludes(scene);

@@ -1,6 +1,6 @@
-// OSG + Bullet, OGRE + Bullet: the sweep of a sphere in a btCollisionWorld, whose static objects are the tiles; the
-// slide is ours. A mesh a tile, as who draws has it, keeps Bullet's 16 bits for the places of nodes fine in scenes of
-// any size.
+// OSG + Bullet, OGRE + Bullet: the sweep of a sphere in a btCollisionWorld whose static objects are the tiles. The
+// slide is ours. One mesh per tile, as drawing programs have it, keeps Bullet's 16-bit node coordinates fine in scenes
+// of any size.
 
 #include <memory>
 #include <utility>
@@ -12,31 +12,32 @@
 namespace roam::bench {
 namespace {
 
-// Metres. What is within 1 mm touches at once, says Bullet's sweep: a body that stops no farther off a wall is held by
-// those of its triangles that lean towards it.
+// Metres. Bullet's sweep reports contact at once within 1 mm. A body that stops no farther off a wall is held by
+// triangles that lean towards it.
 constexpr double skin = 2e-3;
 
 struct Tiles {
-  std::vector<std::unique_ptr<BulletMesh>> meshes;  // which the world lets go of, so it ends first
+  std::vector<std::unique_ptr<BulletMesh>> meshes;  // used by the world, which therefore ends first
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btCollisionWorld world{&dispatcher, &broadphase, &configuration};
 };
 
-/// The first touch that is not along the surface. A body that is nearer than 1 mm touches at once, says Bullet, also
-/// where it goes along the wall that it has just slid off: for that its floats, 0.06 mm apart at 600 m from the origin,
-/// need only turn the motion a little towards the wall. Who slides by its answers is then held for good. Its own
-/// btKinematicCharacterController disregards hits by their normals, too, and pushes the body out in every step. Nothing
-/// does that here: so that many small steps do not add up to one into the wall, only a motion that ends outside of it
-/// is let go on.
+/// The first touch that is not along the surface. Within 1 mm Bullet reports a touch at once, even if the body moves
+/// along the wall that it has just slid off. Its floats, 0.06 mm apart at 600 m from the origin, only need to turn the
+/// motion a little towards the wall. A body that slides by these results is then held for good.
+///
+/// Bullet's own btKinematicCharacterController also ignores hits by their normals, and pushes the body out in every
+/// step. Nothing does that here. So only a motion that ends outside the wall may continue; otherwise many small steps
+/// could add up to one into the wall.
 struct Ahead : btCollisionWorld::ClosestConvexResultCallback {
   Ahead(const btTransform& from, const btTransform& to, btScalar body_radius)
       : ClosestConvexResultCallback(from.getOrigin(), to.getOrigin()), radius(body_radius) {}
 
   btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool in_world) override {
-    constexpr btScalar along = 1e-4F;  // m: a whole motion that comes no nearer than that
-    constexpr btScalar least = 1e-4F;  // m: some roundings
+    constexpr btScalar along = 1e-4F;  // m: a whole motion must come no nearer than this
+    constexpr btScalar least = 1e-4F;  // m: room for rounding
     const btTransform& object = result.m_hitCollisionObject->getWorldTransform();
     const btVector3 motion = m_convexToWorld - m_convexFromWorld;
     const btVector3 normal = in_world ? result.m_hitNormalLocal : object.getBasis() * result.m_hitNormalLocal;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t block_steps = 16;
 
 Box box_of(const Vec3& from, const Vec3& to, double radius) {
-  // The reference decides what touches: a little too large does no harm.
+  // The reference decides about contact, so a slightly larger box is harmless.
   const Vec3 reach(radius + 1e-6);
   Box box;
   box.include(from - reach);
@@ -94,7 +94,7 @@ void PaperJudge::settle() {
       Step& step = steps_[i];
       const Query way{{.radius = step.radius}, step.from, step.to - step.from};
       step.clearance = std::min(step.clearance, reference.smallest_clearance(way, 1.0, step.clearance));
-      // Only a centre that comes to a triangle can cross one.
+      // A centre crosses a triangle only if it comes near one.
       if (step.crossed || step.clearance > 1e-3 || glm::length(way.motion) == 0.0) continue;
       step.crossed = reference.sweep({.body = {.radius = 0.0}, .from = way.from, .motion = way.motion}).hit;
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How ways ended, judged by geometry that no mover has a part in.
+/// Judges how ways ended, by geometry that no mover uses.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace roam::bench {
 
-/// `cut`: patience ran out first, and nothing is known of the rest of the way.
+/// `cut`: patience ran out first; the rest of the way is unknown.
 enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
 
 /// "completed", "stuck", "fell", "through a wall" or "not finished".
@@ -20,23 +20,23 @@ enum class Ending : std::uint8_t { reached, stuck, fell, through, cut };
 /// How a way ended.
 struct Judgement {
   Ending ending = Ending::stuck;
-  std::size_t in_walls = 0;  ///< steps deeper in a wall than depth_allowed, by the radius that the body had on each
+  std::size_t in_walls = 0;  ///< steps deeper in a wall than depth_allowed, for the body's radius on each
   double deepest = 0.0;      ///< metres
 };
 
-/// Judges ways by a scene that comes mesh by mesh, in bounded memory: what no step comes near is not kept, and what is
-/// kept is judged and let go when it is much. A body whose centre crosses a triangle went through a wall.
+/// Judges ways by a scene that arrives mesh by mesh, in bounded memory. Only triangles near some step are kept; when
+/// there are many, they are judged and freed. A body whose centre crosses a triangle went through a wall.
 class PaperJudge {
  public:
   static constexpr std::size_t most_kept = 1u << 20;  ///< triangles, at some 400 bytes each while they are judged
 
   explicit PaperJudge(std::size_t most = most_kept) : most_(most) {}
 
-  /// Before the scene comes. `walked` is not needed afterwards.
+  /// Adds a way; call it before add(). `walked` is not needed afterwards.
   void watch(const Way& way, const Walked& walked);
-  /// Each mesh of the scene, in any order.
+  /// Adds each mesh of the scene, in any order.
   void add(const Mesh& mesh);
-  /// As they were watched, when the whole scene has come.
+  /// In the order of watch(), after the whole scene.
   [[nodiscard]] std::vector<Judgement> judgements();
 
  private:

@@ -19,19 +19,19 @@ constexpr double dt = 1.0 / paper_rate;
 constexpr double gravity = 9.81;  // m/s2
 constexpr int most_slides = 4;
 
-/// A walker, and what it walks in.
+/// A walker and its space.
 struct Walk {
   std::shared_ptr<const Space> space;
   std::shared_ptr<Pager> pager;  // null for a world
   std::optional<Walker> walker;
-  std::optional<SizeLearner> learner;  // on ways that are adapting
+  std::optional<SizeLearner> learner;  // on adapting ways
   double radius = 0.0;                 // the least on the last step, m
 };
 
 Mover mover_of(const std::shared_ptr<Walk>& walk) {
   Mover mover;
   mover.place = [walk](const Way& way) {
-    constexpr double longest_wait = 60.0;  // s, for what is around the start
+    constexpr double longest_wait = 60.0;  // s, for the surroundings of the start
     if (walk->pager) (void)walk->pager->wait({.radius = way.radius}, way.from, Vec3(0.0), longest_wait);
     walk->walker.emplace(*walk->space, WalkerSettings::sphere(way.radius), way.walking ? Mode::walk : Mode::fly,
                          way.from);
@@ -96,7 +96,7 @@ Mover collide_and_slide(Sweep sweep, const Vec3& shift, double skin) {
     double falling = 0.0;  // m/s
   };
   const auto state = std::make_shared<State>();
-  // As far as the sweep says, less the skin.
+  // Moves to the contact of the sweep, less the skin.
   const auto advance = [sweep = std::move(sweep), skin](double radius, Vec3& place, const Vec3& motion) {
     const double length = glm::length(motion);
     std::optional<Touch> touch;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rows of the paper's tables: programs that move a sphere, each with the means of one engine.
+/// The rows of the paper's tables: programs that move a sphere, each by one engine.
 
 #include <cstdint>
 #include <functional>
@@ -14,49 +14,49 @@
 
 namespace roam::bench {
 
-/// Added to Table 1's coordinates for engines that compute in floats: 13.7 km from the origin these are 1 mm apart.
+/// Added to Table 1's coordinates for engines that compute in floats. 13.7 km from the origin, floats are 1 mm apart.
 inline const Vec3 paper_shift{13121.5, -909.5, -182.0};
 
-/// What a row reads: the scene's file, a store of it, tiles for OpenSceneGraph, tiles for OGRE.
+/// The input of a row: the scene's file, a store of it, tiles for OpenSceneGraph, tiles for OGRE.
 enum class Reads : std::uint8_t { file, store, osgb, ogre };
 
-/// The scene, as the command lays it out for its rows. What none of them reads, but for the file, is not there.
+/// The scene as prepared for the rows. Inputs that no row reads do not exist, except the file.
 struct PaperScene {
-  std::string scene;  ///< what roam reads: a file
-  std::string store;  ///< the same as a store
-  std::string tiles;  ///< a folder of files, shifted: osgb and OGRE's, one a mesh, and paged.osgb of the former
+  std::string scene;           ///< the file for roam
+  std::string store;           ///< the same as a store
+  std::string tiles;           ///< a folder of files, shifted: osgb and OGRE's, one per mesh, and paged.osgb
   std::size_t tile_count = 0;  ///< 0.osgb, 0.mesh, 1.osgb, ...
-  std::uint64_t memory = 0;    ///< bytes that pagers may take
+  std::uint64_t memory = 0;    ///< bytes for pagers, at most
 };
 
 struct PaperRow {
   std::string name;     ///< as --rows takes it
   std::string title;    ///< of the tables
-  std::string how;      ///< what moves the sphere, and where the scene is
+  std::string how;      ///< the engine, and the place of the scene
   std::string missing;  ///< empty, or what to install
   Reads reads = Reads::osgb;
   std::function<Mover(const PaperScene&)> load{};
 };
-/// `wasm`: the folder whose node_modules hold PhysX; empty: nowhere.
+/// `wasm`: the folder whose node_modules hold PhysX; empty: none.
 [[nodiscard]] std::vector<PaperRow> paper_rows(const std::string& wasm);
 
 [[nodiscard]] Mover roam_in_memory(const PaperScene& scene);
 [[nodiscard]] Mover roam_in_store(const PaperScene& scene);
-/// World::sweep in place of Walker: the work that a row does which has a sweep and nothing else.
+/// World::sweep instead of Walker: the work of a program that has only a sweep.
 [[nodiscard]] Mover roam_sweep(const PaperScene& scene);
-/// The paper's box intersector and equations, or osgUtil::PolytopeIntersector, over a graph that is in memory, with
-/// KdTrees or without, or that is paged.
+/// The paper's box intersector and equations, or osgUtil::PolytopeIntersector. The graph is in memory, with or without
+/// KdTrees, or paged.
 enum class Graph { loaded, with_kd_trees, paged };
 [[nodiscard]] Mover paper_method(const PaperScene& scene, Graph graph);
 [[nodiscard]] Mover polytope_method(const PaperScene& scene, Graph graph);
-/// The triangles of the tiles, as floats, one after another: for an engine beside the one that reads them.
+/// Passes the triangles of the tiles as floats, one tile after another, to an engine other than the reading one.
 using TileReader = std::function<void(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take)>;
 /// Tiles in Bullet's btBvhTriangleMeshShape.
 [[nodiscard]] Mover bullet_sweep(const PaperScene& scene, const TileReader& read);
-/// PhysX's capsule controller, nearly a sphere, in a node process; `wasm` as above. Throws roam::Error when it ends.
+/// PhysX's capsule controller, nearly a sphere, in a node process; `wasm` as above. Throws roam::Error if it ends.
 [[nodiscard]] Mover physx_controller(const PaperScene& scene, const std::string& wasm);
 
-/// TileReaders: OpenSceneGraph, from osgb, and OGRE, from its .mesh files; neither keeps what it has read.
+/// TileReaders: OpenSceneGraph from osgb, and OGRE from its .mesh files. Neither keeps the tiles.
 void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 void read_ogre_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);
 
@@ -74,19 +74,19 @@ class TileWriter {
   State* state_;
 };
 
-/// What writes OGRE's files into that folder, one a mesh that it is given. One at a time in a program.
+/// Returns a function that writes each mesh as an OGRE file into that folder. One at a time in a program.
 [[nodiscard]] std::function<void(const Mesh& mesh)> ogre_tile_writer(const std::string& folder);
 
-/// First touch of a sphere, and the way out.
+/// The first touch of a sphere, and the direction out.
 struct Touch {
   double time = 1.0;
   Vec3 normal{0.0};
 };
 using Sweep = std::function<std::optional<Touch>(double radius, const Vec3& from, const Vec3& motion)>;
-/// What a program does that has a sweep and nothing else: go until `skin` metres before the touch, slide along its
-/// plane, four times at most; who walks also falls, and stops falling where it touches. `shift` is added to all places.
+/// Moves as a program does that has only a sweep. It moves until `skin` metres before the touch and slides along the
+/// touched plane, four times at most. A walking body also falls, until it touches. `shift` is added to all places.
 [[nodiscard]] Mover collide_and_slide(Sweep sweep, const Vec3& shift, double skin = 1e-3);
-/// What a program does that is told only whether a place is free: go there, or stay.
+/// Moves as a program does that only knows whether a place is free: it goes there, or stays.
 using Blocked = std::function<bool(double radius, const Vec3& from, const Vec3& motion)>;
 [[nodiscard]] Mover go_or_stay(Blocked blocked, const Vec3& shift);
 

@@ -1,5 +1,5 @@
-// OGRE without a display: it writes meshes to its own files, and loads them into buffers of main memory, as its tools
-// do. A program that draws has the same calls, and besides a window and buffers of the graphics card.
+// OGRE without a display. It writes meshes to its own files, and loads them into buffers of main memory, as its tools
+// do. A drawing program makes the same calls, and also has a window and buffers of the graphics card.
 
 #include <OgreDataStream.h>
 #include <OgreDefaultHardwareBufferManager.h>
@@ -30,18 +30,18 @@ Ogre::Vector3 to_ogre(const Vec3& v) {
 
 std::string tile_name(std::size_t i) { return std::to_string(i) + ".mesh"; }
 
-/// OGRE has one of each of these in a program.
+/// OGRE allows one of each of these in a program.
 struct Engine {
-  /// Silent. Reads meshes of this folder.
+  /// Silent. Reads meshes of `folder`.
   explicit Engine(const std::string& folder) {
     logs.createLog("", true, false, true);
     root = std::make_unique<Ogre::Root>("", "", "");
-    Ogre::MaterialManager::getSingleton().initialise();  // with a window, the root does so
+    Ogre::MaterialManager::getSingleton().initialise();  // with a window, the root does this
     Ogre::ResourceGroupManager::getSingleton().addResourceLocation(folder, "FileSystem", group);
   }
 
   Ogre::LogManager logs;
-  Ogre::DefaultHardwareBufferManager buffers;  // which meshes give their buffers back to, so the root ends first
+  Ogre::DefaultHardwareBufferManager buffers;  // meshes return their buffers to it, so the root ends first
   std::unique_ptr<Ogre::Root> root;
 };
 

@@ -1,4 +1,4 @@
-// The paper's method and the polytope in OpenSceneGraph, and the files that its rows read.
+// The paper's method and the polytope in OpenSceneGraph, and the files for its rows.
 
 #include <glm/geometric.hpp>
 #include <map>
@@ -24,7 +24,7 @@ namespace {
 
 std::string tile_name(std::size_t i) { return std::to_string(i) + ".osgb"; }
 
-/// Reads pages where an intersection meets them, and keeps them, as osgSim::DatabaseCacheReadCallback does.
+/// Reads pages when an intersection meets them, and keeps them, like osgSim::DatabaseCacheReadCallback.
 class ReadOnce : public osgUtil::IntersectionVisitor::ReadCallback {
  public:
   osg::ref_ptr<osg::Node> readNodeFile(const std::string& name) override {
@@ -43,7 +43,7 @@ osg::ref_ptr<osg::Node> read(const std::string& file) {
   return node;
 }
 
-/// A graph, and how it is to be visited.
+/// A graph with the settings for visiting it.
 struct Scenery {
   osg::ref_ptr<osg::Node> node;
   osg::ref_ptr<osgUtil::IntersectionVisitor::ReadCallback> pages;
@@ -70,7 +70,7 @@ std::shared_ptr<Scenery> load(const PaperScene& scene, Graph graph) {
     group->accept(*builder);
     scenery->kd_trees = true;
   }
-  group->getBound();  // computed on first use, which should not be a step's
+  group->getBound();  // computed on first use, so that no step pays for it
   scenery->node = group;
   return scenery;
 }

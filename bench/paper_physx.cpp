@@ -1,5 +1,4 @@
-// PhysX's character controller, in a node process: what npm brings. A step is timed there, around the controller's
-// call.
+// PhysX's character controller from npm, in a node process. Steps are timed there, around the controller's call.
 
 #include <array>
 #include <memory>

@@ -14,10 +14,10 @@ namespace {
 
 using app::Json;
 
-// Of paper_ways.
+// Indices in paper_ways.
 constexpr std::size_t straight = 0, corner = 1, split = 2, room = 4, adapted = 5, table_1_ways = 3;
 
-/// Of some steps, microseconds.
+/// Summary of some steps, microseconds.
 struct Steps {
   std::size_t count = 0, jams = 0;
   double p50 = 0.0, p99 = 0.0, most = 0.0, sum = 0.0;
@@ -38,7 +38,7 @@ Steps steps_of(const RowFindings& row, const std::vector<std::size_t>& ways) {
   return steps;
 }
 
-/// Seconds, as the paper seems to count: what the steps take comes on top of the way at its speed.
+/// Seconds, as the paper seems to count them: the time of the way at its speed, plus the time of the steps.
 double time_of_way(const Steps& steps) { return static_cast<double>(steps.count) / paper_rate + 1e-6 * steps.sum; }
 
 /// One way of one row.
@@ -48,7 +48,7 @@ struct Cell1 {
   [[nodiscard]] const Judgement& judged() const { return row.judged[way]; }
   [[nodiscard]] bool cut() const { return judged().ending == Ending::cut; }
   [[nodiscard]] Steps steps() const { return steps_of(row, {way}); }
-  /// The least that the body had.
+  /// The least radius of the body.
   [[nodiscard]] double radius() const {
     const auto& radii = row.result.ways[way].radii;
     return radii.empty() ? 0.0 : *std::min_element(radii.begin(), radii.end());

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double paper_reach = 20.0;  // m from the ways: a scene without anything there is another one
+constexpr double paper_reach = 20.0;  // m from the ways: a scene without triangles there is a different scene
 
 /// By the ball around the triangle's box.
 bool near(const std::vector<Way>& ways, const Triangle& triangle) {

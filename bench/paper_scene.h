@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The scene of the paper's experiments, laid out for those who are to move in it.
+/// The scene of the paper's experiments, prepared for the rows.
 
 #include <functional>
 #include <set>
@@ -15,17 +15,17 @@ struct PaperOptions {
   std::uint64_t triangles = 2'000'000;  ///< of the made gallery
   double radius = 0.5;                  ///< metres
   double split_radius = 0.7;            ///< metres: over a split of 1.25 m
-  double patience = 60.0;               ///< seconds a way may take
-  double loading = 600.0;               ///< seconds a row may take until it can move
-  std::uint64_t memory = 0;             ///< bytes a row may take, with the programs it starts; 0: 3/4 of what is free
-  std::string wasm;                     ///< folder of the npm packages; empty: rows that need it are left out
+  double patience = 60.0;               ///< seconds for a way, at most
+  double loading = 600.0;               ///< seconds until a row can move, at most
+  std::uint64_t memory = 0;             ///< bytes for a row and the programs that it starts; 0: 3/4 of the free memory
+  std::string wasm;                     ///< folder of the npm packages; empty: rows that need it are skipped
   std::string scratch;                  ///< folder; empty: the system's temporary one
 };
 
-/// A folder that is gone with it.
+/// A folder that exists as long as the object.
 class ScratchFolder {
  public:
-  /// In `parent`, or in the system's temporary folder when that is empty. Throws roam::Error.
+  /// In `parent`; if that is empty, in the system's temporary folder. Throws roam::Error.
   explicit ScratchFolder(const std::string& parent);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
@@ -43,11 +43,11 @@ struct LaidOut {
   PaperScene scene;
 };
 
-/// Writes what is to be read into `folder`, and the scene's file where it is made. Throws roam::Error, and
-/// roam::Cancelled after Ctrl-C.
+/// Writes the inputs into `folder`, and the scene's file if it is generated. Throws roam::Error, and roam::Cancelled
+/// after Ctrl-C.
 [[nodiscard]] LaidOut lay_out(const PaperOptions& options, const std::set<Reads>& read, const std::string& folder);
 
-/// The scene that roam's rows read, mesh by mesh, in bounded memory. Throws as lay_out does.
+/// The scene of roam's rows, mesh by mesh, in bounded memory. Throws as lay_out does.
 void stream_laid_out(const PaperScene& scene, const std::function<void(const Mesh&)>& take);
 
 }  // namespace roam::bench

@@ -10,14 +10,14 @@
 namespace roam::bench {
 namespace {
 
-constexpr double walking_speed = 1.5;  // m/s, over the split: at 50 m/s anything flies across
-constexpr double room_radius = 0.3;    // m: a door of 0.75 m lets it in
+constexpr double walking_speed = 1.5;  // m/s, over the split: at 50 m/s any body flies across
+constexpr double room_radius = 0.3;    // m: fits through a door of 0.75 m
 constexpr double near_enough = 0.3;    // m from the end
 constexpr double fallen = 2.0;         // m below the way
-constexpr int window = 60;             // steps in which a body that is not stuck gets on
+constexpr int window = 60;             // steps within which a body must make progress, or it is stuck
 constexpr double least_progress = 0.05;
 
-/// How far the end is; for who walks, seen from above.
+/// The distance to the end; for a walking body, seen from above.
 double left(const Way& way, const Vec3& place) {
   Vec3 rest = way.to - place;
   if (way.walking) rest.z = 0.0;
@@ -72,7 +72,7 @@ Walked walk(const Mover& mover, const Way& way, double longest) {
     if (mover.rest) mover.rest(std::max(0.0, 1.0 / paper_rate - 1e-9 * walked.nanoseconds.back()));
     if (walked.nanoseconds.size() % window != 0) continue;
     const double progress = before - left(way, place);
-    // Who falls does not get on, and is not stuck.
+    // A falling body makes no progress, but is not stuck.
     const bool falls = below(way, place) > below(way, walked.places[walked.places.size() - window]) + 0.1;
     if (progress < least_progress * way.speed * window / paper_rate && !falls) break;
     before = left(way, place);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The ways of the paper's experiments, and how a body goes along one.
+/// The ways of the paper's experiments, and the motion of a body along one.
 
 #include <functional>
 #include <string>
@@ -17,41 +17,41 @@ struct Way {
   double radius = 0.5;
   double speed = 50.0;    ///< metres per second
   bool walking = false;   ///< under gravity
-  bool adapting = false;  ///< who can change the radius on the way may do so
+  bool adapting = false;  ///< the radius may change on the way
 };
 
-/// Table 1's three, the split once more for a sphere that it swallows, and one into a grotto behind a door of 0.75 m.
+/// Table 1's three ways, the split again for a sphere that falls into it, and a way into a grotto behind a door of 0.75
+/// m.
 [[nodiscard]] std::vector<Way> paper_ways(double radius, double split_radius);
 
 /// Steps a second.
 constexpr double paper_rate = 60.0;
 
-/// What moves a sphere through a scene.
+/// Moves a sphere through a scene.
 struct Mover {
   std::function<void(const Way&)> place;
-  /// One step at this velocity (m/s); the centre afterwards. This is what is timed.
+  /// One step at this velocity (m/s). Returns the centre afterwards. Only this is timed.
   std::function<Vec3(const Vec3& velocity)> step;
-  /// What the step has left of its frame, seconds: for those who load meanwhile. May be empty.
+  /// Called with the rest of the step's frame, in seconds, for loading. May be empty.
   std::function<void(double seconds)> rest{};
-  /// The least radius that the body had on the last step, for those who change it on ways that are adapting. Empty for
-  /// those who cannot.
+  /// The least radius of the body on the last step of an adapting way. Empty if the mover cannot change it.
   std::function<double()> radius{};
-  /// Nanoseconds of the last step, for those whose steps another process takes. Empty: the thread's own time counts.
+  /// Nanoseconds of the last step, if another process makes the steps. Empty: the thread's own time counts.
   std::function<double()> nanoseconds{};
 };
 
-/// How a body went.
+/// The record of a way.
 struct Walked {
   std::vector<double> nanoseconds;  ///< of each step
-  std::vector<double> radii;        ///< metres, the least that the body had on each step
+  std::vector<double> radii;        ///< metres, the least of the body on each step
   std::vector<Vec3> places;         ///< the centre at the start and after each step
-  bool cut = false;                 ///< ended by the clock while it was still getting on
+  bool cut = false;                 ///< ended by the clock while it made progress
 };
 
 [[nodiscard]] bool arrived(const Way& way, const Vec3& place);
 [[nodiscard]] bool has_fallen(const Way& way, const Vec3& place);
 
-/// Goes until the end is reached, nothing moves any more, the body has fallen, or `longest` seconds have passed.
+/// Moves until the end is reached, the body is stuck or has fallen, or `longest` seconds have passed.
 [[nodiscard]] Walked walk(const Mover& mover, const Way& way, double longest);
 
 }  // namespace roam::bench

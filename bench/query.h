@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What every engine of a benchmark is asked.
+/// The queries of the benchmarks.
 
 #include <string>
 #include <vector>
@@ -17,13 +17,13 @@ struct Query {
   Vec3 motion{0.0};
 };
 
-/// Queries of one kind, in the order in which they are asked: consecutive ones of a walk are neighbours in space.
+/// Queries of one kind, in order: consecutive ones of a walk are neighbours in space.
 struct QuerySet {
   std::string name;
   std::vector<Query> queries;
 };
 
-/// What an engine says about one query.
+/// An engine's answer to one query.
 struct Answer {
   bool hit = false;
   double time = 1.0;  ///< fraction of the motion until the first touch; 1 when free

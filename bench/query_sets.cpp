@@ -55,7 +55,7 @@ Vec3 start(Dice& dice, const Body& body, const Reference& reference) {
               " m within 3 m of the scene's surfaces: choose another scene");
 }
 
-// Walls in at least five of the six directions along the axes, and floor and ceiling among them.
+// Whether there are walls in at least five of the six directions along the axes, including floor and ceiling.
 bool enclosed(const Vec3& place, const Reference& reference) {
   constexpr double far = 20.0;  // m
   int walls = 0;

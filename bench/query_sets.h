@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The four kinds of sweep that the benchmarks ask, made from the scene with a fixed seed.
+/// The four kinds of sweep for the benchmarks, made from the scene with a fixed seed.
 ///
 ///     set       body                             motion                               start
 ///     random    sphere, r 0.2-1 m                0.05-2 m, any direction              within 3 m of a surface
@@ -8,10 +8,10 @@
 ///     long      sphere, r 0.2-1 m                50 m, any direction                  within 3 m of a surface
 ///     capsule   r 0.3 m, height 1.8 m            0.05-2 m, any direction              within 3 m of a surface
 ///
-/// All ranges are uniform. A start is a random point of a random triangle (each as likely as any other, so that the
-/// queries are where the detail is), moved by 0-3 m in a random direction, on either side of the surface; it is taken
-/// when nothing is within radius + 1 mm, so that no set asks about a body that starts embedded. Walkers start where
-/// walls are all around, if the scene has such places, and stay within 3 m of a surface; they keep 5 mm off.
+/// All ranges are uniform. A start is a random point of a random triangle, moved by 0-3 m in a random direction, on
+/// either side of the surface. All triangles are equally likely, so queries are dense where the detail is. A start
+/// needs free space within radius + 1 mm, so no query starts embedded. Walkers start where walls are all around, if the
+/// scene has such places. They stay within 3 m of a surface and keep 5 mm off.
 
 #include <cstdint>
 #include <string>
@@ -26,8 +26,8 @@ namespace roam::bench {
 /// "random", "coherent", "long", "capsule".
 [[nodiscard]] const std::vector<std::string>& query_set_names();
 
-/// `count` queries; the same for the same scene, name and count. Throws roam::Error for another name and for a scene
-/// without room for the body.
+/// `count` queries; the same for the same scene, name and count. Throws roam::Error for an unknown name, and for a
+/// scene without room for the body.
 [[nodiscard]] QuerySet make_queries(const std::string& name, std::size_t count, const Reference& reference);
 
 }  // namespace roam::bench

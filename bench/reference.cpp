@@ -16,8 +16,8 @@ using Exact = long double;
 constexpr std::uint32_t leaf_size = 4;
 constexpr int deepest_tree = 64;  // halving: enough for any 32-bit count
 
-// Metres that the double filter grows bodies and boxes by. Local coordinates are rounded to 1e-9 m at 6.4e6 m from the
-// origin and the closed forms add less over 1 km; a hundred times that costs a candidate more now and then.
+// Metres by which the double filter grows bodies and boxes. Local coordinates are rounded to 1e-9 m at 6.4e6 m from the
+// origin, and the closed forms add less over 1 km. A hundred times that only costs an extra candidate now and then.
 constexpr double filter_slack = 1e-7;
 
 template <class Real>
@@ -38,7 +38,7 @@ Real impact(const Triangle& triangle, const Query& query, Real slack, Real limit
   return first;
 }
 
-// From the body's axis at `place` to the triangle: the vector to the nearest point, less its part along the axis.
+// The vector from the body's axis at `place` to the nearest point of the triangle, less its part along the axis.
 Point<Exact> shortest_way(const Triangle& triangle, const Body& body, const Point<Exact>& place) {
   const Corners<Exact> local{Point<Exact>(triangle[0]) - place, Point<Exact>(triangle[1]) - place,
                              Point<Exact>(triangle[2]) - place};
@@ -61,7 +61,7 @@ double distance(const Box& box, const Vec3& p, double half_height) {
   return std::sqrt(square);
 }
 
-// Fraction of the motion at which the query's centre enters the box grown by its body, infinity when it does not.
+// Fraction of the motion at which the query's centre enters the box grown by its body; infinity if it does not.
 double slab_entry(const Box& box, const Query& query) {
   double first = 0;
   double last = 1;
@@ -77,7 +77,7 @@ double slab_entry(const Box& box, const Query& query) {
     first = std::max(first, std::min(lower / v, upper / v));
     last = std::min(last, std::max(lower / v, upper / v));
   }
-  // Quotients are rounded: a part in 1e12 of the motion is far more than that.
+  // Covers the rounding of the quotients, which is far smaller.
   constexpr double rounding = 1e-12;
   return first <= last + rounding ? first - rounding : std::numeric_limits<double>::infinity();
 }
@@ -154,7 +154,7 @@ void Reference::traverse(double limit, const Entry& entry, const Visit& visit) c
 }
 
 Answer Reference::sweep(const Query& query) const {
-  const Exact free = 2;  // beyond the motion's end, which is still a touch
+  const Exact free = 2;  // beyond the motion's end, which still counts as a touch
   Exact first = free;
   traverse(
       2.0, [&](const Box& box) { return slab_entry(box, query); },
@@ -197,7 +197,7 @@ double Reference::smallest_clearance(const Query& query, double time, double rea
   traverse(
       std::nextafter(time, 2.0), [&](const Box& box) { return slab_entry(box, grown); },
       [&](const Triangle& triangle) {
-        // Only a triangle that the body meets when it is that wide comes closer.
+        // Only a triangle that touches a body of radius `smallest` is nearer.
         Query wide = query;
         wide.body.radius = smallest;
         if (impact<double>(triangle, wide, filter_slack, 2.0) <= time) {

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// The judge of the benchmarks: time of impact and distance in long double, by other means than roam's.
+/// The reference of the benchmarks: time of impact and distance in long double, by other methods than roam's.
 ///
 /// A binary tree of double boxes, split at the median, and closed forms: the ray against the rounded face, edges and
 /// vertices of each triangle (Ericson, "Real-Time Collision Detection", 2005, 5.5.6). A vertical capsule is the sphere
-/// against the triangle extruded by the capsule's axis. Nothing is shared with the core: neither the tree,
-/// nor the supporting plane, nor a margin. The distance on a way is that of src/verify.
+/// against the triangle extruded by the capsule's axis. It shares nothing with the core: no tree, no supporting plane,
+/// no margin. The distance along a motion is that of src/verify.
 
 #include <array>
 #include <cstdint>
@@ -22,16 +22,16 @@ class Reference {
  public:
   explicit Reference(std::span<const Mesh> meshes);
 
-  /// First touch. A body that starts in touch hits at time 0.
+  /// The first touch. A body that starts in contact hits at time 0.
   [[nodiscard]] Answer sweep(const Query& query) const;
 
   /// Distance in metres from the body's axis at `place` to the nearest triangle, at most `reach`.
   [[nodiscard]] double clearance(const Body& body, const Vec3& place, double reach) const;
 
-  /// As above, with the nearest point of the triangles; empty when nothing is within reach.
+  /// As above, with the nearest point of the triangles; empty if none is within reach.
   [[nodiscard]] std::optional<Vec3> nearest(const Body& body, const Vec3& place, double reach) const;
 
-  /// The smallest distance in metres from the body's axis to a triangle on the way up to `time`, at most `reach`.
+  /// The smallest distance in metres from the body's axis to a triangle on the motion up to `time`, at most `reach`.
   [[nodiscard]] double smallest_clearance(const Query& query, double time, double reach) const;
 
   [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }

@@ -28,10 +28,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int result_end = 3;       // the descriptor that a row writes to
-constexpr char loaded_mark = '\n';  // what it writes when it can move; JSON takes it for a space
+constexpr int result_end = 3;       // the descriptor for a row's result
+constexpr char loaded_mark = '\n';  // written when the row can move; whitespace for JSON
 
-/// The largest resident memory of a program that this one has started and waited for: roam's reader.
+/// The largest resident memory among the ended children of this process: roam's reader.
 std::uint64_t peak_bytes_of_children() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);
@@ -47,7 +47,7 @@ std::uint64_t peak_bytes() {
   return 0;
 }
 
-/// Numbers as text lose nothing here: they are printed with all their digits.
+/// Numbers as text lose nothing: they are printed with all digits.
 json to_json(const Walked& walked) {
   json places = json::array();
   for (const Vec3& p : walked.places) places.push_back({p.x, p.y, p.z});
@@ -70,7 +70,7 @@ RowResult parse(const std::string& text) {
   return result;
 }
 
-/// The programs that a process has started and not waited for.
+/// The children of a process that it has not waited for.
 std::vector<pid_t> children_of(pid_t process) {
   std::ifstream list(fmt::format("/proc/{}/task/{}/children", process, process));
   std::vector<pid_t> children;
@@ -78,7 +78,7 @@ std::vector<pid_t> children_of(pid_t process) {
   return children;
 }
 
-/// Resident now: the process and the programs that it has started.
+/// The resident memory of the process and its children now.
 std::uint64_t bytes_now(pid_t process) {
   static const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   std::ifstream sizes(fmt::format("/proc/{}/statm", process));
@@ -89,7 +89,7 @@ std::uint64_t bytes_now(pid_t process) {
   return bytes;
 }
 
-/// Bytes that rows may take unless told otherwise: three quarters of what the machine has free now.
+/// The default limit of memory for rows: three quarters of the machine's free memory.
 std::uint64_t memory_for_rows() {
   std::ifstream info("/proc/meminfo");
   for (std::string line; std::getline(info, line);) {
@@ -98,20 +98,19 @@ std::uint64_t memory_for_rows() {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-/// What a row says, and why it was ended before it had said all.
+/// The output of a row, and the reason if it was ended early.
 struct Heard {
   std::string text;
-  std::string stopped;  ///< empty when the row ended by itself
+  std::string stopped;  ///< empty if the row ended by itself
 };
 
-/// Listens until the other end is closed, or the row takes more than it may. Empty after Ctrl-C, and when reading
-/// fails.
+/// Reads until the other end is closed, or the row exceeds its limits. Empty after Ctrl-C, and if reading fails.
 std::optional<Heard> listen(int end, pid_t row, std::size_t ways, const PaperOptions& options) {
-  constexpr int look_up = 50;  // ms: a signal may come just before the call that it is to end, and memory grows fast
-  // A way looks at the clock between its steps only; the minute is for what comes before, between and after the ways.
+  constexpr int look_up = 50;  // ms: a signal may come just before the interruptible call, and memory grows fast
+  // A way checks the clock only between its steps. The minute covers work before, between and after the ways.
   const std::chrono::duration<double> walking(static_cast<double>(ways) * options.patience + 60.0);
   const std::chrono::duration<double> loading(options.loading);
-  auto start = std::chrono::steady_clock::now();  // of what the row does now
+  auto start = std::chrono::steady_clock::now();  // of the row's current phase
   const std::uint64_t memory = options.memory > 0 ? options.memory : memory_for_rows();
   Heard heard;
   std::array<char, 65536> buffer{};
@@ -139,7 +138,7 @@ std::optional<Heard> listen(int end, pid_t row, std::size_t ways, const PaperOpt
   return std::nullopt;
 }
 
-/// With the programs that it has started.
+/// Ends a process and its children.
 void end_process(pid_t process) {
   for (const pid_t child : children_of(process)) end_process(child);
   ::kill(process, SIGKILL);
@@ -151,13 +150,13 @@ json run(const PaperRow& row, const PaperScene& scene, const PaperOptions& optio
   {
     const Mover mover = row.load(scene);
     const std::vector<Way> paper = paper_ways(options.radius, options.split_radius);
-    mover.place(paper.front());  // who loads meanwhile waits here
+    mover.place(paper.front());  // movers that load in the background wait here
     report["load_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report["adapts"] = static_cast<bool>(mover.radius);
     if (::write(result_end, &loaded_mark, 1) != 1) throw Error("cannot write to the command that started this row");
     for (const Way& way : paper) ways.push_back(to_json(walk(mover, way, options.patience)));
   }
-  // Now the programs that the mover had started have ended, and count.
+  // By now the mover's child processes have ended, so they count.
   report["peak_bytes"] = peak_bytes() + peak_bytes_of_children();
   report["ways"] = std::move(ways);
   return report;
@@ -181,7 +180,7 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
   const files::Descriptor ours(ends[0]);
   files::Descriptor theirs(ends[1]);
-  // Ctrl-C reaches the row as well; a signal to this process alone does not.
+  // Ctrl-C reaches the row too; a signal to this process alone does not.
   process::Child child("/proc/self/exe", arguments,
                        {.descriptors = {{STDIN_FILENO, STDIN_FILENO},
                                         {STDOUT_FILENO, STDOUT_FILENO},
@@ -212,8 +211,8 @@ RowResult run_row(const std::string& name, const PaperScene& scene, const PaperO
 
 int row_main(int argc, char** argv) {
   constexpr int expected = 12;
-  std::signal(SIGPIPE, SIG_IGN);             // a program that has ended early is an error
-  ::fcntl(result_end, F_SETFD, FD_CLOEXEC);  // it is not for the programs that the row starts
+  std::signal(SIGPIPE, SIG_IGN);             // makes writing to an ended program an error
+  ::fcntl(result_end, F_SETFD, FD_CLOEXEC);  // not inherited by programs that the row starts
   std::string text;
   int status = 1;
   try {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options that both programs take.
+/// The options that both programs share.
 
 #include <CLI/CLI.hpp>
 #include <string>

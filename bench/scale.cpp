@@ -1,4 +1,4 @@
-// roam bench scale: what a sweep, a clearance and a step take in the same gallery, ever finer.
+// roam bench scale: the times of a sweep, a clearance and a step in the same gallery, with more and more triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Options {
   bool json = false;
 };
 
-// While a world is built both the meshes and the index are in memory.
+// During a build, both the meshes and the index are in memory.
 constexpr double building_bytes = 60.0;  // a triangle
 constexpr double radius = 0.3;           // m
 
@@ -47,12 +47,12 @@ constexpr double radius = 0.3;           // m
 struct Size {
   std::uint64_t triangles = 0;
   std::shared_ptr<const Space> space;
-  std::shared_ptr<Pager> pager;  // null for what is all in memory
+  std::shared_ptr<Pager> pager;  // null if everything is in memory
   double build_s = 0.0;
-  std::uint64_t bytes = 0;  // that queries need
+  std::uint64_t bytes = 0;  // needed by queries
 };
 
-/// What is timed of each step of a flight.
+/// The timed part of each step of a flight.
 enum class What : std::uint8_t { sweep, clearance, step };
 constexpr std::array<What, 3> all_of_it{What::sweep, What::clearance, What::step};
 constexpr const char* to_string(What what) {
@@ -104,12 +104,12 @@ Size make_size(std::uint64_t triangles, const Options& options, const std::strin
   return size;
 }
 
-/// One flight along the paper's first path; nanoseconds of each step.
+/// One flight along the paper's first path. Returns the nanoseconds of each step.
 std::vector<double> fly(const Size& size, What what, double speed) {
   const generate::Path& path = generate::gallery_paths[0];
   const WalkerSettings settings = WalkerSettings::sphere(radius);
   const Body body{.radius = radius};
-  constexpr double longest_wait = 60.0;  // s, for what is around the start
+  constexpr double longest_wait = 60.0;  // s, for the surroundings of the start
   if (size.pager) (void)size.pager->wait(body, path.from, Vec3(0.0), longest_wait);
   Walker walker(*size.space, settings, Mode::fly, path.from);
   const std::vector<Vec3> way{path.from, path.to};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The triangles that a benchmark runs on.
+/// The triangles of a benchmark.
 
 #include <cstdint>
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace roam::bench {
 
-/// Which scene to make or load.
+/// The scene to make or load.
 struct SceneChoice {
   std::string scene = "gallery";     ///< "gallery", "terrain", "city", or a file (a build with ROAM_TOOLS reads files)
-  std::uint64_t triangles = 500000;  ///< about how many a made scene gets; a file keeps its own
-  Vec3 origin{0.0};                  ///< metres: where the centre of the scene's box is moved
+  std::uint64_t triangles = 500000;  ///< approximate number for a generated scene; ignored for a file
+  Vec3 origin{0.0};                  ///< metres: the new centre of the scene's box
 };
 
 struct Scene {
@@ -26,8 +26,8 @@ struct Scene {
   [[nodiscard]] std::uint64_t triangles() const;
 };
 
-/// Makes or loads the scene and moves it. Throws roam::Error where the file or the kind is unknown.
-/// Asks `goes_on` now and then; when it says no, roam::Cancelled is thrown.
+/// Makes or loads the scene and moves it. Throws roam::Error if the file or the kind is unknown. Calls `goes_on` now
+/// and then; if it returns false, throws roam::Cancelled.
 [[nodiscard]] Scene make_scene(const SceneChoice& choice, const std::function<bool()>& goes_on = {});
 
 }  // namespace roam::bench

@@ -1,5 +1,5 @@
-// How long a step takes in stores of the same scene, ever finer, and in a world in memory: one flight along a path
-// through each, a table and a picture.
+// The time of a step in finer and finer stores of the same scene, and in a world in memory. One flight along a path
+// through each; a table and a picture.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 using namespace roam::bench;
 using roam::Vec3;
 
-/// Seconds. How long the pager may take for what is around the start.
+/// Seconds. The limit for loading the surroundings of the start.
 constexpr double longest_wait = 60.0;
 
 /// The first path of the paper, through its gallery.
@@ -42,7 +42,7 @@ struct Options {
   std::string picture;
 };
 
-/// One way along the path: of each step the nanoseconds, and what it asked.
+/// One flight along the path: nanoseconds and queries of each step.
 struct Flight {
   std::vector<double> times;
   std::array<CountedSpace::Tally, CountedSpace::kinds> asked;
@@ -54,7 +54,7 @@ roam::WalkerSettings body_of(const Options& options) {
   return settings;
 }
 
-/// Along the path; after each step `after(walker, report)` is called, which is not timed.
+/// Flies along the path. Calls `after(walker, report)` after each step; this is not timed.
 template <class After>
 Flight fly(const Options& options, const roam::Space& space, const After& after) {
   const CountedSpace counted(space);
@@ -74,7 +74,7 @@ Flight fly(const Options& options, const roam::Space& space, const After& after)
   return flight;
 }
 
-/// As `roam walk` goes: after a step it waits for what is near, as long as the step lasts at most.
+/// Flies like `roam walk`: after a step it waits until the surroundings have loaded, at most as long as the step lasts.
 Flight fly(const Options& options, const std::shared_ptr<const roam::Store>& store) {
   roam::Pager pager(store, {.memory = options.memory_mib << 20});
   const roam::WalkerSettings settings = body_of(options);
@@ -84,7 +84,7 @@ Flight fly(const Options& options, const std::shared_ptr<const roam::Store>& sto
   });
 }
 
-/// How often a step asks what, and how long that takes: of one flight, in which each question was timed.
+/// Prints the number of queries of a step by kind, and their times, for one flight with every query timed.
 void print_queries(const Flight& flight, std::uint64_t triangles) {
   const auto steps = static_cast<double>(flight.times.size());
   for (std::size_t kind = 0; kind < CountedSpace::kinds; ++kind) {

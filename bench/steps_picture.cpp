@@ -10,14 +10,14 @@
 namespace roam::bench {
 namespace {
 
-// Of the picture, in its own units.
+// Sizes of the picture, in its own units.
 constexpr double width = 640.0, height = 400.0, left = 70.0, right = 110.0, top = 40.0, bottom = 60.0;
-constexpr double shortest = 1e-3;  // us: what took less by the clock is drawn there
+constexpr double shortest = 1e-3;  // us: shorter times are drawn here
 
 /// Powers of ten that an axis spans.
 struct Span {
   int least = 0, greatest = 1;
-  /// Of the way from one end to the other.
+  /// The position of a value on the axis, from 0 to 1.
   [[nodiscard]] double part(double value) const { return (std::log10(value) - least) / (greatest - least); }
 };
 

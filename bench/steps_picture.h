@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Step times by the size of the scene, as a picture.
+/// A picture of step times by the size of the scene.
 
 #include <cstdint>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace roam::bench {
 
-/// Of the steps of one flight.
+/// The times of one flight's steps.
 struct StepTimes {
   std::uint64_t triangles;
   double median_us, p99_us;
 };
 
-/// Both axes in powers of ten, as many as the times need; there is one at least. Throws roam::Error when the file
-/// cannot be written.
+/// Both axes are logarithmic, with as many powers of ten as the times need. `times` must not be empty. Throws
+/// roam::Error if the file cannot be written.
 void write_picture(const std::string& file, const std::vector<StepTimes>& times);
 
 }  // namespace roam::bench

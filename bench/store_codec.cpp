@@ -1,4 +1,4 @@
-// What the tiles of a store take on disk, and how long they take to encode and decode.
+// The size of a store's tiles on disk, and the times to encode and decode them.
 
 #include <xxhash.h>
 
@@ -24,7 +24,7 @@ using roam::store::shape_of;
 /// Seconds.
 double now() { return 1e-9 * roam::bench::thread_time(); }
 
-/// Bytes that an ideal coder takes for letters of the frequencies that these have.
+/// Bytes that an ideal coder takes for letters of these frequencies.
 double entropy(std::span<const std::byte> letters) {
   std::array<double, 256> count{};
   for (const std::byte b : letters) ++count[std::to_integer<std::size_t>(b)];
@@ -39,7 +39,7 @@ constexpr std::array<const char*, roam::store::stream_count> name_stream{
 
 using Streams = std::array<double, roam::store::stream_count>;
 
-/// Adds the entropy of each stream of a tile, with the letters' own frequencies in that tile. Bits are incompressible.
+/// Adds the entropy of each stream of a tile, by the letters' frequencies in that tile. Bits count as incompressible.
 void add_entropy(std::span<const std::byte> coded, const TileShape& shape, Streams& sum) {
   const Unpacked u = unpack(coded);
   const auto& n = u.numbers;
@@ -52,7 +52,7 @@ void add_entropy(std::span<const std::byte> coded, const TileShape& shape, Strea
   }
 }
 
-/// The numbers that a tile's triangles have in the scene, in the order of the tile.
+/// The numbers of a tile's triangles in the scene, in the order of the tile.
 std::vector<roam::store::SourceNumber> numbers_of(const BuiltTile& tile) {
   std::vector<roam::store::SourceNumber> numbers;
   for (const Leaf& leaf : tile.leaves) {

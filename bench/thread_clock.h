@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The clock of steps: what other programs do does not count.
+/// The clock of steps: the thread's own time, without other programs.
 
 #include <time.h>
 
@@ -8,14 +8,14 @@
 
 namespace roam::bench {
 
-/// Nanoseconds that this thread has been running.
+/// The thread's running time, nanoseconds.
 [[nodiscard]] inline double thread_time() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
-/// What two readings of that clock take, nanoseconds.
+/// The time of two readings of that clock, nanoseconds.
 [[nodiscard]] inline double cost_of_reading() {
   double least = 1e9;
   for (int i = 0; i < 1000; ++i) {

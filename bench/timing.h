@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Times single calls of some tens of nanoseconds, and sums them up.
+/// Times single calls of some tens of nanoseconds, and summarizes them.
 
 #include <chrono>
 #include <cstdint>
@@ -14,18 +14,17 @@ namespace roam::bench {
 
 /// Nanoseconds that each query took: one value a query, the median over rounds.
 ///
-/// Each call is timed by itself, between two fenced readings of the processor's clock, and the cost of an empty pair of
-/// readings (their median, measured anew for each call of an Ask) is taken off. Because of the fences no query overlaps
-/// the next: what is measured is latency, not throughput.
+/// Each call is timed by itself, between two fenced readings of the processor's clock. The cost of an empty pair of
+/// readings is subtracted: their median, measured again for each call of an Ask. The fences keep queries from
+/// overlapping, so this measures latency, not throughput.
 using Times = std::vector<double>;
 
-/// Answers queries in order and says how many nanoseconds each took. The answers are kept so that no compiler can leave
-/// the work out.
+/// Runs queries in order and gives the nanoseconds of each. Keeps the answers, so that no compiler can remove the work.
 using Ask = std::function<void(std::span<const Query>, std::span<double> nanoseconds, std::span<Answer>)>;
 
-/// The times of each of `asked` on the first queries[i] of `queries`. The engines take turns, `rounds` times; all
-/// queries of a round are asked in order, so that each engine's caches hold what its own queries left there. `between`
-/// is called before each turn; what it throws ends the timing.
+/// The times of each of `asked` on the first queries[i] queries of `all`. The engines take turns, `rounds` times. A
+/// turn runs all its queries in order, so the caches hold what the engine's own queries left. Calls `between` before
+/// each turn; an exception ends the timing.
 [[nodiscard]] std::vector<Times> time_in_turns(std::span<const Ask> asked, std::span<const std::size_t> queries,
                                                std::span<const Query> all, int rounds,
                                                const std::function<void()>& between = {});
@@ -33,8 +32,8 @@ using Ask = std::function<void(std::span<const Query>, std::span<double> nanosec
 /// The upper one where there are two in the middle. `values` must not be empty.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// What lies at this part, 0 to 1, of the way through values in ascending order, the lower one where it is between two:
-/// p99 at 0.99, the largest at 1. 0 when there are none.
+/// The value at `part`, 0 to 1, of the way through ascending values; the lower one if it is between two. p99 is at
+/// 0.99, the largest at 1. 0 if there are none.
 [[nodiscard]] inline double quantile(std::span<const double> sorted, double part) {
   return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
 }
@@ -45,15 +44,15 @@ struct Summary {
   double p50 = 0;
   double p99 = 0;
   double most = 0;
-  double hit_p50 = 0;  ///< median of the queries that hit, 0 when none does
+  double hit_p50 = 0;  ///< median of the queries that hit, 0 if there are none
   double hit_share = 0;
 };
 
 /// `hits[i]` says whether query i hits.
 [[nodiscard]] Summary summarize(const Times& times, const std::vector<bool>& hits);
 
-/// The processor's clock, fenced: whatever is between the two is done between the two. In a header, as a call would be
-/// timed too.
+/// The processor's clock, fenced: work between two readings cannot move out. In a header, because a call would be timed
+/// too.
 #if defined(__x86_64__)
 inline std::uint64_t clock_before() {
   __builtin_ia32_lfence();
@@ -72,7 +71,8 @@ inline std::uint64_t clock_before() {
 inline std::uint64_t clock_after() { return clock_before(); }
 #endif
 
-/// Differences of two readings of that clock become nanoseconds, in place, less the cost of an empty pair of readings.
+/// Converts differences of two readings of that clock to nanoseconds, in place, less the cost of an empty pair of
+/// readings.
 void to_nanoseconds(std::span<double> ticks);
 
 /// An Ask from anything that maps a Query to an Answer, without a call through a pointer between the clock readings.

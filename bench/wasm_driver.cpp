@@ -14,7 +14,7 @@
 namespace roam::bench {
 namespace {
 
-// What bench/wasm/channel.mjs reads and writes.
+// The descriptors that bench/wasm/channel.mjs uses.
 constexpr int requests_end = 3, replies_end = 4;
 
 }  // namespace
@@ -36,7 +36,7 @@ WasmDriver::WasmDriver(std::string name, const std::string& script, const std::s
   if (::pipe2(out.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe");
   replies_ = files::Descriptor(out[0]);
   const files::Descriptor replies_in_child(out[1]);
-  // What the libraries print is a note, not a result.
+  // The libraries' output is a note, not a result.
   child_.emplace(
       node, std::vector<std::string>{"--max-old-space-size=8192", "--input-type=module", "--eval", script, modules},
       process::ChildSettings{.descriptors = {{requests_in_child.number(), requests_end},

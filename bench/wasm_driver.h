@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A node process that runs one of the texts of bench/wasm: see wasm/channel.mjs for what goes through its pipes.
+/// A node process that runs one of the scripts of bench/wasm: see wasm/channel.mjs for the protocol.
 
 #include <cstddef>
 #include <optional>
@@ -13,23 +13,24 @@
 
 namespace roam::bench {
 
-/// "" when npm's `package` is in the node_modules of the folder `modules`, else what to do.
+/// "" if npm's `package` is in the node_modules of the folder `modules`, else advice.
 [[nodiscard]] std::string wasm_package_missing(const std::string& package, const std::string& modules);
 
-/// Ends its process with itself. All throw roam::Error, which names the engine, when that ended early.
+/// Ends its process in the destructor. All functions throw roam::Error, which names the engine, if the process ended
+/// early.
 class WasmDriver {
  public:
-  /// Throws roam::Error when node cannot be started.
+  /// Throws roam::Error if node cannot be started.
   WasmDriver(std::string name, const std::string& script, const std::string& modules);
   ~WasmDriver();
   WasmDriver(const WasmDriver&) = delete;
   WasmDriver& operator=(const WasmDriver&) = delete;
 
-  /// Hands over the scene, and waits until it is built: the JSON text that the driver says about itself.
+  /// Sends the scene, and waits until it is built. Returns the driver's JSON text about itself.
   [[nodiscard]] std::string start(const FloatMesh& mesh);
 
   static constexpr std::size_t question_numbers = 8;
-  /// Questions of eight numbers each, answered in order by as many numbers each as the script gives.
+  /// Sends questions of eight numbers each. Receives as many numbers for each as the script gives, in order.
   void ask(std::span<const double> questions, std::span<double> answers);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sweeps that are hard for an engine: every kind aims at one way to be wrong. Seeded; the same on every machine.
+/// Sweeps that are hard for an engine: every kind aims at one possible error. Seeded; the same on every machine.
 
 #include <cmath>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Query {
 };
 
 enum class Kind {
-  ordinary,       ///< somewhere near, more or less towards the triangle
+  ordinary,       ///< nearby, roughly towards the triangle
   grazing,        ///< passes at the radius, give or take a few units in the last place
   edge_parallel,  ///< moves along an edge, where the edge's quadratic degenerates
   vertex,         ///< aims at a corner
@@ -39,7 +39,7 @@ inline const char* name(Kind kind) {
   return names[static_cast<int>(kind)];
 }
 
-/// Where scenes lie: the origin, the paper's gallery, a city grid, the radius of the earth.
+/// The places of scenes: the origin, the paper's gallery, a city grid, the radius of the earth.
 inline const roam::Vec3 origins[] = {
     {0.0, 0.0, 0.0}, {-13739.0, 253.0, 182.0}, {1e5, -1e5, 1e5}, {6.4e6, 6.4e6, 6.4e6}};
 
@@ -57,7 +57,7 @@ class Generator {
     place(q, target, to_start);
     for (auto& corner : q.triangle) corner += origin_;
     q.from += origin_;
-    // From here on the coordinates are what the origin leaves of them; only motion and radius may still be tuned.
+    // From here on the coordinates are rounded at the origin. Only motion and radius may still change.
     if (kind_ == Kind::edge_parallel) q.motion = along_an_edge(q);
     if (kind_ == Kind::vertex) q.motion = (q.triangle[index(3)] - q.from) * uniform(0.5, 2.0);
     if (kind_ == Kind::grazing || ((kind_ == Kind::edge_parallel || kind_ == Kind::vertex) && one_in(2))) {
@@ -153,7 +153,7 @@ class Generator {
     return edge * (sign() * std::ldexp(1.0, index(12) - 4));
   }
 
-  /// A radius that the true distance decides by its last bits, or by a little.
+  /// A radius that differs from the true distance by its last bits, or by a little.
   void tune(Query& q, oracle::Quad distance) {
     const double d = static_cast<double>(distance);
     if (!(d > 0.0)) return;

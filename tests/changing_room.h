@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A space that changes between two steps of a walker, and counts what it is asked.
+/// A space that changes between two steps of a walker, and counts its queries.
 
 #include <limits>
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace scenes {
 
-/// A room whose walls may be others from one step to the next.
+/// A room whose walls may change from one step to the next.
 class ChangingRoom final : public roam::Space {
  public:
   explicit ChangingRoom(Mesh mesh, bool tells) : tells_(tells) { become(std::move(mesh)); }
@@ -35,7 +35,7 @@ class ChangingRoom final : public roam::Space {
   [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override { return world_->object(triangle); }
 
   double limit = std::numeric_limits<double>::infinity();  ///< m/s
-  /// Where set, a way down meets a plane with this normal at once, as that of a body in touch with a wall may.
+  /// If set, a downward sweep meets a plane with this normal at once, as it may for a body in contact with a wall.
   std::optional<Vec3> clings;
 
  protected:
@@ -71,7 +71,7 @@ inline Mesh hall() {
   return m;
 }
 
-/// The same with a wall across it at x.
+/// The same with a wall at x across it.
 inline Mesh walled_hall(double x) {
   Mesh m = hall();
   add_wall(m, x, -10.0, x, 10.0, -5.0, 5.0);

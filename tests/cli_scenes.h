@@ -3,8 +3,8 @@
 
 #include <string>
 
-/// A box's six sides seen from inside: 20 m long in x, 4 m wide, 3 m high, its floor at z = 0. Walls are objects of
-/// their own: floor, ceiling, left, right, back (x = 0), front (x = 20).
+/// The six sides of a box seen from inside: 20 m long in x, 4 m wide, 3 m high, its floor at z = 0. Each wall is an
+/// object: floor, ceiling, left, right, back (x = 0), front (x = 20).
 inline std::string room_obj() {
   return "v 0 -2 0\nv 20 -2 0\nv 20 2 0\nv 0 2 0\nv 0 -2 3\nv 20 -2 3\nv 20 2 3\nv 0 2 3\n"
          "o floor\nf 1 2 3 4\no ceiling\nf 5 8 7 6\no right\nf 1 5 6 2\no left\nf 4 3 7 8\n"

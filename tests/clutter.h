@@ -25,14 +25,15 @@ struct Random {
   }
 };
 
-/// What to make: `count` triangles of sizes from `small` to `large` (m) in a box of half side `half` about `centre`.
+/// Parameters of a scene: `count` triangles of sizes from `small` to `large` (m) in a box of half side `half` around
+/// `centre`.
 struct Recipe {
   int count = 600;
   double half = 5.0, small = 0.05, large = 3.0;
   roam::Vec3 centre{0.0};
 };
 
-/// One in three is degenerate: a segment, a point, three corners in a row, a sliver.
+/// One in three triangles is degenerate: a segment, a point, three corners in a row, a sliver.
 inline roam::Mesh make(Random& random, const Recipe& recipe) {
   roam::Mesh mesh;
   mesh.name = "clutter";

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Counts what a test program allocates, and lets one allocation fail: replaces operator new and delete, so one source
-/// file of a program includes it.
+/// Counts a test program's allocations, and lets one of them fail. Replaces operator new and delete, so only one source
+/// file of a program may include it.
 
 #include <atomic>
 #include <cstdlib>
@@ -9,14 +9,14 @@
 
 namespace {
 std::atomic<long> allocations{0};
-/// The number of the one that fails; 0: none.
+/// The number of the failing allocation; 0: none.
 [[maybe_unused]] std::atomic<long> failing_allocation{0};
-/// Those of this thread are not counted, and do not fail.
+/// Allocations of this thread are not counted and do not fail.
 thread_local bool spared = false;
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have an operator new of their own
-// Not inlined: g++ takes malloc and free that it sees through them for a mismatch.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these have an operator new of their own
+// Not inlined: g++ would see malloc and free through them and report a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (!spared && ++allocations == failing_allocation) throw std::bad_alloc();
   if (void* p = std::malloc(size)) return p;

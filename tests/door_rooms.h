@@ -1,11 +1,11 @@
 #pragma once
-/// A room with a door in it, as an OBJ file, for the tests of the command line.
+/// A room with a door, as an OBJ file, for the tests of the command line.
 
 #include <string>
 
 #include "cli_scenes.h"
 
-/// room_obj() with a wall across it at x = 10 that has a door in its middle, 2.1 m high. No width: no door.
+/// room_obj() with a wall across it at x = 10. Its door in the middle is 2.1 m high; width 0: no door.
 inline std::string door_obj(double width) {
   const std::string half = std::to_string(0.5 * width), other = "-" + half;
   std::string text = room_obj();  // 8 vertices

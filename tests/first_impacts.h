@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// First impacts beside the sweeps that they are parts of.
+/// First impacts, compared with the sweeps that they are parts of.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace first_impacts {
 
-/// Spheres, capsules, points and rests, in a box of half side `half` (m).
+/// Spheres, capsules, points, moving and at rest, in a box of half side `half` (m).
 inline std::vector<roam::Query> queries(std::uint64_t seed, double half, int count) {
   clutter::Random random(seed);
   std::vector<roam::Query> all;

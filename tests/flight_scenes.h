@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rooms that are joined by doors, windows, ducts and shafts, for what flies.
+/// Rooms joined by doors, windows, ducts and shafts, for flying bodies.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ struct Hole {
   double u0, u1, v0, v1;
 };
 
-/// A rectangle that spans `u` and `v` from a corner, but for a hole in it, told in metres from the corner.
+/// A rectangle that spans `u` and `v` from a corner, with a hole given in metres from the corner.
 inline void add_pierced(Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v, double width, double height,
                         const std::vector<Hole>& holes) {
   std::vector<double> us{0.0, width}, vs{0.0, height};
@@ -42,7 +42,7 @@ inline void add_pierced(Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec
   }
 }
 
-/// Which sides of a room have holes; those of x are told from its lower y and z, of z from its lower x and y.
+/// The sides of a room with holes. Those of x count from its lower y and z, that of z from its lower x and y.
 struct Holes {
   std::vector<Hole> low_x, high_x, low_z, high_z;
 };
@@ -53,7 +53,7 @@ inline void add_room(Mesh& mesh, const Box& room, const Holes& holes = {}) {
   add_pierced(mesh, lo, x, y, s.x, s.y, holes.low_z);
   add_pierced(mesh, lo, y, z, s.y, s.z, holes.low_x);
   add_pierced(mesh, lo, z, x, s.z, s.x, {});
-  // The other sides look the other way: the corner opposite, and the two directions exchanged.
+  // The other sides face the other way: opposite corner, and the two directions exchanged.
   const auto mirrored = [&](const std::vector<Hole>& of) {
     std::vector<Hole> turned;
     for (const Hole& h : of) turned.push_back({h.v0, h.v1, h.u0, h.u1});
@@ -72,8 +72,8 @@ inline void add_duct(Mesh& mesh, const std::array<Vec3, 4>& from, const std::arr
   }
 }
 
-/// Two rooms of 5 m by 4 m by 3 m, one `rise` metres higher, and a duct `width` m wide and `height` m high (in its
-/// wall) between them, `length` m long seen from above.
+/// Two rooms of 5 m by 4 m by 3 m, one `rise` metres higher, with a duct between them. The duct is `width` m wide,
+/// `height` m high (in its wall), and `length` m long seen from above.
 inline Mesh joined_by_duct(double width, double height, double length, double rise) {
   Mesh m;
   const double half = 0.5 * width, sill = 1.0;
@@ -103,7 +103,7 @@ inline Mesh joined_by_shaft(double side, double length) {
   return m;
 }
 
-/// Two rooms of 5 m by 4 m by 3 m with a wall of 0.2 m between them, and openings in it, told from its corner.
+/// Two rooms of 5 m by 4 m by 3 m with a wall of 0.2 m between them. Its openings are given from its corner.
 inline Mesh joined_by_openings(const std::vector<Hole>& openings) {
   Mesh m;
   add_room(m, {Vec3(-5.1, -2.0, 0.0), Vec3(-0.1, 2.0, 3.0)}, {{}, openings, {}, {}});
@@ -118,7 +118,7 @@ inline Mesh joined_by_openings(const std::vector<Hole>& openings) {
   return m;
 }
 
-/// Open country under the sky, 16 m by 16 m for each of `n` by `n` blocks on it, which are 2 m high and more.
+/// Open country under the sky: 16 m by 16 m for each of `n` by `n` blocks, which are at least 2 m high.
 inline Mesh open_country(int n) {
   Mesh m;
   for (int i = 0; i < 8 * n; ++i) {

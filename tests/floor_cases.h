@@ -16,7 +16,7 @@ namespace floors {
 struct FloorCase {
   std::string name;
   Mesh mesh;
-  std::vector<double> cracks{};      ///< their radii, widest first
+  std::vector<double> cracks{};      ///< radii, widest first
   std::vector<double> steps_down{};  ///< likewise
   bool has_drop = false;             ///< there is an open drop as well
   double tolerance = 2e-5;
@@ -66,11 +66,11 @@ inline void add_holes(std::vector<FloorCase>& cases) {
   cases.push_back({.name = "CrossingSplits",
                    .mesh = holed({strip(4.03, 3.0, 0.5, 0.0), strip(4.0, 3.01, 0.5, 90.0)}),
                    .cracks = {0.25 * std::numbers::sqrt2}});
-  // Of the four corners three lie on a circle that holds no fourth: two sides of 60 degrees, 0.4 / sin 60 long.
+  // Three of the four corners lie on a circle that holds no fourth: two sides of 60 degrees, 0.4 / sin 60 long.
   cases.push_back({.name = "ObliquelyCrossingSplits",
                    .mesh = holed({strip(4.03, 3.0, 0.4, 10.0), strip(4.0, 3.01, 0.4, 70.0)}),
                    .cracks = {0.4 / std::sin(std::numbers::pi / 3.0) / std::numbers::sqrt3}});
-  // Ends at the room's wall, which a body that falls in may just touch: r = (0.4 - r slant) cos as well.
+  // Ends at the room's wall, which a fallen body may just touch: r = (0.4 - r slant) cos here too.
   const double open_slant = 0.3 / short_side, open_cosine = 1.0 / std::hypot(1.0, open_slant);
   cases.push_back({.name = "TaperingSplit",
                    .mesh = holed({{{3.9, 0.0, 0.0}, {4.1, 0.0, 0.0}, {4.4, short_side, 0.0}, {3.6, short_side, 0.0}}}),
@@ -95,7 +95,7 @@ inline void add_holes(std::vector<FloorCase>& cases) {
   });
   enclose(ramp, -3.0, 8.0);
   cases.push_back({.name = "SplitAcrossARamp", .mesh = std::move(ramp), .cracks = {0.25}});
-  // The undersides rise to the rims: an edge that two floors share without one going on where the other ends.
+  // The undersides rise to the rims: two floors share an edge, but neither continues the other.
   Mesh wedges;
   for (const auto& [from, to] : {std::pair{0.0, 3.7}, {long_side, 4.3}}) {
     scenes::add_floor(wedges, from, 0.0, to, short_side, 0.0);
@@ -104,18 +104,18 @@ inline void add_holes(std::vector<FloorCase>& cases) {
   }
   enclose(wedges);
   cases.push_back({.name = "SplitBetweenWedges", .mesh = std::move(wedges), .cracks = {0.3}});
-  // One above the other, each with a bottom below that nobody comes to.
+  // One above the other, each over a bottom that no body reaches.
   Mesh storeys = holed({strip(4.03, 3.0, 0.5, 0.0)}, 8.0);
   Floor(0.0, 0.0, long_side, short_side).without(strip(4.03, 3.0, 0.4, 0.0)).add_to(storeys, 3.0);
   enclose(storeys, -8.0, 6.0);
   cases.push_back({.name = "SplitsInTwoStoreys", .mesh = std::move(storeys), .cracks = {0.25, 0.2}});
-  // A gap along a wall takes in bodies of half its width, as one between two floors does.
+  // A gap along a wall swallows bodies of half its width, like a gap between two floors.
   cases.push_back({.name = "GapAlongAWall", .mesh = holed({rectangle(0.0, 0.0, long_side, 0.5)}), .cracks = {0.25}});
   // A wall rises from the bottom through a hole, nearer to one side.
   Mesh parted = holed({rectangle(3.0, 0.0, 4.0, short_side)});
   scenes::add_wall(parted, 3.4, 0.0, 3.4, short_side, -2.0, 2.0);
   cases.push_back({.name = "WallInAHole", .mesh = std::move(parted), .cracks = {0.3, 0.2}});
-  // A corridor 0.7 m wide: no body as wide as the split gets there, and a foot is to carry those that do.
+  // A corridor 0.7 m wide: no body as wide as the split fits there, but a foot must carry those that do fit.
   Mesh narrow = holed({strip(4.0, 3.0, 1.2, 0.0)});
   for (const double y : {2.7, 3.4}) scenes::add_wall(narrow, 0.0, y, long_side, y, -2.0, 2.0);
   cases.push_back({.name = "SplitInANarrowCorridor",
@@ -195,7 +195,7 @@ inline void add_floors(std::vector<FloorCase>& cases) {
   scenes::add_box(slabs, {5.0, 4.3, -0.15}, {7.0, 5.0, 0.02});
   enclose(slabs);
   cases.push_back({.name = "SlabsThatMeetWithoutSharedCorners", .mesh = std::move(slabs)});
-  // The floor goes on for 3 cm behind a wall; a hole and another floor follow.
+  // The floor continues for 3 cm behind a wall; a hole and another floor follow.
   Mesh behind;
   scenes::add_floor(behind, 0.0, 0.0, 4.03, short_side, 0.0);
   scenes::add_wall(behind, 4.0, 0.0, 4.0, short_side, 0.0, 3.0);
@@ -203,7 +203,7 @@ inline void add_floors(std::vector<FloorCase>& cases) {
   scenes::add_wall(behind, 4.53, 0.0, 4.53, short_side, 0.0, 3.0);
   enclose(behind);
   cases.push_back({.name = "HoleBehindAWall", .mesh = std::move(behind)});
-  // Above the room, where nobody comes, two slabs half a metre apart.
+  // Above the room, out of reach, two slabs half a metre apart.
   Mesh ceiling = holed({});
   scenes::add_box(ceiling, {0.0, 0.0, 2.4}, {4.0, short_side, 2.6});
   scenes::add_box(ceiling, {4.5, 0.0, 2.4}, {long_side, short_side, 2.6});
@@ -231,8 +231,8 @@ inline void add_drops(std::vector<FloorCase>& cases) {
   Mesh end;
   Floor(0.0, 0.0, 4.0, short_side).add_to(end, 0.0);
   cases.push_back({.name = "FloorThatEnds", .mesh = std::move(end), .has_drop = true});
-  // Posts of a porch stand beyond the rim, and their feet are as high: a body of 0.5 m just fits between, but falls off
-  // beside them as well.
+  // Posts of a porch stand beyond the rim, with feet at its height. A body of 0.5 m just fits between them, but also
+  // falls off beside them.
   Mesh porch;
   Floor(0.0, 0.0, 4.0, short_side).add_to(porch, 0.0);
   for (const double y : {1.0, 4.7}) scenes::add_box(porch, {5.03, y, 0.0}, {5.28, y + 0.3, 3.0});
@@ -244,7 +244,7 @@ inline void add_drops(std::vector<FloorCase>& cases) {
                    .mesh = holed({rectangle(2.0, 2.75, 4.6, 3.25), rectangle(4.5, 1.5, 7.5, 4.5)}, 3.0),
                    .cracks = {0.25},
                    .has_drop = true});
-  // The wall's lower edge is free, and floor ends on both sides of it: there a pit, here a gap that takes in bodies.
+  // The wall's lower edge is free, and floor ends on both sides: at a pit there, at a gap here that swallows bodies.
   Mesh beside;
   scenes::add_floor(beside, 0.0, 0.0, 4.0, short_side, 0.0);
   scenes::add_wall(beside, 4.4, 0.0, 4.4, short_side, 0.0, 3.0);
@@ -252,8 +252,8 @@ inline void add_drops(std::vector<FloorCase>& cases) {
   enclose(beside);
   cases.push_back(
       {.name = "GapAlongAWallWithAPitBehind", .mesh = std::move(beside), .cracks = {0.2}, .has_drop = true});
-  // The same with a window 0.3 m wide, through which the gap and the pit are one void. A body leans into it: it
-  // touches both jambs and the rim, (0.4 - r)^2 + 0.15^2 = r^2.
+  // The same with a window 0.3 m wide, which makes the gap and the pit one void. A body leans into it: it touches both
+  // jambs and the rim, (0.4 - r)^2 + 0.15^2 = r^2.
   Mesh window;
   scenes::add_floor(window, 0.0, 0.0, 4.0, short_side, 0.0);
   scenes::add_wall(window, 4.4, 0.0, 4.4, 0.2, 0.0, 3.0);
@@ -303,8 +303,8 @@ inline Mesh split_to_pit(double from, double to) {
   return mesh;
 }
 
-/// A floor x < 3.55 and beside it a gap `length` long that a wall makes 0.6 to 0.9 m wide, with open drop beyond;
-/// `nose` narrower in the last 0.2 m.
+/// A floor x < 3.55, and beside it a gap `length` long, 0.6 to 0.9 m wide to a wall, with an open drop beyond. `nose`
+/// narrower in the last 0.2 m.
 inline Mesh gap_to_drop(double length, double nose) {
   Mesh mesh;
   add_fan(mesh, {{0.0, 0.0, 0.0}, {3.55, 0.0, 0.0}, {3.55, length + 0.8, 0.0}, {0.0, length + 0.8, 0.0}});
@@ -319,13 +319,13 @@ inline Mesh gap_to_drop(double length, double nose) {
 }
 
 inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
-  // As straight as it is long: no climb leaves the part that belongs to the drop, and none comes to it.
+  // As straight as it is long: no climb leaves the part that belongs to the drop, and none reaches that part.
   Mesh gap;
   add_fan(gap, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 9.3, 0.0}, {0.0, 9.3, 0.0}});
   add_walls(gap, {{4.9, 0.0}, {4.9, 9.0}, {9.0, 9.0}});
   add_walls(gap, {{0.0, 0.0}, {9.0, 0.0}, {9.0, 13.0}, {0.0, 13.0}, {0.0, 0.0}});
   cases.push_back({.name = "LongGapAlongAWallToADrop", .mesh = std::move(gap), .cracks = {0.45}, .has_drop = true});
-  // Two floors; the one ends at a pier, beyond which the gap is as wide as 0.9 m, then 0.85 m, then open.
+  // Two floors. One ends at a pier; beyond it the gap is 0.9 m wide, then 0.85 m, then open.
   Mesh pier;
   add_fan(pier, {{0.0, 0.0, 0.0}, {3.55, 0.0, 0.0}, {3.55, 3.6, 0.0}, {0.0, 3.6, 0.0}});
   add_fan(pier, {{0.0, 3.6, 0.0}, {3.575, 3.6, 0.0}, {3.575, 3.8, 0.0}, {0.0, 3.8, 0.0}});
@@ -338,9 +338,8 @@ inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
                    .mesh = gap_to_drop(4.0, 0.025),
                    .cracks = {0.45},
                    .has_drop = true});
-  // What is nearer than r + 1 m to the first open disc that a body of r comes to belongs to the drop: that disc's
-  // centre is 1 m from the floor's corner, and r from the wall's, 0.9 m beside it. Where the drop begins is found to
-  // some centimetres.
+  // Places nearer than r + 1 m to the first open disc of a body of r belong to the drop. That disc's centre is 1 m from
+  // the floor's corner, and r from the wall's, 0.9 m beside it. The border of the drop is found to some centimetres.
   const auto widest_before_drop = [](double length) {
     const double slope = 0.3 / length, cosine = 1.0 / std::hypot(1.0, slope), mouth = length + 0.8;
     double r = 0.45;
@@ -359,7 +358,8 @@ inline void add_cracks_to_drops(std::vector<FloorCase>& cases) {
                      .has_drop = true,
                      .tolerance = 0.003});
   // The floor of a corridor ends 0.8 m before a bend, beyond which it opens into a pit. The widest bodies touch both
-  // outer walls and the inner corner, 2 (0.4 - r)^2 = r^2: farther from floor than walls let anybody be wide.
+  // outer walls and the inner corner, 2 (0.4 - r)^2 = r^2. They are farther from floor than the walls let a body be
+  // wide.
   Mesh bend;
   add_fan(bend, {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {4.0, 0.4, 0.0}, {0.0, 0.4, 0.0}});
   add_walls(bend, {{0.0, 0.4}, {4.4, 0.4}, {4.4, 1.3}, {1.4, 1.3}, {1.4, 6.3}, {7.8, 6.3}, {7.8, 1.3}});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Floor that is looked for by brute force, to judge Space::floor_clearance by, whatever space answers.
+/// Finds floor by brute force, to judge Space::floor_clearance of any space.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using roam::Triangle;
 using roam::Vec3;
 
 constexpr double slope_limit = 40.0;  // degrees
-/// No triangle of the scenes is this near to the limit, degrees: what storing may turn it by.
+/// No triangle of the scenes is this near to the limit, degrees, because storing may turn it.
 constexpr double undecided = 2.0;
 
 inline double slope_degrees(const Triangle& t) {
@@ -58,7 +58,7 @@ inline roam::Mesh scene(clutter::Random& random, const Vec3& centre, int count) 
   return mesh;
 }
 
-/// The distance of the resting body's axis to the floor, in long double; `far` where there is none.
+/// The distance of the resting body's axis to the floor, in long double; `far` if there is none.
 inline double distance(std::span<const Triangle> triangles, const Body& body, const Vec3& place, const Floor& floor,
                        double far) {
   using Point = oracle::Point<long double>;
@@ -94,7 +94,7 @@ inline double distance(std::span<const Triangle> triangles, const Body& body, co
   return static_cast<double>(least);
 }
 
-/// Asks `space`, which stores to `error` (m), at many places; every answer is what brute force says, to 2 mm.
+/// Queries `space`, which stores to `error` (m), at many places. Every result must agree with brute force to 2 mm.
 inline void judge(const roam::Space& space, std::span<const Triangle> triangles, const Vec3& centre, double error,
                   int queries, std::uint64_t seed) {
   clutter::Random random(seed);
@@ -107,7 +107,7 @@ inline void judge(const roam::Space& space, std::span<const Triangle> triangles,
     const double reach = random.between(0.1, 2.0);
     Floor floor;
     floor.slope_degrees = slope_limit;
-    // Which part lies in a band is decided by what is stored.
+    // The stored triangles decide which part lies in a band.
     double wider = 0.0;
     if (i % 3 != 0) {
       floor.band = random.between(0.0, 0.6);
@@ -123,7 +123,7 @@ inline void judge(const roam::Space& space, std::span<const Triangle> triangles,
     const double most = distance(triangles, body, place, narrow, 99.0) - body.radius;
     const double least = distance(triangles, body, place, wide, 99.0) - body.radius;
     ASSERT_LE(c.distance, std::max(most, -body.radius) + 1e-6);
-    // Where the axis itself meets a triangle brute force cannot tell how deep.
+    // If the axis meets a triangle, brute force does not know the depth.
     if (least > -body.radius + 1e-3) {
       ASSERT_GE(c.distance, std::min(least, reach) - 2.1e-3);
     }

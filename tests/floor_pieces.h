@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Floors with holes: convex pieces in the plan from which convex pieces are taken away.
+/// Floors with holes: convex pieces in the plan, minus convex pieces.
 
 #include <cmath>
 #include <functional>
@@ -14,14 +14,14 @@ namespace floors {
 using roam::Mesh;
 using roam::Vec3;
 
-/// Convex, counter-clockwise seen from above; z means nothing.
+/// Convex, counter-clockwise seen from above; z is ignored.
 using Piece = std::vector<Vec3>;
 
 inline double side(const Vec3& a, const Vec3& b, const Vec3& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// What of a piece lies left (sign 1) or right (-1) of the line from a to b.
+/// The part of a piece to the left (sign 1) or right (-1) of the line from a to b.
 inline Piece half(const Piece& piece, const Vec3& a, const Vec3& b, double sign) {
   Piece part;
   for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -45,8 +45,8 @@ inline Piece rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
-/// A straight strip through a place, `width` wide and far longer than any scene; `turn`: of its direction from +y, in
-/// degrees counter-clockwise.
+/// A straight strip through a place, `width` wide and far longer than any scene. `turn`: angle of its direction from
+/// +y, in degrees counter-clockwise.
 inline Piece strip(double x, double y, double width, double turn) {
   const double a = turn * std::numbers::pi / 180.0, half_width = 0.5 * width, half_length = 20.0;
   const Vec3 across(std::cos(a), std::sin(a), 0.0), along(-std::sin(a), std::cos(a), 0.0), at(x, y, 0.0);
@@ -92,7 +92,7 @@ class Floor {
     return *this;
   }
 
-  /// Into `mesh`, at the heights that `height` says.
+  /// Adds the floor to `mesh`, at the heights that `height` returns.
   void add_to(Mesh& mesh, const std::function<double(double, double)>& height) const {
     const auto lifted = [&](const Vec3& p) { return Vec3(p.x, p.y, height(p.x, p.y)); };
     for (const Piece& p : pieces_) {
@@ -106,7 +106,7 @@ class Floor {
 
  private:
   static void keep(std::vector<Piece>& pieces, const Piece& piece) {
-    constexpr double nothing = 1e-12;  // m^2: what rounding leaves along a cut
+    constexpr double nothing = 1e-12;  // m^2: the remains of rounding along a cut
     if (area(piece) > nothing) pieces.push_back(piece);
   }
 

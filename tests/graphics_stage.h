@@ -1,5 +1,5 @@
 #pragma once
-// A scene that is drawn without a screen, and its pixels.
+// Draws a scene without a screen, and reads its pixels.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ inline Pixel at(const osg::Image& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-/// How many pixels differ by more than `tolerance` levels in all.
+/// The number of pixels that differ by more than `tolerance` levels in total.
 inline int differing(const osg::Image& a, const osg::Image& b, int tolerance = 0) {
   int count = 0;
   for (int y = 0; y < a.t(); ++y) {
@@ -68,7 +68,7 @@ inline osg::ref_ptr<osg::Geometry> paint(osg::ref_ptr<osg::Geometry> geometry, c
   return geometry;
 }
 
-/// Makes of geometries what the scene group wants: white and without normals where they do not say otherwise.
+/// Prepares geometries for the scene group: white and without normals, unless they have their own.
 struct Completion : osg::NodeVisitor {
   Completion() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
   void apply(osg::Geometry& geometry) override {
@@ -86,7 +86,7 @@ struct Completion : osg::NodeVisitor {
   }
 };
 
-/// What a viewer has, without a screen. Nothing is smoothed unless wished, so that pixels are what they are.
+/// A viewer without a screen. By default nothing is smoothed, so that pixels are exact.
 struct Stage {
   explicit Stage(int width = 320, int height = 180, const graphics::FrameSettings& settings = {.samples = 1},
                  graphics::Headless how = graphics::Headless::any)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bodies that pass a triangle as closely as their radius says: at its face, at an edge or at a corner.
+/// Bodies that pass a triangle at the distance of their radius: at its face, an edge or a corner.
 
 #include <cmath>
 
@@ -21,12 +21,13 @@ struct Graze {
   double time;
 };
 
-/// A motion of `way` metres that passes a triangle with some area at a distance of radius - depth (m), at `time`.
+/// A motion of `way` metres that passes a triangle, which is not degenerate, at a distance of radius - depth (m), at
+/// `time`.
 inline Graze graze(Random& random, const roam::Triangle& t, const roam::Body& body, double depth, double way) {
   using roam::Vec3;
   const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
   const double u = random.unit(), v = random.unit() * (1.0 - u);
-  // A face, an edge or a corner, and a direction from which it is the closest.
+  // A face, an edge or a corner, and a direction from which it is the nearest part.
   const int kind = static_cast<int>(random.engine() % 3);
   Vec3 point, away;
   if (kind == 0) {
@@ -40,7 +41,7 @@ inline Graze graze(Random& random, const roam::Triangle& t, const roam::Body& bo
     away = -((t[1] - t[0]) / length(t[1] - t[0]) + (t[2] - t[0]) / length(t[2] - t[0]));
   }
   away = away / length(away);
-  // The end of the axis that faces the point is the sphere that grazes.
+  // The sphere at the axis's end that faces the point grazes it.
   const Vec3 axis(0.0, 0.0, away.z >= 0.0 ? body.half_height : -body.half_height);
   const Vec3 centre = point + away * (body.radius - depth) + axis;
   Graze g;

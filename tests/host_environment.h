@@ -31,7 +31,7 @@ inline std::vector<Environment> environments() {
   return all;
 }
 
-/// All that can be set, and not the flags.
+/// All settings, without the exception flags.
 inline std::vector<long> control() {
   std::vector<long> all{std::fegetround(), fegetexcept()};
 #if defined(__SSE2__)
@@ -45,7 +45,7 @@ inline std::vector<long> control() {
   return all;
 }
 
-/// Sets an environment for its life. Nothing but calls of the library may stand in it: a trapped rounding is a signal.
+/// Sets an environment for its lifetime. Only call the library meanwhile: a trapped rounding is a signal.
 class Set {
  public:
   explicit Set(const Environment& environment) {

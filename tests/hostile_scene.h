@@ -1,6 +1,6 @@
 #pragma once
-/// A folder with everything by which an OpenSceneGraph scene has run code of its author: each way leaves a file whose
-/// name begins with "PWNED" when it succeeds.
+/// A folder with every known way in which an OpenSceneGraph scene has run code of its author. Each way that succeeds
+/// leaves a file whose name begins with "PWNED".
 
 #include <filesystem>
 #include <map>
@@ -23,23 +23,23 @@ inline std::string hostile_group(const std::vector<std::string>& children) {
   return text + "}\n";
 }
 
-/// A node that stands for another file.
+/// A node that refers to another file.
 inline std::string proxy_of(const std::string& file) {
   return "ProxyNode {\nCenter 0 0 0\nRadius 10\nFileNameList 1 {\n\"" + file + "\"\n}\nnum_children 0\n}\n";
 }
 
-/// A triangle that a file takes the place of when the eye is near.
+/// A triangle that a file replaces when the eye is near.
 inline std::string page_of(const std::string& file) {
   return "PagedLOD {\nCenter 0 0 0\nRadius 30\nRangeList 2 {\n1e+9 1e+10\n0 1e+9\n}\nFileNameList 2 {\n\"\"\n\"" +
          file + "\"\n}\nnum_children 1\n" + hostile_triangle("0") + "}\n";
 }
 
-/// Names that a scene may refer to, and what each would do.
+/// Names that a scene may refer to, and the effect of each.
 inline std::vector<std::string> hostile_names() {
   return {"evil.lua", "x;touch PWNED-by-tgz;.tgz", "x;touch PWNED-by-zip;.zip", "a.xyz", "a.osg.xyz.curl"};
 }
 
-/// Writes what the names lead to, and libraries where OpenSceneGraph has looked for them.
+/// Writes the targets of these names, and libraries in the places where OpenSceneGraph has searched for them.
 inline void write_bait(const std::string& folder, const std::string& library) {
   namespace fs = std::filesystem;
   const auto write = [&](const std::string& name, const std::string& text) {
@@ -56,7 +56,7 @@ inline void write_bait(const std::string& folder, const std::string& library) {
   }
 }
 
-/// What a hostile scene has left behind below a folder.
+/// The files that a hostile scene has left below a folder.
 inline std::vector<std::string> marks_in(const std::string& folder) {
   std::vector<std::string> marks;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -66,7 +66,7 @@ inline std::vector<std::string> marks_in(const std::string& folder) {
   return marks;
 }
 
-/// A word of a shell.
+/// A word, quoted for a shell.
 inline std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 /// A system call that `strace -f` saw.

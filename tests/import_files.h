@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files that a test writes, imports and throws away, and the scenes of the folder of test data.
+/// Files that a test writes, imports and removes, and the scenes in the folder of test data.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@
 
 namespace roam::test {
 
-/// A folder of its own, removed with all that is in it.
+/// A folder of its own, removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -33,14 +33,14 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// Writes a file, and the folders it lies in; returns its path.
+  /// Writes a file and the folders above it. Returns its path.
   std::filesystem::path write(const std::string& name, std::string_view content) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
     return file;
   }
-  /// Writes a program that the shell runs.
+  /// Writes a shell script.
   std::filesystem::path write_script(const std::string& name, const std::string& commands) const {
     const std::filesystem::path file = write(name, "#!/bin/sh\n" + commands);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
@@ -52,7 +52,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Whichever thread started them.
+/// Child processes of this process, whichever thread started them.
 inline std::vector<pid_t> children_of_this_process() {
   std::vector<pid_t> all;
   for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -79,7 +79,7 @@ inline Box bounds_of(const ImportedScene& scene) {
   return box;
 }
 
-/// The message of the Error that importing throws; empty when it throws none.
+/// The message of the Error that importing throws; empty if it throws none.
 inline std::string import_error(const std::filesystem::path& path, const ImportOptions& options = {}) {
   try {
     const ImportedScene scene = import_scene(path, options);
@@ -91,7 +91,7 @@ inline std::string import_error(const std::filesystem::path& path, const ImportO
 
 inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-/// Whether one of the report's sentences has this part.
+/// Whether one of the report's sentences contains this text.
 inline bool notes_contain(const ImportedScene& scene, std::string_view part) {
   for (const std::string& note : scene.report.notes) {
     if (contains(note, part)) return true;
@@ -107,7 +107,7 @@ std::string bytes_of(T value, bool big_endian = false) {
   return big_endian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
 }
 
-/// Where the scenes for tests are; empty when they are not there.
+/// The folder of the test scenes; empty if there is none.
 inline std::filesystem::path test_data() {
   const char* named = std::getenv("ROAM_TEST_DATA");
   const std::filesystem::path folder =
@@ -119,6 +119,6 @@ inline std::filesystem::path test_data() {
 
 }  // namespace roam::test
 
-/// Skips the test, by name, where there are no scenes to test on.
+/// Skips the test, by name, if there are no scenes.
 #define ROAM_NEEDS_TEST_DATA() \
   if (roam::test::test_data().empty()) GTEST_SKIP() << "set ROAM_TEST_DATA to the folder of test scenes"

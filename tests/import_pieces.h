@@ -1,5 +1,5 @@
 #pragma once
-// A scene taken in pieces, beside the same scene taken at once.
+// A scene imported in pieces, compared with the same scene imported at once.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace roam::test {
 
-/// What a sink was given, put together again.
+/// The reassembled input of a sink.
 struct Pieces {
   std::vector<std::string> names;   ///< of each object
   std::vector<std::size_t> counts;  ///< triangles of each object
@@ -45,7 +45,7 @@ struct Pieces {
   }
 };
 
-/// Without the vertices, which pieces have more of.
+/// Without the vertices: the pieces have more.
 inline void expect_same_report(const ImportReport& a, const ImportReport& b) {
   EXPECT_EQ(a.files, b.files);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -74,7 +74,7 @@ inline bool same_bits(const std::vector<Triangle>& a, const std::vector<Triangle
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Triangle)) == 0);
 }
 
-/// Expects that the pieces of these paths are what import_scene gives of them; returns how many vertices they have.
+/// Expects that the pieces of these paths add up to the result of import_scene. Returns their number of vertices.
 inline std::uint64_t expect_streams_as_imported(const std::vector<std::filesystem::path>& paths,
                                                 const ImportOptions& options = {}) {
   const ImportedScene scene = import_scene(paths, options);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a space promises of sweeps and gaps, judged by brute force over the triangles around the body.
+/// The promises of a space about sweeps and gaps, judged by brute force over the triangles around the body.
 
 #include <gtest/gtest.h>
 
@@ -17,24 +17,24 @@ using roam::Body;
 using roam::Mesh;
 using roam::Vec3;
 
-/// Metres: a body is never nearer than its radius by more than this, and never stopped farther off.
+/// Metres: a body is never nearer than its radius by more than this, and never stopped farther off than this.
 constexpr double nearest_allowed = 1e-6;
 constexpr double farthest_off = 2e-3;
 constexpr double farthest_lossless = 1e-5;
 
-/// Metres. An arrival is accepted up to 20 um before the body touches, and twice the rounding error of its frame
-/// (docs/algorithm.md). What of that is used depends on where the arrival is looked for from, and so on the order in
-/// which tiles are visited: another where the tree over them is divided into pages, or where a search begins below it.
+/// Metres. An arrival is accepted up to 20 um before contact, plus twice the rounding error of its frame
+/// (docs/algorithm.md). The used part depends on the start of the search, and so on the order of tiles. That order
+/// changes with the division of the tree into pages, and with searches that begin below its root.
 constexpr double arrival_tolerance = 2.5e-5;
 
-/// The same along the way: the flatter it meets, the more.
+/// The same along the motion: the flatter the contact, the larger.
 inline double along(const Vec3& way, const roam::Impact& impact) {
   const double length = glm::length(way);
   const double steep = impact.hit && length > 0.0 ? std::abs(glm::dot(impact.normal, way)) / length : 0.0;
   return arrival_tolerance / std::max(0.01, steep);
 }
 
-/// Judges Space::gap where the body's surface comes as near as `gap` (m).
+/// Judges Space::gap if the body's surface comes as near as `gap` (m).
 inline void judge_gap(double bound, double gap, const Body& body, double reach) {
   if (gap > -body.radius) {
     ASSERT_LE(bound, std::max(gap, 0.0) + nearest_allowed);
@@ -46,7 +46,7 @@ inline void judge_gap(double bound, double gap, const Body& body, double reach) 
   }
 }
 
-/// Least distances of the axis, as scenes::Judge has them; fast for one that is asked again from nearly the same place.
+/// Least distances of the axis, as in scenes::Judge. Fast for repeated queries from nearly the same place.
 class NearJudge {
  public:
   explicit NearJudge(const Mesh& mesh) : mesh_(&mesh) {}
@@ -57,7 +57,7 @@ class NearJudge {
   }
 
  private:
-  /// Metres. How far the body may go until the triangles around it are looked for again.
+  /// Metres. How far the body may move before the nearby triangles are collected again.
   static constexpr double spare_room = 0.5;
 
   void look(const Vec3& at, double reach) {
@@ -86,7 +86,7 @@ class NearJudge {
   double half_ = 0.0;
 };
 
-/// Judges a sweep: it is never late, and of a hit something is within the radius and `farthest` (m).
+/// Judges a sweep: it is never late, and at a hit some triangle is within the radius and `farthest` (m).
 inline void judge_sweep(const roam::Impact& s, const Body& body, const Vec3& from, const Vec3& motion, double farthest,
                         NearJudge& judge) {
   const double enough = body.radius + 0.01;

@@ -1,5 +1,5 @@
 #pragma once
-/// What something costs in memory while it is done.
+/// The memory that some work needs at its peak.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,14 +21,14 @@ inline std::uint64_t status_kilobytes(const char* field) {
   return 0;
 }
 
-/// By how many MiB the process was larger, at most, than before, while it did something; and what that said.
+/// The growth of the process at its peak, in MiB, and the message of the roam::Error thrown, if any.
 struct Cost {
   std::uint64_t mebibytes = 0;
   std::string said;
 };
 template <class Work>
 Cost cost_of(Work&& work) {
-  std::ofstream("/proc/self/clear_refs") << 5;  // the highest is the present
+  std::ofstream("/proc/self/clear_refs") << 5;  // sets the peak to the present
   const std::uint64_t before = status_kilobytes("VmRSS");
   Cost cost;
   try {

@@ -1,12 +1,12 @@
 #pragma once
-/// What a program or a function says, for the tests of its words.
+/// Output and errors of a program or a function, for tests of their wording.
 
 #include <stdexcept>
 #include <string>
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What is thrown; empty when nothing is.
+/// The message of the exception thrown; empty if there is none.
 template <class Run>
 std::string error_of(const Run& run) {
   try {

@@ -26,7 +26,7 @@ using roam::WalkerSettings;
 
 constexpr double dt = 1.0 / 60.0;
 
-/// Where a body was some seconds after a call began; `height` and `radius` as they were then.
+/// A body's position some seconds after a call began, with its `height` and `radius` at that time.
 struct At {
   Vec3 place;
   double height, radius;
@@ -48,12 +48,12 @@ inline At at_time(const roam::StepReport& r, double time) {
   return at;
 }
 
-/// A scene that moves, the bodies in it, and the judge of both.
+/// A moving scene, the bodies in it, and a judge of both.
 struct Stage {
   Scene scene;
   std::vector<std::unique_ptr<Walker>> walkers;
   std::vector<Walker*> list;
-  int samples = 8;  ///< instants of each movement that are judged
+  int samples = 8;  ///< judged instants of each movement
 
   explicit Stage(Mesh still) : scene(std::move(still)) {}
 
@@ -64,7 +64,7 @@ struct Stage {
     return *walkers.back();
   }
 
-  /// The triangles as they are after a part of a movement.
+  /// The triangles after a part of a movement.
   [[nodiscard]] Mesh posed(const std::vector<Pose>& from, double part) const {
     Mesh all = scene.still;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
@@ -76,7 +76,7 @@ struct Stage {
     return all;
   }
 
-  /// Moves the instances. Judges every body at many instants where one instance alone moves.
+  /// Moves the instances. Judges every body at many instants if only one instance moves.
   std::vector<Stopped> advance(double seconds = dt) {
     std::vector<Pose> poses;
     int moving = 0;
@@ -128,7 +128,7 @@ inline Mesh ground() {
   return m;
 }
 
-/// A plate of 4 m by 4 m and 0.2 m, its top at 0, about its origin.
+/// A plate of 4 m by 4 m and 0.2 m around its origin, its top at 0.
 inline Mesh plate() {
   Mesh m;
   scenes::add_box(m, {-2.0, -2.0, -0.2}, {2.0, 2.0, 0.0});

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Brute-force distances in higher precision, to judge every faster answer by.
+/// Brute-force distances in higher precision, to judge faster results.
 ///
-/// Nothing here is shared with the library: no supporting planes, no advance, no early way out. A body at rest is its
-/// axis, a point or a segment; a moving body is the segment or parallelogram that its axis sweeps. The distance of two
-/// flat convex polygons is the least of all vertex-polygon, edge-edge and edge-polygon distances (the last is 0). All
-/// candidates are tried; each is the distance of two points of the polygons, so a wrong branch can only make the answer
+/// Shares nothing with the library: no supporting planes, no advance, no early return. A body at rest is its axis, a
+/// point or a segment. A moving body is the segment or parallelogram that its axis sweeps. The distance of two flat
+/// convex polygons is the least of all vertex-polygon, edge-edge and edge-polygon distances (the last is 0). All
+/// candidates are tried. Each is the distance of two points of the polygons, so a wrong branch can only make the result
 /// too large, never too small.
 ///
 /// `Real` is long double (64-bit mantissa on x86, error about 1e-17 m at a reach of 100 m; 0.4 us for a sphere) or
@@ -39,7 +39,7 @@ inline long double root(long double x) { return std::sqrt(x); }
 /// Two Newton steps from the 64-bit root; exact to the last digits of 113 bits.
 inline Quad root(Quad x) {
   if (!(x > 0)) return 0;
-  // Far below what a long double can hold only the distance 0 is of interest.
+  // Far below the range of a long double only the distance 0 matters.
   Quad y = std::sqrt(static_cast<long double>(x));
   if (!(y > 0)) return 0;
   for (int step = 0; step < 2; ++step) y = (y + x / y) / 2;
@@ -90,7 +90,7 @@ Real squared_distance(const Point<Real>& p, const Point<Real>& a, const Point<Re
   return dot(x, x);
 }
 
-/// Foot of `p` on the plane of the triangle, where it falls inside; edges are left to others.
+/// The foot of `p` on the triangle's plane if it falls inside; the edges have their own functions.
 template <class Real>
 void lessen_by_foot(const Point<Real>& p, const Point<Real>& a, const Point<Real>& b, const Point<Real>& c,
                     Real& least) {
@@ -123,13 +123,13 @@ void lessen_by_edges(const Polygon<Real>& a, const Polygon<Real>& b, Real& least
       if (!(nn > 0)) continue;
       const Real s = dot(cross(r, e), n) / nn;
       if (s < 0 || s > 1) continue;
-      // Nearly parallel edges leave s inexact, but the distance only by the square of that.
+      // Nearly parallel edges make s inexact, but change the distance only by its square.
       take_less(least, squared_distance(a.corner[i] + s * d, b.corner[j], b.next(j)));
     }
   }
 }
 
-/// Where the segment crosses the plane of the triangle, if that is inside: 0, but for rounding.
+/// The point where the segment crosses the triangle's plane, if it is inside: distance 0, except for rounding.
 template <class Real>
 void lessen_by_piercing(const Point<Real>& p, const Point<Real>& q, const Point<Real>& a, const Point<Real>& b,
                         const Point<Real>& c, Real& least) {
@@ -176,7 +176,7 @@ Polygon<Real> at_origin(const roam::Triangle& t) {
   return {3, {a - a, widen<Real>(t[1]) - a, widen<Real>(t[2]) - a, {}}};
 }
 
-/// Distance of the axis of `body` at `place` to the triangle, in metres; 0, but for rounding, when they meet.
+/// Distance of the axis of `body` at `place` to the triangle, in metres; 0, except for rounding, if they meet.
 template <class Real = long double>
 Real distance(const roam::Body& body, const roam::Vec3& place, const roam::Triangle& triangle) {
   const Point<Real> c = widen<Real>(place) - widen<Real>(triangle[0]), h{0, 0, Real(body.half_height)};
@@ -185,7 +185,7 @@ Real distance(const roam::Body& body, const roam::Vec3& place, const roam::Trian
   return distance(axis, at_origin<Real>(triangle));
 }
 
-/// The same where the axis is at from + t * motion, which need not be a double.
+/// The same for the axis at from + t * motion, which need not be a double.
 template <class Real = long double>
 Real distance_on_the_way(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, double t,
                          const roam::Triangle& triangle) {
@@ -196,8 +196,8 @@ Real distance_on_the_way(const roam::Body& body, const roam::Vec3& from, const r
   return distance(axis, at_origin<Real>(triangle));
 }
 
-/// Least distance of the axis to the triangle over [0, t] of the motion, in metres; 0, but for rounding, when they meet
-/// on the way.
+/// Least distance of the axis to the triangle over [0, t] of the motion, in metres; 0, except for rounding, if they
+/// meet on the way.
 template <class Real = long double>
 Real least_distance(const roam::Body& body, const roam::Vec3& from, const roam::Vec3& motion, double t,
                     const roam::Triangle& triangle) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Random scene graphs that say themselves, without OpenSceneGraph's help, which triangles they hold.
+/// Random scene graphs that list their triangles themselves, without OpenSceneGraph's help.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ using roam::Vec3;
 inline osg::Vec3d to_osg(const Vec3& v) { return {v.x, v.y, v.z}; }
 inline Vec3 to_roam(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// A row vector times a matrix, with more digits than anybody else takes.
+/// A row vector times a matrix, in the highest precision of all.
 inline Vec3 placed(const osg::Vec3d& v, const osg::Matrixd& m) {
   Vec3 p;
   for (int k = 0; k < 3; ++k) {
@@ -39,12 +39,12 @@ struct Graph {
   std::vector<Triangle> triangles;  ///< in the frame of the scene
 };
 
-/// What to make: geometries of a few primitives each, within `half` of `centre`.
+/// Parameters of a graph: geometries of a few primitives each, within `half` of `centre`.
 struct Recipe {
   Vec3 centre{0.0};
   double half = 5.0;
   int geometries = 8;
-  bool kd_tree_friendly = false;  ///< floats, no primitives with equal corners, enough of them
+  bool kd_tree_friendly = false;  ///< floats, enough primitives, none with equal corners
 };
 
 class Maker {
@@ -80,7 +80,7 @@ class Maker {
       case 4:
         return osg::Matrixd::scale(random_.between(0.1, 4.0), random_.between(0.1, 4.0) * sign(),
                                    random_.between(0.1, 4.0));
-      case 5: {  // shear and all
+      case 5: {  // including shear
         osg::Matrixd m;
         for (int i = 0; i < 3; ++i) {
           for (int j = 0; j < 3; ++j) m(i, j) = random_.between(-1.5, 1.5);
@@ -132,7 +132,7 @@ class Maker {
     }
   }
 
-  /// What nobody who stands near sees.
+  /// Geometry that is invisible from nearby.
   osg::ref_ptr<osg::Node> coarse() {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
@@ -236,7 +236,7 @@ class Maker {
       if (mode == GL_TRIANGLE_STRIP && i >= 2) add(i - 2, i - 1, i);
       if ((mode == GL_TRIANGLE_FAN || mode == GL_POLYGON) && i >= 2) add(0, i - 1, i);
       if (mode == GL_QUADS && fourth) add(i - 3, i - 2, i - 1), add(i - 3, i - 1, i);
-      // A strip's quad goes around by its corners 0, 1, 3, 2.
+      // A quad of a strip has its corners in the order 0, 1, 3, 2.
       if (mode == GL_QUAD_STRIP && i >= 3 && odd) add(i - 3, i - 2, i), add(i - 3, i, i - 1);
     }
   }
@@ -249,7 +249,7 @@ class Maker {
 /// The least distance of a body's axis to the triangles over [0, time] of its motion.
 inline double least_distance(const std::vector<Triangle>& triangles, const roam::Body& body, const Vec3& from,
                              const Vec3& motion, double time) {
-  constexpr double far = 3.0;  // nobody here asks for more
+  constexpr double far = 3.0;  // larger than all queries here
   double least = far;
   for (const Triangle& t : triangles) {
     bool apart = false;

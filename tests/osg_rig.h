@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A manipulator without a window: events are made by osgGA's own queue and handed to it as a viewer would.
+/// A manipulator without a window. osgGA's own queue makes the events, which are passed on as a viewer would do.
 
 #include <osg/Camera>
 #include <osgGA/EventQueue>
@@ -12,7 +12,7 @@ namespace rig {
 
 using Adapter = osgGA::GUIEventAdapter;
 
-/// Notes what is asked of a viewer.
+/// Records the requests to a viewer.
 struct Viewer : osgGA::GUIActionAdapter {
   void requestRedraw() override { ++redraws; }
   void requestContinuousUpdate(bool needed) override { continuous = needed; }
@@ -31,7 +31,7 @@ struct Rig {
   osg::ref_ptr<osgGA::EventQueue> queue = new osgGA::EventQueue(Adapter::Y_INCREASING_DOWNWARDS);
   Viewer viewer;
   double time = 100.0;
-  bool taken = false;  ///< what handle() answered to the last event
+  bool taken = false;  ///< result of handle() for the last event
 
   Rig() {
     queue->getCurrentEventState()->setWindowRectangle(0, 0, 800, 600);
@@ -50,7 +50,7 @@ struct Rig {
   osgRoam::Manipulator& operator*() const { return *manipulator; }
   osgRoam::Manipulator* operator->() const { return manipulator.get(); }
 
-  /// Hands over what is in the queue.
+  /// Passes the queued events on.
   void deliver(osgGA::GUIActionAdapter& to, osgGA::CameraManipulator& receiver) {
     osgGA::EventQueue::Events events;
     queue->takeEvents(events);
@@ -105,7 +105,7 @@ struct Rig {
   }
 };
 
-/// Where the eye of a camera is and where it looks, in the graph's frame.
+/// The eye of a camera and its viewing direction, in the graph's frame.
 inline osg::Vec3d eye_of(const osg::Matrixd& camera) { return camera.getTrans(); }
 inline osg::Vec3d look_of(const osg::Matrixd& camera) {
   return osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), camera);

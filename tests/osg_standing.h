@@ -1,5 +1,5 @@
 #pragma once
-/// Somebody who stands on a plain, for the tests of keys and of time.
+/// A person who stands on a plain, for the tests of keys and of time.
 
 #include "osg_rig.h"
 
@@ -12,7 +12,7 @@ inline scenes::Mesh plain() {
   return m;
 }
 
-/// Somebody who stands at the origin of a plain and looks along +x.
+/// A person at the origin of a plain who looks along +x.
 struct Standing : Rig {
   explicit Standing(roam::Mode mode = roam::Mode::walk) : Rig(plain(), {}, mode) {
     manipulator->setFeet({0.0, 0.0, mode == roam::Mode::walk ? 0.0 : 5.0}, 0.0, 0.0);

@@ -38,10 +38,10 @@ class PagedFiles : public testing::Test {
 
   void write(const std::string& name, osg::Node& node) { ASSERT_TRUE(osgDB::writeNodeFile(node, path(name))); }
 
-  /// As a pager does.
+  /// Reads a file as a pager does.
   bool read(const std::string& name) { return osgDB::readRefNodeFile(path(name)) != nullptr; }
 
-  /// What a ball that falls from 50 m meets, and its height there: "coarse 1", "? 8", "nothing".
+  /// The surface that a ball meets when it falls from 50 m, with its height: "coarse 1", "? 8", "nothing".
   std::string below(double x, double y = 0.0) {
     space_->update({.radius = 0.25}, {1e6, 1e6, 1e6});
     const Vec3 from{x, y, 50.0}, motion{0.0, 0.0, -100.0};
@@ -69,7 +69,7 @@ inline osg::ref_ptr<osg::Geometry> slab(double x, double z, const std::string& n
   return geometry;
 }
 
-/// A tile that a file refines; its sphere reaches up to 8 m.
+/// A tile that a file refines. Its sphere reaches up to 8 m.
 inline osg::ref_ptr<osg::PagedLOD> tile(double x, const osg::ref_ptr<osg::Node>& coarse, const std::string& file) {
   osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);

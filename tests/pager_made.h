@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the tests of the pager share: loading all of a store, and bytes that are slow, wrong or not there.
+/// Shared by the tests of the pager: loading all of a store, and files that are slow, wrong or missing.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 
 namespace made {
 
-/// Updates until `done`, half a minute at most; whether it is.
+/// Updates until `done`, at most half a minute. Returns whether it is done.
 template <class Done>
 bool update_until(roam::Pager& pager, const roam::Body& body, const roam::Vec3& place, const Done& done,
                   const roam::Vec3& velocity = roam::Vec3(0.0)) {
@@ -30,25 +30,25 @@ bool update_until(roam::Pager& pager, const roam::Body& body, const roam::Vec3& 
   return false;
 }
 
-/// Loads everything; there must be room.
+/// Loads everything; memory must suffice.
 inline void load_all(roam::Pager& pager) {
   const auto tiles = pager.store().info().tiles;
   ASSERT_TRUE(update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] { return pager.stats().tiles == tiles; }));
 }
 
-/// The files of a store, with all that may be the matter with them.
+/// The files of a store, with adjustable faults.
 class TroubledBytes : public roam::StoreBytes {
  public:
   explicit TroubledBytes(const std::filesystem::path& folder) : files_(roam::store::files_of(folder)) {}
 
-  /// Of every thousand reads of packs: how many fail, come short, have a bit flipped.
+  /// How many of every thousand reads of packs fail, are too short, or have a flipped bit.
   std::atomic<int> errors{0}, short_reads{0}, flips{0};
   std::atomic<int> delay_us{0};
   std::atomic<std::uint64_t> reads{0};
-  /// Where reads begin that have no trouble. To be set before anything is read.
+  /// Offsets of reads without faults. Set it before the first read.
   std::set<std::uint64_t> spared;
 
-  /// From now on reads wait until they are let go.
+  /// From now on reads wait until they are released.
   void hold() {
     const std::lock_guard lock(mutex_);
     held_ = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// Boards over a square, that the tests of patchworks put into one, and a ball that falls on them.
+/// Boards over a square, for the tests of patchworks, and a falling ball.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ inline World board(double z, const char* name = "board") {
   return scenes::build(m);
 }
 
-/// Half of it: the left one, or the right one.
+/// The left or the right half of it.
 inline World half_board(double z, bool right) {
   Mesh m;
   m.name = right ? "right" : "left";
@@ -37,7 +37,8 @@ inline World half_board(double z, bool right) {
   return scenes::build(m);
 }
 
-/// The height at which a ball that falls beside the middle is stopped, less its radius; -1 if it is not. Says by what.
+/// The height, less its radius, at which a ball that falls beside the middle is stopped; -1 if it is not. Also names
+/// the object that stops it.
 inline double stopped_at(const Patchwork& space, double x, std::string* by = nullptr) {
   const auto s = space.sweep(ball, {x, 0.5, 3.0}, {0.0, 0.0, -4.0});
   if (!s.hit) return -1.0;

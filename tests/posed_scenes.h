@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scenes of which parts move, and the triangles as they are posed, for brute force.
+/// Scenes with moving parts, and their triangles in their poses, for brute force.
 
 #include <memory>
 #include <utility>
@@ -30,7 +30,7 @@ inline void append(Mesh& to, const Mesh& mesh, const Pose& pose) {
   }
 }
 
-/// A mesh that stands still, and meshes that are posed.
+/// A mesh that stands still, and meshes with poses.
 struct Scene {
   Mesh still;
   World base;
@@ -47,7 +47,7 @@ struct Scene {
     ids.push_back(space.add(shared(mesh), pose, std::move(label)));
     return ids.back();
   }
-  /// All triangles where they are now, those of the instances after those that stand still.
+  /// All triangles in their present places: first the fixed ones, then those of the instances.
   [[nodiscard]] Mesh whole() const {
     Mesh all = still;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -59,7 +59,7 @@ struct Scene {
 
 inline Pose some_pose(clutter::Random& random, double half) { return {random.in_box(half), random.between(-4.0, 4.0)}; }
 
-/// Clutter of which six parts are posed anywhere.
+/// Clutter with six parts in random poses.
 inline std::unique_ptr<Scene> clutter_scene(std::uint64_t seed, bool lossless, const Vec3& centre = Vec3(0.0)) {
   clutter::Random random(seed);
   auto scene = std::make_unique<Scene>(

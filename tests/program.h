@@ -1,5 +1,5 @@
 #pragma once
-/// Runs the program under test as a user's shell does, and keeps the files that a test writes in a folder of its own.
+/// Runs the program under test like a user's shell. The files of a test are in a folder of its own.
 
 #include <fcntl.h>
 #include <poll.h>
@@ -20,28 +20,28 @@
 
 extern char** environ;
 
-/// What a program did. `status` is 128 + the signal's number when a signal ended it, as a shell says it.
+/// The result of a run. `status` is 128 + the signal's number if a signal ended the program, as in a shell.
 struct ProgramResult {
   int status = -1;
   std::string out;
   std::string err;
-  /// The most that was resident at once, kB. Not less than this process has resident, of which it begins as a copy.
+  /// Largest resident memory, kB. Never less than this process's own, because the program starts as its copy.
   long peak = 0;
 };
 
-/// Programs heed an interrupt also where the tests run in the background of a shell that ignores it.
+/// Programs obey an interrupt even if the tests run in the background of a shell that ignores it.
 inline const bool interrupts_count =
     std::signal(SIGINT, SIG_DFL) != SIG_ERR && std::signal(SIGTERM, SIG_DFL) != SIG_ERR;
 
 struct ProgramOptions {
   std::string input{};         ///< its standard input
-  double interrupt_after = 0;  ///< seconds after which it gets SIGINT; 0: never
-  bool close_output = false;   ///< nobody reads its standard output
+  double interrupt_after = 0;  ///< seconds until it gets SIGINT; 0: never
+  bool close_output = false;   ///< its standard output has no reader
 };
 
 inline ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                                  const ProgramOptions& options = {}) {
-  // An inherited end of a pipe would keep the other end from ever seeing it closed.
+  // An inherited end of a pipe would keep the other end from seeing it closed.
   std::array<int, 2> in{}, out{}, err{};
   for (auto* pipe_ends : {&in, &out, &err}) {
     if (::pipe2(pipe_ends->data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
@@ -60,7 +60,7 @@ inline ProgramResult run_program(const std::string& program, const std::vector<s
   for (const int end : {in[0], out[1], err[1]}) ::close(end);
   if (spawned != 0) throw std::runtime_error("cannot run " + program);
   if (options.close_output) ::close(out[0]);
-  std::signal(SIGPIPE, SIG_IGN);  // a program that stops reading early is no fault of the test
+  std::signal(SIGPIPE, SIG_IGN);  // a program that stops reading early is no failure of the test
 
   ProgramResult result;
   const auto start = std::chrono::steady_clock::now();
@@ -105,7 +105,7 @@ inline ProgramResult run_program(const std::string& program, const std::vector<s
   return result;
 }
 
-/// A folder that is empty when a test begins and gone when it ends.
+/// A folder that is empty when a test begins, and removed when it ends.
 class TestFolder {
  public:
   TestFolder() {
@@ -134,6 +134,6 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// Keys of stores are made in a folder of the tests, not of whoever runs them. Also in the programs that are run.
+/// Keys of stores are made in a folder of the tests, not of the user who runs them; this also holds for child programs.
 inline const TestFolder user_data;
 inline const bool has_user_data = ::setenv("XDG_DATA_HOME", user_data.file("").c_str(), 1) == 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Answers in every floating-point environment of a host, compared bit by bit.
+/// Results in every floating-point environment of a host, compared bit by bit.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 namespace same_bits {
 
-/// Answers as bits. Taking one down reckons nothing.
+/// Results as bits. Recording one computes nothing.
 class Bits {
  public:
   void operator()(double value) { bits_.push_back(std::bit_cast<std::uint64_t>(value)); }
@@ -53,7 +53,7 @@ class Bits {
   std::vector<std::uint64_t> bits_;
 };
 
-/// Makes the calls in every environment, and demands the answers that they have in the default one.
+/// Makes the calls in every environment. Expects the results of the default one.
 inline void expect_same(const std::function<void(Bits&)>& calls) {
   Bits usual;
   calls(usual);

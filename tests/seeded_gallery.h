@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Seeded galleries whose both ends are known by construction: a straight corridor with three doors (oblique, 0 to
-/// 0.4 m thick, some with a sill) and three splits across its floor. The widest body that passes is half the narrowest
-/// door; the smallest foot that falls into no split is half the widest. No noise: every plane is exact.
+/// Seeded galleries with both ends known by construction: a straight corridor with three doors (oblique, 0 to 0.4 m
+/// thick, some with a sill) and three splits across its floor. The widest body that passes is half the narrowest door.
+/// The smallest foot that falls into no split is half the widest split. No noise: every plane is exact.
 
 #include <algorithm>
 #include <cmath>
@@ -122,7 +122,7 @@ inline Gallery build(std::vector<Door> doors, std::vector<Split> splits) {
 }
 
 inline Gallery gallery(std::uint64_t seed) {
-  // Streams of neighbouring seeds are one another shifted; take ones that are far apart.
+  // Streams of neighbouring seeds are shifted copies of each other, so take distant ones.
   scenes::Random random(scenes::Random(seed).bits());
   std::vector<int> order{0, 0, 0, 1, 1, 1};  // a door or a split
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
@@ -155,7 +155,7 @@ inline Gallery gallery(std::uint64_t seed) {
   return build(std::move(doors), std::move(splits));
 }
 
-/// What must not change an answer. Each returns the changed gallery.
+/// Changes that must not affect a result. Each returns the changed gallery.
 inline Gallery moved(Gallery g, const Vec3& by) {
   scenes::shift(g.mesh, by);
   g.from += by;
@@ -197,7 +197,7 @@ inline Gallery doubled(Gallery g) {
   return g;
 }
 
-/// Each triangle in three, about a point within it.
+/// Divides each triangle into three around a point inside.
 inline Gallery split(Gallery g, std::uint64_t seed) {
   scenes::Random random(seed);
   Mesh fine;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What read_display sends, taken apart triangle by triangle, and compared with what import_scene gives.
+/// The output of read_display, split into triangles, and compared with the result of import_scene.
 
 #include <gtest/gtest.h>
 
@@ -20,13 +20,13 @@ namespace roam::test {
 
 using Colour = std::array<std::uint8_t, 4>;
 
-/// A triangle as it is to be seen.
+/// A triangle with its display data.
 struct ShownTriangle {
   Triangle corners;
   std::array<Colour, 3> colours;
-  std::array<glm::vec3, 3> normals{};      ///< zero where there are none
-  std::array<glm::vec2, 3> coordinates{};  ///< zero where there are none
-  const DisplayTexture* image = nullptr;   ///< null where there is none
+  std::array<glm::vec3, 3> normals{};      ///< zero if there are none
+  std::array<glm::vec2, 3> coordinates{};  ///< zero if there are none
+  const DisplayTexture* image = nullptr;   ///< null if there is none
   DisplayLook look;
 };
 
@@ -95,7 +95,7 @@ inline std::string display_error(const std::filesystem::path& path, const Import
   }
 }
 
-/// How many of the scene's triangles are not shown once each within `tolerance` metres, corner by corner.
+/// The number of the scene's triangles that are not shown exactly once within `tolerance` metres, corner by corner.
 inline std::size_t not_shown(const ImportedScene& scene, const Shown& shown, double tolerance) {
   using Cell = std::array<std::int64_t, 3>;
   const double size = 4.0 * tolerance;

@@ -1,5 +1,5 @@
 #pragma once
-/// Scenes, builds and comparisons that the tests of the builder share.
+/// Scenes, builds and comparisons shared by the tests of the builder.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ inline std::string write_ply(const std::string& file, const roam::Mesh& mesh) {
   return write_ply(file, mesh.vertices, mesh.triangles);
 }
 
-/// A wavy field of n * n * 2 triangles, `cell` m each, from `corner` on.
+/// A wavy field of n * n * 2 triangles, `cell` m each, beginning at `corner`.
 inline roam::Mesh field(std::uint32_t n, double cell, const roam::Vec3& corner) {
   roam::Mesh mesh;
   for (std::uint32_t y = 0; y <= n; ++y) {
@@ -64,8 +64,8 @@ inline roam::Mesh field(std::uint32_t n, double cell, const roam::Vec3& corner) 
   return mesh;
 }
 
-/// What a store consists of: the files that its manifest names, and those two themselves. Not the lock, nor what is
-/// remembered of the scene's files.
+/// The files of a store: those that its manifest names, the manifest and CURRENT. Not the lock, and not the saved state
+/// of the scene's files.
 inline std::map<std::string, std::string> content(const std::string& store) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(store)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of stores on the command line share.
+/// Shared by the tests of stores on the command line.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ inline ProgramResult run(const std::vector<std::string>& arguments, const std::s
   return run_program(ROAM_PROGRAM, arguments, {.input = input});
 }
 
-/// A gallery, its store, and the straight way through it, cut short: made once.
+/// A gallery, its store, and the straight way through it, cut short; made once.
 class StoreVerbs : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Splits to be carried over, and walks over them, for the tests of WalkerSettings::support_radius.
+/// Splits that a foot must bridge, and walks over them, for the tests of WalkerSettings::support_radius.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace scenes {
 
-/// A slim person, with a foot.
+/// A slim person with a support disc.
 inline WalkerSettings person(double support_radius, double radius = 0.3) {
   WalkerSettings s;
   s.radius = radius;
@@ -20,7 +20,7 @@ inline WalkerSettings person(double support_radius, double radius = 0.3) {
   return s;
 }
 
-/// A floor with a split across it from x = 0 on, its sides `depth` deep, and a bottom; `rise`: of the far side.
+/// A floor with a split across it that begins at x = 0, with sides `depth` deep and a bottom. `rise`: of the far side.
 inline Mesh split(double width, double depth = 50.0, double rise = 0.0) {
   Mesh m;
   add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
@@ -44,7 +44,7 @@ inline void tilt(Mesh& mesh, double degrees) {
 inline constexpr std::array speeds{0.4, 1.4, 7.0, 50.0};
 inline constexpr std::array steps{1.0 / 240.0, 1.0 / 60.0, 1.0 / 25.0};
 
-/// How a walk towards +x over a crack ended.
+/// The result of a walk towards +x over a crack.
 struct Crossing {
   bool across = false;
   bool fell = false;

@@ -1,6 +1,6 @@
 #pragma once
-// What made scenes are checked for: closed surfaces, promised counts, areas, distances. Brute force in doubles; the
-// distances that are asked for are centimetres, far above their rounding.
+// Checks of made scenes: closed surfaces, promised counts, areas, distances. Brute force in doubles; the tested
+// distances are centimetres, far above their rounding.
 
 #include <gtest/gtest.h>
 #include <xxhash.h>
@@ -30,7 +30,7 @@ inline Box box_of(const std::vector<Mesh>& meshes) {
   return box;
 }
 
-/// Everything that the scene hands out: names, coordinates, indices.
+/// Everything in the scene: names, coordinates, indices.
 inline std::uint64_t hash_of(const Scene& scene) {
   XXH3_state_t* state = XXH3_createState();
   XXH3_64bits_reset(state);
@@ -44,7 +44,7 @@ inline std::uint64_t hash_of(const Scene& scene) {
   return h;
 }
 
-/// Counts, box, size of the pieces, names, finite vertices that are all used.
+/// Checks counts, box, size of the pieces and names, and that all vertices are finite and used.
 inline void expect_promises_kept(const Scene& scene) {
   std::uint64_t triangles = 0, vertices = 0, objects = 0;
   std::set<std::string> names;
@@ -84,7 +84,7 @@ struct BitwiseHash {
   std::size_t operator()(const Vec3& p) const { return XXH3_64bits(&p, sizeof p); }
 };
 
-/// Directed edges between vertices that are equal bit by bit, over all meshes; how often each occurs.
+/// Directed edges between vertices that are equal bit by bit, over all meshes, with the number of each.
 struct Edges {
   std::unordered_map<Vec3, std::uint32_t, BitwiseHash> ids;
   std::vector<Vec3> points;
@@ -109,7 +109,7 @@ struct Edges {
   }
 };
 
-/// Edges that do not belong to exactly two triangles that pass them in opposite directions: 0 for a closed,
+/// The number of edges that do not belong to exactly two triangles with opposite directions: 0 for a closed,
 /// consistently wound surface.
 inline std::size_t unmatched_edges(const std::vector<Mesh>& meshes) {
   const Edges edges(meshes);
@@ -130,7 +130,7 @@ inline std::vector<Vec3> open_rim(const std::vector<Mesh>& meshes) {
   return rim;
 }
 
-/// Enclosed volume, m^3: positive when wound to be seen from outside.
+/// Enclosed volume, m^3: positive if wound to be seen from outside.
 inline double volume(const std::vector<Mesh>& meshes) {
   const Vec3 center = box_of(meshes).center();
   double sum = 0.0;
@@ -159,7 +159,7 @@ inline double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b
 }
 
 inline double segment_segment_distance(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
-  // Alternating projection converges for a convex function of two parameters; the ends are tried besides.
+  // Alternating projection converges for a convex function of two parameters. The ends are tried too.
   const Vec3 u = q - p, v = b - a;
   double s = 0.5, t = 0.5;
   for (int i = 0; i < 40; ++i) {
@@ -182,7 +182,7 @@ inline bool pierces(const Vec3& p, const Vec3& q, const Triangle& t) {
   return true;
 }
 
-/// How many triangles the segment pq pierces.
+/// The number of triangles that the segment pq pierces.
 inline int crossings(const std::vector<Mesh>& meshes, const Vec3& p, const Vec3& q) {
   int n = 0;
   for (const Mesh& m : meshes) {
@@ -191,7 +191,7 @@ inline int crossings(const std::vector<Mesh>& meshes, const Vec3& p, const Vec3&
   return n;
 }
 
-/// Distance of the segment pq from the nearest triangle of the mesh, or `reach` when none is nearer.
+/// Distance of the segment pq from the nearest triangle of the mesh, at most `reach`.
 inline double clearance_of_segment(const Mesh& m, const Vec3& p, const Vec3& q, double reach) {
   double least = reach;
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {

@@ -15,7 +15,7 @@ struct CorridorOptions {
   double depth = 14.0;  ///< m, of the split
 };
 
-/// Of the feet: over the split, through the door.
+/// Path of the feet: over the split, through the door.
 inline const std::vector<roam::Vec3> corridor_way{{1.0, 0.0, 0.0}, {9.0, 0.0, 0.0}};
 
 inline roam::Mesh corridor_mesh(const CorridorOptions& options) {

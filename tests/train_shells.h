@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Closed shells whose triangles are wound alike, and floors with walls that divide them: what rooms are made of.
+/// Closed shells with consistent windings, and floors with dividing walls, to make rooms of.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace shells {
 using roam::Mesh;
 using roam::Vec3;
 
-/// A box that is a room: its triangles are seen from the front by who stands in it; `solid`: by who is outside.
+/// A box. Its triangles show their fronts to the inside, or with `solid` to the outside.
 inline void add_room(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool solid = false) {
   const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (solid)
@@ -34,7 +34,7 @@ inline void flip(Mesh& mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// The same triangles once more, the other way round.
+/// The same triangles again, wound the other way.
 inline void add_backs(Mesh& mesh) {
   Mesh backs = mesh;
   flip(backs);
@@ -55,7 +55,7 @@ inline roam::ways::Measure person() {
   return m;
 }
 
-/// A scene, and the places of it.
+/// A scene and its places.
 struct Look {
   roam::Survey survey;
   roam::ways::Measure measure = person();
@@ -67,7 +67,7 @@ struct Look {
         tree(survey, measure, spacing),
         components(roam::training::find_components(survey, measure, tree, 1, {}, most_places)) {}
 
-  /// The component that has a place within half a metre of this one.
+  /// The component with a place within half a metre of this one.
   [[nodiscard]] const roam::training::Component* at(const Vec3& place) const {
     for (const auto& c : components)
       for (const auto id : c.nodes) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bodies that go on in small steps, as those do which keep what lies around them, and who asks for them.
+/// Bodies that move in small steps, as those with a Vicinity do, and the queries that they make.
 
 #include <cmath>
 #include <cstring>
@@ -29,7 +29,7 @@ inline double gap_in(const Space& space, Vicinity& vicinity, const Body& body, c
   return roam::Nearby::gap(space, vicinity, {body, from, motion}, reach);
 }
 
-/// Bits, not values: -0 is not 0.
+/// Compares bits, not values: -0 is not 0.
 inline bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 inline bool same(const Vec3& a, const Vec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 inline bool same(const Impact& a, const Impact& b) {
@@ -39,7 +39,7 @@ inline bool same(const Impact& a, const Impact& b) {
 
 struct Course {
   int steps = 1000;
-  bool on_foot = false;  ///< level steps, with a short look down after each; else near surfaces, in all directions
+  bool on_foot = false;  ///< level steps, with a short downward query after each; else near surfaces, in all directions
   int restart_each = 120;
   double largest = 0.5;  ///< metres: radius
 };
@@ -49,7 +49,7 @@ inline Body some_body(clutter::Random& random, double largest) {
   return {random.between(0.02, 1.0) * largest, random.engine() % 3 == 0 ? 0.0 : random.between(0.0, 1.8) * largest};
 }
 
-/// A place where a body just about touches a triangle of the mesh.
+/// A place where a body barely touches a triangle of the mesh.
 inline Vec3 beside(clutter::Random& random, const Mesh& mesh, const Body& body) {
   const roam::Triangle t = mesh.triangle(random.engine() % mesh.triangles.size());
   const double u = random.unit(), v = random.unit() * (1.0 - u);
@@ -58,7 +58,7 @@ inline Vec3 beside(clutter::Random& random, const Mesh& mesh, const Body& body) 
          Vec3(0.0, 0.0, std::copysign(body.half_height, out.z));
 }
 
-/// Goes on through the mesh. `asker.gap(body, from, motion, reach)` and `asker.sweep(body, from, motion)` answer.
+/// Moves on through the mesh. Calls `asker.gap(body, from, motion, reach)` and `asker.sweep(body, from, motion)`.
 template <class Asker>
 void go(clutter::Random& random, const Mesh& mesh, const Course& course, Asker& asker) {
   constexpr double skin = 3e-3;
@@ -97,20 +97,20 @@ void go(clutter::Random& random, const Mesh& mesh, const Course& course, Asker& 
   }
 }
 
-/// What was met, and how it was answered.
+/// Statistics of a course.
 struct Tally {
   long sweeps = 0, hits = 0, touching = 0, gaps = 0, near = 0;
-  long kept = 0;      ///< questions that were answered by what lies around the body
-  long left = 0;      ///< that were not: it was too much
-  long gathered = 0;  ///< how often the body came out of it
-  long tiles = 0;     ///< questions where that was of more than one tile
-  long nodes = 0;     ///< where it had more in it than one node has children
-  long pages = 0;     ///< where it was of more than one index
+  long kept = 0;      ///< queries answered by the vicinity
+  long left = 0;      ///< other queries: the surroundings were too much for it
+  long gathered = 0;  ///< how often the vicinity was collected again
+  long tiles = 0;     ///< queries with a vicinity of more than one tile
+  long nodes = 0;     ///< queries with a vicinity of more entries than a node has children
+  long pages = 0;     ///< queries with a vicinity of more than one index
 
   [[nodiscard]] long asked() const { return sweeps + gaps; }
 };
 
-/// Asks a space by what lies around the body, and has each answer judged.
+/// Queries a space with a vicinity, and has each result judged.
 class Judged {
  public:
   Vicinity vicinity;
@@ -119,7 +119,7 @@ class Judged {
   Judged(const Space& space, const Mesh& mesh, bool lossless)
       : space_(&space), judge_(mesh), farthest_(lossless ? judged::farthest_lossless : judged::farthest_off) {}
 
-  /// From now on another space of the same triangles, or of others.
+  /// From now on uses another space, of the same triangles or of others.
   void turn_to(const Space& space) { space_ = &space; }
 
   Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) {

@@ -10,7 +10,7 @@
 #include "view/session.h"
 #include "view_scenes.h"
 
-/// Sits at the keyboard of a session that is set up by `options`.
+/// The input of a session with these `options`.
 class DrivenSession {
  public:
   DrivenSession() {
@@ -30,12 +30,12 @@ class DrivenSession {
     options.scene.scenes = {file};
     return file;
   }
-  /// Until one can roam.
+  /// Runs frames until the session can roam.
   void begin(const roam::app::ViewSettings& settings = {}) {
     session.emplace(options, roam::app::make_plan(options, settings), settings);
     if (!until([this] { return session->roaming(); })) throw std::runtime_error("nothing was loaded");
   }
-  /// Frames until something is so; false when it is not within a minute.
+  /// Runs frames until a condition holds; false if it does not within a minute.
   template <class Done>
   bool until(const Done& done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of roam view share: scenes, pictures, and the report.
+// Shared by the tests of roam view: scenes, pictures, and the report.
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@
 #include "messages.h"
 #include "program.h"
 
-/// A picture that was written.
+/// A picture file.
 struct Shot {
   osg::ref_ptr<osg::Image> image;
 
   explicit Shot(const std::string& file) {
-    // By the plugin itself: while a session lives, OpenSceneGraph reads what the session gives it and nothing else.
+    // Read by the plugin itself: during a session, OpenSceneGraph reads only the session's input.
     auto* png = osgDB::Registry::instance()->getReaderWriterForExtension("png");
     if (png) image = png->readImage(file).getImage();
     if (!image) throw std::runtime_error("no picture: " + file);
@@ -31,7 +31,7 @@ struct Shot {
   [[nodiscard]] osg::Vec4 at(int x, int y) const {
     return image->getColor(static_cast<unsigned>(x), static_cast<unsigned>(y));
   }
-  /// How many colours there are, as an eye tells them apart: a blank picture has one.
+  /// The number of colours that an eye distinguishes: a blank picture has one.
   [[nodiscard]] std::size_t colours() const {
     std::set<int> seen;
     for (int y = 0; y < height(); y += 2) {
@@ -43,7 +43,7 @@ struct Shot {
     }
     return seen.size();
   }
-  /// The share of pixels that are as blue as the sky: scenes of the tests are grey.
+  /// The share of pixels as blue as the sky: the scenes of the tests are grey.
   [[nodiscard]] double sky() const {
     int blue = 0;
     for (int y = 0; y < height(); ++y) {
@@ -53,7 +53,7 @@ struct Shot {
   }
 };
 
-/// Settings and bookmarks of the person who runs the tests are none of theirs.
+/// Hides the settings and bookmarks of the user who runs the tests.
 inline void use_no_settings(const TestFolder& folder) { setenv("XDG_CONFIG_HOME", folder.file("config").c_str(), 1); }
 
 inline std::string all(const nlohmann::json& lines) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Stores, and sessions on them, that the tests of roam view share.
+/// Stores, and sessions on them, shared by the tests of roam view.
 
 #include <algorithm>
 #include <filesystem>
@@ -53,12 +53,12 @@ inline void damage_tile_at(const std::string& folder, double x, double y) {
   file.put(static_cast<char>(byte ^ 1));
 }
 
-/// Stands in the room, and may have a store of it.
+/// A session in the room, optionally with a store of it.
 class Driven : public DrivenSession {
  public:
   Driven() { options.at = {8, 0, 0.95, 0}; }
 
-  /// Beside the scene, where it is looked for.
+  /// The store's place beside the scene.
   std::string build() {
     const std::string scene = options.scene.scenes.front().string();
     build_store(build_of(scene, scene + ".roam"));

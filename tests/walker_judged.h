@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A walk of which every step is judged by brute force, and what several tests walk on.
+/// A walk with every step judged by brute force, and the floors of several tests.
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,8 @@ inline Mesh low_passage(double height) {
   return m;
 }
 
-/// About 2.7 n^2 triangles that cover 20 m by 20 m at height 0: random diagonals, and vertices in the middle of edges.
+/// About 2.7 n^2 triangles that cover 20 m by 20 m at height 0, with random diagonals and vertices in the middle of
+/// edges.
 inline Mesh rough_tiling(int n, std::uint64_t seed) {
   Random random(seed);
   Mesh m;
@@ -75,7 +76,7 @@ inline Mesh rough_tiling(int n, std::uint64_t seed) {
         add_quad(m, a, b, c, d);
       } else if (pick < 0.6) {
         add_quad(m, b, c, d, a);
-      } else {  // a fan round a point on one edge: a T-junction with the neighbour
+      } else {  // a fan around a point on one edge: a T-junction with the neighbour
         const Vec3 e = a + (b - a) * random.between(0.02, 0.98);
         add_triangle(m, a, e, d);
         add_triangle(m, e, c, d);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small scenes to walk in, and the brute-force judge of every place that a walker was at.
+/// Small scenes to walk in, and a brute-force judge of every position of a walker.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace scenes {
 using roam::Mesh;
 using roam::Vec3;
 
-/// Numbers that are the same on every machine; std distributions are not.
+/// Numbers that are the same on every machine, unlike those of std distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL + 0xD1B54A32D192ED03ULL) {}
@@ -79,8 +79,8 @@ inline roam::World build(const Mesh& mesh, bool lossless = false) {
   return roam::World::build({&mesh, 1}, options);
 }
 
-/// Distances of a body's axis from all triangles of a mesh, in long double. Triangles whose boxes lie farther from the
-/// box of the axis than the nearest one found are left out: their distance can only be larger.
+/// Distances of a body's axis from all triangles of a mesh, in long double. Skips triangles whose boxes are farther
+/// from the box of the axis than the nearest triangle so far.
 class Judge {
  public:
   explicit Judge(const Mesh& mesh) : mesh_(&mesh) {
@@ -91,7 +91,7 @@ class Judge {
     }
   }
 
-  /// The least distance to any triangle at a place, or `enough` when all are at least that far.
+  /// The least distance to any triangle at a place, at most `enough`.
   [[nodiscard]] double distance(const roam::Body& body, const Vec3& place, double enough) const {
     return over(body, place, Vec3(0.0), enough);
   }
@@ -125,9 +125,9 @@ class Judge {
   std::vector<roam::Box> boxes_;
 };
 
-/// How far inside the promise, radius - 1e-6 m, a step stayed at its corners and all along its pieces, and whether what
-/// it certified is true: negative is a violation, metres. Only where the body was put is nothing promised of the way.
-/// Each piece is judged by the radius that it says it had.
+/// The least margin, in metres, of two promises at the corners of a step and along its pieces: the true clearance is at
+/// least the radius - 1e-6 m, and at least the certified one. A negative value is a violation. The way to the place
+/// where a body was put has no promise. Each piece is judged by the radius that it reports.
 inline double margin(const Judge& judge, const roam::StepReport& step) {
   constexpr double promise = 1e-6;
   double least = std::numeric_limits<double>::infinity();
@@ -145,7 +145,7 @@ inline double margin(const Judge& judge, const roam::StepReport& step) {
   return std::min({least, here - (step.radius - promise), here - (step.axis_clearance - promise)});
 }
 
-/// The same of a body whose radius does not change: minus infinity where it does.
+/// The same for a body whose radius does not change; minus infinity if it does.
 inline double margin(const Judge& judge, const roam::StepReport& step, double radius) {
   bool same = step.radius == radius;
   for (const roam::Segment& c : step.segments) same = same && c.radius == radius;

@@ -1,9 +1,9 @@
-// What the drivers of engines in WebAssembly share. roam-bench runs this text with one driver behind it:
+// The common part of the drivers of engines in WebAssembly. roam-bench runs this script with one driver appended:
 //   node --input-type=module --eval TEXT DIR        DIR holds node_modules
-// Little endian. In, by descriptor 3: u32 vertices, u32 triangles, f32 x y z of each vertex, u32 a b c of each triangle;
-// then, until the end, u32 n and n questions of 8 f64; a sweep's are radius, half height, from, motion. Out, by
-// descriptor 4: u32 length and a JSON text of that length; then for each question its answer and nanoseconds, f64; a
-// sweep's answer is the time of impact, 2 when free.
+// Little endian. Input, descriptor 3: u32 vertices, u32 triangles, f32 x y z of each vertex, u32 a b c of each
+// triangle. Then, until the end, u32 n and n questions of 8 f64; those of a sweep are radius, half height, from,
+// motion. Output, descriptor 4: u32 length and a JSON text of that length. Then for each question its reply and
+// nanoseconds, f64; the reply to a sweep is the time of impact, 2 if free.
 import { readFileSync, readSync, writeSync } from 'node:fs';
 import { performance as clock } from 'node:perf_hooks';
 import { pathToFileURL } from 'node:url';
@@ -39,7 +39,7 @@ function emptyPair() {
   return median(empty);
 }
 
-// Reads the scene, builds it, and says so: what make(vertices, indices) gives, which has {name, used, bytes}.
+// Reads the scene, builds it, and sends the result of make(vertices, indices), which has {name, used, bytes}.
 async function begin(start, make) {
   const [vertexCount, triangleCount] = new Uint32Array(read(8));
   const vertices = new Float32Array(read(12 * vertexCount));
@@ -54,8 +54,8 @@ async function begin(start, make) {
   return made;
 }
 
-// Answers questions until there are no more. answer(numbers, at, answers, to) takes eight numbers and gives `width`;
-// how long it took follows them.
+// Replies to questions until the end of input. answer(numbers, at, answers, to) takes eight numbers and gives `width`;
+// their nanoseconds follow.
 function serve(width, answer) {
   for (;;) {
     const [count] = new Uint32Array(read(4));

@@ -1,7 +1,8 @@
 // Jolt: TransformedShape.CastShape against one MeshShape, both sides of a triangle solid, the nearest hit only.
 let Jolt;
 
-// The package's module has 128 MB that cannot grow: 0.5 M triangles are too many. The same module with more.
+// The package's module has 128 MB that cannot grow, too little for 0.5 M triangles. This uses the same module with
+// more.
 function withPages(module, pages) {
   const number = (value) => {
     const bytes = [];
@@ -87,7 +88,7 @@ function make(vertices, indices) {
   const motion = new Jolt.Vec3(0, 0, 0);
   const collector = new Jolt.CastShapeClosestHitCollisionCollector();
   const all = new Jolt.ShapeFilter();
-  // A capsule of Jolt stands along y; ours along z.
+  // A capsule of Jolt stands along y; those of the queries along z.
   const lying = Jolt.Quat.prototype.sRotation(new Jolt.Vec3(1, 0, 0), Math.PI / 2).Clone?.()
     ?? new Jolt.Quat(Math.SQRT1_2, 0, 0, Math.SQRT1_2);
   const level = new Jolt.Quat(0, 0, 0, 1);

@@ -5,13 +5,13 @@ async function start() {
   const folder = modules + 'physx-js-webidl/';
   const factory = (await import(pathToFileURL(folder + 'physx-js-webidl.mjs').href)).default;
   const wasm = await WebAssembly.compile(readFileSync(folder + 'physx-js-webidl.wasm'));
-  // It takes node for a browser worker unless there is a window and no process, and has no way to load itself there.
+  // It mistakes node for a browser worker unless there is a window and no process, and cannot load itself there.
   const hidden = globalThis.process;
   globalThis.window = globalThis;
   delete globalThis.process;
   try {
     PhysX = await factory({
-      // Without memory it goes on, and never ends.
+      // Without memory it would continue, and never end.
       printErr(text) {
         console.error(text);
         if (text.startsWith('Cannot enlarge memory')) throw new Error('this mesh is too large for PhysX in WebAssembly');
@@ -30,7 +30,7 @@ async function start() {
   }
 }
 
-// The mesh, and what memory grew by.
+// The mesh, and the growth of memory.
 function cook(vertices, indices) {
   const version = PhysX.PHYSICS_VERSION;
   const foundation = PhysX.CreateFoundation(version, new PhysX.PxDefaultAllocator(), new PhysX.PxDefaultErrorCallback());

@@ -1,4 +1,4 @@
-// PxCapsuleController: a capsule of a height of 2 mm, which is the least that differs from a sphere and is allowed.
+// PxCapsuleController: a capsule whose cylinder is 2 mm high, the least allowed height that differs from a sphere.
 // Questions: 0, radius, walking (1 or 0), place; or 1, velocity, seconds. Answers: the place.
 function make(vertices, indices) {
   const { geometry, bytes } = cook(vertices, indices);
@@ -26,7 +26,7 @@ function make(vertices, indices) {
     desc.position = new PhysX.PxExtendedVec3(x, y, z);
     desc.contactOffset = 0.001;
     desc.stepOffset = 0;
-    desc.slopeLimit = 0;  // none is too steep
+    desc.slopeLimit = 0;  // no slope is too steep
     desc.material = material;
     if (!desc.isValid()) throw new Error('PhysX does not take this controller');
     body = manager.createController(desc);

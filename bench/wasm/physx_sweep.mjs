@@ -3,7 +3,7 @@ function make(vertices, indices) {
   const { geometry, bytes } = cook(vertices, indices);
   const origin = new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity);
   const pose = new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity);
-  // A capsule of PhysX lies along x; ours stands along z.
+  // A capsule of PhysX lies along x; those of the queries stand along z.
   const upright = new PhysX.PxTransform(new PhysX.PxVec3(0, 0, 0), new PhysX.PxQuat(0, -Math.SQRT1_2, 0, Math.SQRT1_2));
   const direction = new PhysX.PxVec3(1, 0, 0);
   const sphere = new PhysX.PxSphereGeometry(1);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the program tells the shell.
+/// The exit status of the program.
 
 #include <stdexcept>
 
@@ -13,13 +13,13 @@ enum ExitStatus : int {
   answer_no = 3,  ///< the answer is no: blocked, left the scene, fell, held
 };
 
-/// A command line that parses but cannot be meant: ends with ExitStatus::bad_usage.
+/// A command line that parses but makes no sense: ends with ExitStatus::bad_usage.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Standard output that nobody reads any more.
+/// Standard output has been closed by its reader.
 class BrokenPipe : public std::runtime_error {
  public:
   BrokenPipe() : std::runtime_error("standard output was closed") {}

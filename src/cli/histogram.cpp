@@ -19,7 +19,7 @@ double Histogram::quantile(double q) const {
   std::uint64_t seen = 0;
   std::size_t bucket = 0;
   while (bucket + 1 < counts_.size() && seen + counts_[bucket] <= rank) seen += counts_[bucket++];
-  // The middle of the bucket, which no single value may lie beyond.
+  // The middle of the bucket, but at most the largest value.
   return std::min(std::exp2((static_cast<double>(bucket) + 0.5) / buckets_an_octave), largest_);
 }
 

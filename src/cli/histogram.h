@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// Quantiles of very many times in little memory.
+/// Quantiles of very many times, in little memory.
 
 #include <array>
 #include <cstdint>
 
 namespace roam::app {
 
-/// Counts positive values in buckets that are 1.1 % wide: a session of days takes no more memory than one of seconds.
+/// Counts positive values in buckets 1.1 % wide: a session of days takes no more memory than one of seconds.
 class Histogram {
  public:
-  /// Values from 1 to 2^40, e.g. nanoseconds up to 18 minutes; what is beyond counts as the end.
+  /// Values from 1 to 2^40, e.g. nanoseconds up to 18 minutes. Values outside count as the nearest end.
   void add(double value);
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// The value below which a share `q` in [0, 1] of all values lies, to 1 %; 0 when there is none.
+  /// The value below which a share `q` in [0, 1] of all values lies, to 1 %; 0 if there are none.
   [[nodiscard]] double quantile(double q) const;
-  /// Exactly; 0 when there is none.
+  /// Exact; 0 if there are no values.
   [[nodiscard]] double largest() const { return largest_; }
 
  private:

@@ -20,15 +20,15 @@
 namespace roam::app {
 namespace {
 
-/// For children to end in order: Xvfb removes its lock and its socket.
+/// Time for children to end in order: Xvfb removes its lock and its socket.
 constexpr std::chrono::milliseconds grace_of_children{100};
 
-/// Nanoseconds after the first signal, in which the watchdog ends the program in any case.
+/// Nanoseconds after the first signal within which the watchdog ends the program in any case.
 constexpr std::int64_t patience_with_watchdog = 2'000'000'000;
 
 std::atomic<int> signal_came = 0;      ///< its number
 std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
-sem_t signals;                         ///< one for each that came
+sem_t signals;                         ///< one for each signal that arrived
 
 extern "C" void take_signal(int number) {
   const int error = errno;
@@ -38,7 +38,7 @@ extern "C" void take_signal(int number) {
   if (signal_came == 0) {
     came_at = moment;
   } else if (moment - came_at > patience_with_watchdog) {
-    // The next does what signals do, should the watchdog itself be stuck.
+    // The next signal gets its default action, in case the watchdog itself hangs.
     std::signal(number, SIG_DFL);
   }
   signal_came = number;
@@ -51,7 +51,7 @@ void wait_for_signal() {
   }
 }
 
-/// Until another signal comes, or so long.
+/// Waits until another signal arrives, at most `longest`.
 void wait_for_signal(std::chrono::milliseconds longest) {
   timespec until{};
   clock_gettime(CLOCK_REALTIME, &until);
@@ -67,7 +67,7 @@ void wait_for_signal(std::chrono::milliseconds longest) {
     process::end_children(grace_of_children);
     files::Unfinished::remove_all();
   } catch (const std::exception&) {
-    // No memory is left to tidy with: it ends all the same.
+    // There is no memory left for cleaning up. The program ends anyway.
   }
   constexpr char words[] = "roam: cancelled\n";
   [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words, sizeof words - 1);
@@ -86,7 +86,7 @@ void watch() {
   end_at_once(signal_came);
 }
 
-/// Its thread blocks all signals, so that they go to others and interrupt what these wait for.
+/// The watchdog's thread blocks all signals, so that they reach other threads and interrupt their waiting.
 void start_watchdog() {
   sigset_t all, before;
   sigfillset(&all);
@@ -102,16 +102,16 @@ void catch_signals() {
   start_watchdog();
   struct sigaction action {};
   action.sa_handler = take_signal;
-  // No SA_RESTART, so that a read from a terminal ends.
+  // No SA_RESTART, so that a read from a terminal returns.
   sigemptyset(&action.sa_mask);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
-    // A shell that runs a job in the background, or nohup, wants it ignored.
+    // A shell that runs a job in the background, or nohup, has set the signal to be ignored.
     if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(number, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
-  // A file that grows beyond `ulimit -f` cannot be written, which is said.
+  // So that a file that grows beyond `ulimit -f` gives a write error with a message.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -1,28 +1,28 @@
 #pragma once
 /// \file
-/// Ctrl-C: work that reports progress is cancelled in good order; a second Ctrl-C ends the program at once. So does a
-/// watchdog when good order takes too long: other people's code, such as a graphics driver, reports no progress.
+/// Ctrl-C: work that reports progress is cancelled in good order; a second Ctrl-C ends the program at once. A watchdog
+/// does the same if good order takes too long: other people's code, such as a graphics driver, reports no progress.
 
 #include <chrono>
 
 namespace roam::app {
 
-/// From the signal to the program's end, at most, but for what the watchdog itself then does.
+/// The longest time from the signal to the program's end, except for the watchdog's own work.
 inline constexpr std::chrono::milliseconds longest_good_order{800};
 
-/// Catches SIGINT, SIGTERM and SIGHUP from now on, and lets a closed standard output, or a file that is too large, be
-/// an error instead of a signal. Ending at once is ending the children, removing the unfinished files
-/// (files/unfinished.h), and then what the signal does to a program that does not catch it.
+/// Catches SIGINT, SIGTERM and SIGHUP from now on. Turns the signals for a closed standard output and for a file that
+/// is too large into errors. Ending at once means: end the children, remove the unfinished files (files/unfinished.h),
+/// then do the signal's default action.
 void catch_signals();
 
-/// A signal came: what runs should end.
+/// Whether a signal has arrived: running work should end.
 [[nodiscard]] bool interrupted();
 
-/// Throws roam::Cancelled when a signal came.
+/// Throws roam::Cancelled if a signal has arrived.
 void stop_if_interrupted();
 
-/// Whether there is time to go on with what ends well when it is ended early: no signal came, or it did less than half
-/// of longest_good_order ago.
+/// Whether there is time to continue work that may end early: no signal arrived, or the first one less than half of
+/// longest_good_order ago.
 [[nodiscard]] bool has_time();
 
 }  // namespace roam::app

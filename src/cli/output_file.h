@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Files that a verb writes besides its answer: refused before any work, and never at the answer's cost.
+/// Files that a verb writes besides its result. Bad ones are refused before any work, and a failed write never loses
+/// the result.
 
 #include <filesystem>
 #include <optional>
@@ -11,19 +12,19 @@
 
 namespace roam::app {
 
-/// Why a file could only fail to be written: "there is no folder a/b", and what to do.
+/// The reason why a file cannot be written ("there is no folder a/b"), and advice.
 struct Obstacle {
   std::string what, advice;
 };
-/// None where nothing is in the way of `file`, which has a name.
+/// None if nothing prevents writing `file`, which must have a name.
 [[nodiscard]] std::optional<Obstacle> obstacle(const std::filesystem::path& file);
 
-/// Throws UsageError, naming the option, for a file that could only fail later: without a name, a folder, one of the
-/// scenes, or in a folder that is not there or may not be written.
+/// Throws UsageError, naming the option, for a file that cannot be written: one without a name, a folder, one of the
+/// scenes, or one in a folder that does not exist or is not writable.
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file);
 
-/// Writing that may fail before the answer is told, and is not to keep it from being told.
+/// Keeps the error of a failed write until the result has been printed.
 class Unwritten {
  public:
   template <class Write>
@@ -35,7 +36,7 @@ class Unwritten {
     }
   }
   [[nodiscard]] bool any() const { return !why_.empty(); }
-  /// When the answer has been told. Throws Error with the first reason.
+  /// Call it after the result has been printed. Throws Error with the first reason.
   void raise() const {
     if (any()) throw Error(why_);
   }

@@ -14,14 +14,14 @@ namespace roam::app {
 /// A length of time for people: "0.8 s", "42 s", "3 min 10 s", "2 h 5 min".
 [[nodiscard]] std::string short_time(double seconds);
 
-/// Tells how far some work is, how fast it goes and how long it will take: on a terminal in one line that is rewritten
-/// and goes away when the work ends, elsewhere in a plain line now and then. Work that is over quickly says nothing.
+/// Shows the progress, speed and remaining time of some work. On a terminal it rewrites one line, and removes it at the
+/// end. Elsewhere it writes a plain line now and then. Short work shows nothing.
 class Progress {
  public:
-  /// `what` is being done, counted in `unit`, e.g. "reading mine.dae" and "B" or "indexing" and "triangles"; empty:
-  /// only what share of it is done is told.
+  /// `what` is the work and `unit` its unit, e.g. "reading mine.dae" and "B", or "indexing" and "triangles". An empty
+  /// unit shows only the share done.
   ///
-  /// The time left follows from the rate so far. `rate` is `uneven` where that says nothing about the rest.
+  /// The remaining time follows from the rate so far. `rate` is `uneven` if that does not predict the rest.
   enum class Rate : std::uint8_t { even, uneven };
   Progress(const std::string& what, std::string unit, Rate rate = Rate::even);
   ~Progress();
@@ -30,7 +30,7 @@ class Progress {
 
   /// Throws roam::Cancelled after Ctrl-C.
   void at(std::uint64_t done, std::uint64_t total);
-  /// The same for callbacks that are asked to return false instead.
+  /// The same for callbacks that return false to cancel.
   [[nodiscard]] bool goes_on(std::uint64_t done, std::uint64_t total);
 
  private:

@@ -7,13 +7,14 @@
 namespace roam::app {
 namespace {
 
-/// Characters of a line, far more than any sentence has: what is longer holds what no sentence should.
+/// Characters of a line, far more than any sentence needs. Longer text is not a sentence.
 constexpr std::size_t longest_line = 1000;
 
 }  // namespace
 
 void tell(std::string_view sentence, std::string_view program) {
-  // A message that cannot be written either, to a log on the disk that is full, is lost: the exit status still tells.
+  // A message that cannot be written, such as to a log on a full disk, is lost. The exit status still reports the
+  // failure.
   std::fputs((std::string(program) + ": " + printable(sentence, longest_line) + "\n").c_str(), stderr);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sentences for people on standard error, and what of them a terminal sees.
+/// Sentences for people on standard error, made safe for terminals.
 
 #include <string>
 #include <string_view>
@@ -10,11 +10,11 @@ namespace roam::app {
 /// One line: the program's name and the sentence, made printable.
 void tell(std::string_view sentence, std::string_view program = "roam");
 
-/// A text of several lines for people, each made printable. A name in it is made so before, or its own line breaks
-/// would count as the text's.
+/// A text of several lines for people, each made printable. Make names printable before inserting them, or their line
+/// breaks would count as the text's.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 
-/// The path of a file, several, or what says why not, as a part of such a text.
+/// A file path, several paths, or an error reason, as a part of such a text.
 [[nodiscard]] std::string printable_part(std::string_view text);
 
 }  // namespace roam::app

@@ -10,7 +10,7 @@
 namespace roam::app {
 namespace {
 
-// Rows are handed to the file in blocks: a row a write would cost more than the step it tells of.
+// Rows are written in blocks: a write for each row would cost more than the step that it describes.
 constexpr std::size_t block_bytes = 1 << 16;
 
 std::string joined_events(const StepReport& report) {
@@ -36,7 +36,7 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
   };
   const std::string events = joined_events(report);
   if (step == 0) {
-    // The place that was asked for may be inside a wall; the walk starts where the body was put.
+    // The requested place may be inside a wall; the walk starts where the body was put.
     row(step_start, report.to, report.radius, report.height, report.axis_clearance, report.contacts.total(), events,
         true);
     return;

@@ -12,18 +12,18 @@
 
 namespace roam::app {
 
-/// Writes `--trace`: a row for the start and one or more for each step. A step whose way has corners has a row for each
-/// of them; contacts and events stand in its last row, several events joined by `+`. `clearance` is certified all along
-/// the straight piece that ends in its row; 0 where nothing is certified. `radius` and `height` are those of the body
-/// on that piece. Until close() the file is as it was.
+/// Writes `--trace`: a row for the start and one or more for each step. A step has a row for each corner of its way.
+/// Contacts and events stand in its last row, several events joined by `+`. `clearance` is certified along the straight
+/// piece that ends in its row; 0 if nothing is certified. `radius` and `height` are the body's on that piece. Until
+/// close() an earlier file stays unchanged.
 class TraceFile {
  public:
-  /// Throws roam::Error when it cannot be written.
+  /// Throws roam::Error if it cannot be written.
   explicit TraceFile(const std::filesystem::path& file);
 
   /// `step_start` is the time in seconds when the step began.
   void add(std::uint64_t step, double step_start, const StepReport& report);
-  /// Throws roam::Error when not all could be written.
+  /// Throws roam::Error if a row could not be written.
   void close();
 
  private:
@@ -31,7 +31,7 @@ class TraceFile {
 
   files::WholeFile out_;
   std::string rows_;
-  std::exception_ptr failure_;  ///< the first; what comes after it is not written
+  std::exception_ptr failure_;  ///< the first failure; later rows are not written
 };
 
 }  // namespace roam::app

@@ -1,14 +1,15 @@
 #pragma once
 /// \file
-/// Where the program keeps what belongs to its user.
+/// The program's folders for the user's data.
 
 #include <cstdlib>
 #include <filesystem>
 
 namespace roam::app {
 
-/// The folder `roam` in that of a variable of the XDG standard ("XDG_CONFIG_HOME"), else of `otherwise` in the home
-/// (".config"). Empty when neither variable is set. A path that is not absolute is to be ignored.
+/// The folder `roam` inside the one named by a variable of the XDG standard ("XDG_CONFIG_HOME"). Otherwise inside
+/// `otherwise` (".config") in the home folder. Empty if neither variable is set. As the standard demands, relative
+/// paths are ignored.
 [[nodiscard]] inline std::filesystem::path user_folder(const char* variable, const char* otherwise) {
   const auto folder = [](const char* name) {
     const char* value = std::getenv(name);

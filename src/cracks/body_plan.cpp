@@ -8,7 +8,7 @@ namespace roam::cracks {
 
 namespace {
 
-/// Of the ball that stands on `bottom` and just touches `point`.
+/// The radius of the ball that stands on `bottom` and just touches `point`.
 double ball_to(const Vec3& bottom, const Vec3& point) {
   const Vec3 d = point - bottom;
   return nested_ball(d.x * d.x + d.y * d.y, d.z);
@@ -29,7 +29,8 @@ BodyPlan::BodyPlan(const Survey& survey, const FloorPlan& floor, double knee)
     : survey_(&survey), floor_(&floor), knee_(knee) {}
 
 NearPlace BodyPlan::nearest_wall(const Vec3& place, double reach) const {
-  // The balls are nested: each that is not free gives a smaller one, which converges as Newton's square root does.
+  // The balls are nested: each one in contact gives a smaller one. This converges like Newton's method for square
+  // roots.
   constexpr int most_balls = 50;
   constexpr double settled = 1e-9;
   const Vec3 bottom = place + Vec3(0.0, 0.0, knee_);

@@ -30,12 +30,12 @@ namespace roam::cracks {
 
 namespace {
 
-/// Of the work, by time: finding voids. Measuring them is the rest.
+/// Share of time for finding voids; the rest measures them.
 constexpr double find_share = 0.8;
-/// m: depths that storing makes of one.
+/// m: storing changes a depth by less than this.
 constexpr double same_depth = 2e-3;
 
-/// From the floor that a disc touches first to what it touches most nearly opposite.
+/// The direction from the first floor that a disc touches to the floor most nearly opposite.
 Vec3 across(const FloorPlan& plan, const Disc& disc) {
   const std::vector<TouchedFloor> touched = touched_floor(plan, disc);
   if (touched.empty()) return {1.0, 0.0, 0.0};
@@ -66,7 +66,7 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
   return crack;
 }
 
-/// Discs that overlap at about one level belong to one drop.
+/// Groups discs into drops: discs that overlap at about one level are one drop.
 std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<RimPlace>& open) {
   std::vector<FoundCrack> all;
   std::vector<Vec3> centres;
@@ -100,7 +100,7 @@ std::vector<FoundCrack> find(const Survey& survey, RimEdges& edges,
   std::vector<RimPlace> open, rest;
   for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
   const OpenDrops drops(options, probe, open);
-  // A rim belongs to a drop by where it lies, not by where its climb ends: that may be at the far end of a long split.
+  // The rim's position assigns it to a drop, not the end of its climb, which may be at the far end of a long gap.
   const auto split = std::stable_partition(open.begin(), open.end(),
                                            [&](const RimPlace& place) { return drops.cover(place.outside); });
   rest.insert(rest.end(), split, open.end());

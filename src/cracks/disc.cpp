@@ -10,8 +10,9 @@ namespace roam::cracks {
 
 namespace {
 
-/// The way in which a disc grows fastest while all that it touches stays behind: of the shortest arc that holds the
-/// directions away from what it touches, the middle; and how much radius a metre gives. None where they surround it.
+/// The direction in which a disc grows fastest while it moves away from all obstacles that it touches: the middle of
+/// the shortest arc with all directions away from them. `rate`: metres of radius per metre. None if obstacles surround
+/// the disc.
 struct Climb {
   double x = 0.0, y = 0.0;
   double rate = 0.0;
@@ -38,7 +39,7 @@ std::optional<Climb> steepest(const Vec3& centre, const std::vector<NearPlace>& 
   return Climb{std::cos(middle), std::sin(middle), std::cos(0.5 * arc)};
 }
 
-/// Of the way from a place to one where a disc is as large as `enough`, the first place where it is.
+/// The first place on the way from a place to one with a disc as large as `enough` where the disc is that large.
 Vec3 first_enough(const Plan& plan, const Vec3& from, const Vec3& to, double enough) {
   constexpr double precision = 1e-6;  // m
   double below = 0.0, above = 1.0;
@@ -52,7 +53,7 @@ Vec3 first_enough(const Plan& plan, const Vec3& from, const Vec3& to, double eno
 }  // namespace
 
 std::vector<TouchedFloor> touched_floor(const FloorPlan& plan, const Disc& disc) {
-  constexpr double touch_share = 0.02;  // of the radius: floor that is so little farther
+  constexpr double touch_share = 0.02;  // of the radius: floor this much farther still counts as touched
   const double reach = 2.0 * disc.radius;
   std::vector<NearPlace> near;
   plan.touching(disc.centre, reach, touch_share * disc.radius, near);
@@ -65,10 +66,10 @@ std::vector<TouchedFloor> touched_floor(const FloorPlan& plan, const Disc& disc)
 }
 
 Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, const MayMove& may_move) {
-  // Rims that part by less than this a metre are taken for parallel: 0.04 mm over the 4 m that are looked at.
+  // Rims that part by less than this per metre count as parallel: 0.04 mm over the examined 4 m.
   constexpr double least_rate = 1e-5;
-  constexpr double fair_share = 0.3;  // of the growth that the rate promises, for a step to be taken
-  constexpr int most_steps = 400;     // rims that never let go: not met
+  constexpr double fair_share = 0.3;  // a step needs at least this share of the growth that the rate promises
+  constexpr int most_steps = 400;     // against rims that never end; not seen to happen
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<NearPlace> near;
   Disc disc{start, 0.0};

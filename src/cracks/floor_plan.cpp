@@ -21,7 +21,7 @@ struct Polygon {
   void add(const Vec3& corner) { corners[static_cast<std::size_t>(size++)] = corner; }
 };
 
-/// What of a polygon has sign * z <= limit (Sutherland & Hodgman, 1974).
+/// The part of a polygon with sign * z <= limit (Sutherland & Hodgman, 1974).
 Polygon clipped(const Polygon& whole, double sign, double limit) {
   Polygon part;
   for (int i = 0; i < whole.size; ++i) {
@@ -43,7 +43,7 @@ Vec3 nearest_of_segment(const Vec3& a, const Vec3& b) {
   return a + std::clamp(-(a.x * ab.x + a.y * ab.y) / length, 0.0, 1.0) * ab;
 }
 
-/// The place of a convex polygon that is nearest to the origin in the plan; of one that lies over it, the origin.
+/// The place of a convex polygon nearest to the origin in the plan. If the polygon lies over the origin: the origin.
 std::optional<Vec3> nearest_of(const Polygon& polygon) {
   if (polygon.size == 0) return std::nullopt;
   bool left = false, right = false;
@@ -75,7 +75,7 @@ void sort_near(std::vector<NearPlace>& near) {
 }
 
 FloorPlan::FloorPlan(const Survey& survey, double band)
-    // Twice: a query's own bound is off as much as what it is about; and the tenth of a micrometre that roundings take.
+    // Twice, because the query's own bound has the same error. The rest is rounding.
     : survey_(&survey), band_(band), error_(2.0 * survey.floor().largest_error() + 1e-7) {}
 
 NearPlace FloorPlan::of(TriangleId floor, const Vec3& place) const {
@@ -105,7 +105,7 @@ NearPlace FloorPlan::nearest(const Vec3& place, double reach) const {
   if (!beside.found) return {reach, place};
   const NearPlace first = of(beside.triangle, place);
   if (first.distance <= std::max(beside.distance, 0.0) + error_) return first;
-  // What is nearest to the upright axis lies above or below its ends: look farther for what is beside it.
+  // The nearest triangle was above or below the axis's ends. Search farther for floor within the band.
   std::vector<NearPlace> near;
   for (double radius = std::max(2.0 * beside.distance, 0.1);; radius *= 2.0) {
     within(place, std::min(radius, reach), near);

@@ -11,20 +11,20 @@ namespace roam::cracks {
 
 namespace {
 
-/// Of a corner that is taken for a part of its pit: m farther from floor for each metre on the way to the open disc.
-/// A right angle has 0.707.
+/// Metres of distance from floor gained per metre towards the open disc, in a corner that belongs to its pit. A right
+/// angle has 0.707.
 constexpr double corner_rate = 0.65;
-/// Of the smallest radius: what a notch in an edge may take off that.
+/// Smallest radii: how much a notch in an edge may shorten the distance from floor.
 constexpr double notch = 3.0;
-/// Of the probe's radius, and of a body's: between the places that are looked at on the way out of it.
+/// Shares of the probe's radius and of the body's radius: spacing of the examined places on the way out.
 constexpr double probe_share = 0.7, body_share = 0.15;
-/// m: an outlet that is so much narrower to a side is none that is narrower; places of a way are as near to each other.
+/// m: an outlet narrower by less than this does not count as narrower; the spacing of places along a way.
 constexpr double narrower = 0.003, between_places = 0.01;
-/// The cosine of how far apart the ways to two floors must be, for them to lie on two sides: 96 degrees, so that a
-/// right angle is one side.
+/// The largest cosine between the directions to two floors on different sides: 96 degrees, so that a right angle is one
+/// side.
 constexpr double opposite = -0.1;
 
-/// Floor under a wall, as the foot of a post, is none that one comes to.
+/// Floor under a wall, such as the foot of a post, does not count: no body comes to it.
 bool has_floor_on_both_sides(const VoidProbe& probe, const std::function<bool(const Vec3& foot)>& is_reached,
                              const Disc& disc) {
   std::vector<Vec3> ways;
@@ -61,7 +61,7 @@ class WayOut {
         if (seen.count(to) > 0) continue;
         const std::optional<Vec3> place =
             room_near(body_.centre + Vec3(double(to.first) * spacing_, double(to.second) * spacing_, 0.0));
-        if (place && !goes(from, *place)) continue;  // perhaps from another side
+        if (place && !goes(from, *place)) continue;  // the place may still be reached from another side
         seen.emplace(to, place);
         if (place) next.push({probe_.floor().nearest(*place, probe_.open()).distance, to.first, to.second});
       }
@@ -81,7 +81,7 @@ class WayOut {
 
   double room(const Vec3& place, double enough) const { return probe_.body().nearest(place, enough).distance; }
 
-  /// Where the body has room, at a place of the lattice or, where a ridge passes it by, on that.
+  /// A place for the body at or near a lattice place. If a ridge passes beside the lattice place, it is on that ridge.
   std::optional<Vec3> room_near(const Vec3& place) const {
     if (level_distance(place, body_.centre) > reach_) return std::nullopt;
     const double here = room(place, least_);
@@ -123,7 +123,7 @@ bool takes_in(const CrackOptions& options, const VoidProbe& probe, const Vec3& c
     for (const double share : {0.5, 0.25, 0.75}) {
       const Vec3 between(place.x + share * (centre.x - place.x), place.y + share * (centre.y - place.y), place.z);
       const double least = start + corner_rate * share * distance;
-      if (!(least > 0.0)) continue;  // as far as that from floor is anything
+      if (!(least > 0.0)) continue;  // true of every place
       if (probe.floor().nearest(between, least).distance < least) return false;
     }
   }
@@ -133,7 +133,7 @@ bool takes_in(const CrackOptions& options, const VoidProbe& probe, const Vec3& c
 
 OpenDrops::OpenDrops(const CrackOptions& options, const VoidProbe& probe, const std::vector<RimPlace>& open)
     : options_(options), probe_(probe), side_((options.support_max + notch * options.smallest) / corner_rate) {
-  // Discs nearer to one another than this cover the same.
+  // Discs nearer to each other than this cover the same places.
   const double apart = 0.2 * options.smallest;
   std::unordered_map<std::uint64_t, std::vector<double>> seen;
   for (const RimPlace& place : open) {
@@ -163,7 +163,7 @@ bool OpenDrops::any(const Vec3& place, int squares, const Asked& asked) const {
 bool OpenDrops::cover(const Vec3& place, double floor) const {
   const auto is_in = [&](const Vec3& centre) { return level_distance(centre, place) <= options_.support_max; };
   const auto takes = [&](const Vec3& centre) { return takes_in(options_, probe_, centre, place, floor); };
-  // Those that ask for least first.
+  // The discs with the cheaper test first.
   return any(place, 1, [&](const Vec3& centre) { return is_in(centre) && takes(centre); }) ||
          any(place, 1, [&](const Vec3& centre) { return !is_in(centre) && takes(centre); });
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Voids that are wider than any foot: pits, shafts, cliffs, the end of a floor; and which places beside them are a
-/// part of one.
+/// Voids wider than any foot: pits, shafts, cliffs, the end of a floor. Also finds the places beside them that belong
+/// to them.
 
 #include <atomic>
 #include <unordered_map>
@@ -12,21 +12,21 @@
 
 namespace roam::cracks {
 
-/// Whether the open disc about `centre` takes in a place of a void whose distance of floor is `floor`: in sight of the
-/// centre, and within support_max of it, or where the way to it leads so steadily away from floor as in a pit's corner
-/// that is no sharper than a right angle.
+/// Whether the open disc around `centre` covers a place of a void. `floor`: the place's distance from floor. The place
+/// must be in sight of the centre. It must be within support_max, or the distance from floor must grow on the way to
+/// the centre as steadily as in a pit's corner no sharper than a right angle.
 [[nodiscard]] bool takes_in(const CrackOptions& options, const VoidProbe& probe, const Vec3& centre, const Vec3& place,
                             double floor);
 
-/// Where the discs of open drops lie.
+/// The discs of open drops, by position.
 class OpenDrops {
  public:
   OpenDrops(const CrackOptions& options, const VoidProbe& probe, const std::vector<RimPlace>& open);
-  /// One of them takes in the place, at about the same level. `floor`: as takes_in.
+  /// Whether a disc at about the same level covers the place. `floor`: as takes_in.
   [[nodiscard]] bool cover(const Vec3& place, double floor) const;
-  /// Likewise; asks for the distance of floor itself.
+  /// The same; queries the distance from floor itself.
   [[nodiscard]] bool cover(const Vec3& place) const;
-  /// A centre at about the same level lies within `reach` (m, at most 3 support_max), seen or not.
+  /// Whether a centre at about the same level lies within `reach` (m, at most 3 support_max), in sight or not.
   [[nodiscard]] bool any_near(const Vec3& place, double reach) const;
 
  private:
@@ -39,10 +39,10 @@ class OpenDrops {
   std::unordered_map<std::uint64_t, std::vector<Vec3>> centres_;
 };
 
-/// Whether a place of a void is a part of an open drop that it lies beside, as between the end of a floor and a post
-/// that stands before it: the largest body that stands there comes to the drop through nothing narrower than itself (to
-/// some millimetres), before an open disc is clear of it, and no floor beyond is reached, so that no foot is to carry
-/// there. `is_reached` as in find_cracks. Once `ended` is set, none is.
+/// Whether a place of a void belongs to an open drop beside it, as between the end of a floor and a post in front of
+/// it. The largest body that stands there must reach the drop through nothing narrower than itself (to some
+/// millimetres), going no farther than its radius + support_max. False if reached floor lies on two sides of the place,
+/// because then a foot must carry the body across. `is_reached` as in find_cracks. False once `ended` is set.
 [[nodiscard]] bool opens_into_drop(const CrackOptions& options, const VoidProbe& probe,
                                    const std::function<bool(const Vec3& foot)>& is_reached, const Vec3& place,
                                    const std::atomic<bool>& ended);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places in the plan, by the squares of a lattice that they lie in.
+/// Places in the plan, grouped by squares of a lattice.
 
 #include <cmath>
 #include <cstdint>
@@ -26,8 +26,8 @@ namespace roam::cracks {
   return square_number(std::int64_t(std::floor(x / side)), std::int64_t(std::floor(y / side)));
 }
 
-/// The numbers of places that lie within `reach` of each other, level, and within `step` in height: each group
-/// ascending, in the order of their first ones.
+/// Groups of places within `reach` of each other, level, and within `step` in height, as indices. Each group is
+/// ascending; groups are in the order of their first members.
 [[nodiscard]] inline std::vector<std::vector<std::size_t>> together(const std::vector<Vec3>& places, double reach,
                                                                     double step) {
   DisjointSets sets(places.size());
@@ -50,8 +50,8 @@ namespace roam::cracks {
   return all;
 }
 
-/// The numbers of places in parts that lie farther than `side` from each other, level: each part ascending, in the
-/// order of their first ones.
+/// Groups of places farther than `side` from each other, level, as indices. Each group is ascending; groups are in the
+/// order of their first members.
 [[nodiscard]] inline std::vector<std::vector<std::size_t>> apart(const std::vector<Vec3>& places, double side) {
   std::unordered_map<std::uint64_t, std::uint32_t> squares;
   DisjointSets sets;

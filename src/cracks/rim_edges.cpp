@@ -16,14 +16,14 @@
 namespace roam::cracks {
 namespace {
 
-/// After those of SharedEdges.
+/// The phase after those of SharedEdges.
 constexpr int last_phase = SharedEdges::phases;
-/// Floors between two questions whether to go on: some milliseconds of work.
+/// Floors between two calls of `goes_on`: some milliseconds of work.
 constexpr std::size_t asked_every = 2048;
 
 }  // namespace
 
-/// Outlives a RimEdges where a core comes to a piece too late.
+/// Shared, because a core may run a piece after the end of the RimEdges.
 struct RimEdges::State {
   State(const Survey& of, const CrackOptions& how, std::size_t together)
       : survey(&of), probe(of, how), shared(of), options(how), floors_together(together) {}
@@ -33,8 +33,8 @@ struct RimEdges::State {
   SharedEdges shared;
   const CrackOptions options;
   const std::size_t floors_together;
-  std::vector<std::uint8_t> edges;  ///< from the last phase on
-  int phase = 0;                    ///< the next piece, last_phase + 1: all is done
+  std::vector<std::uint8_t> edges;  ///< set in the last phase
+  int phase = 0;                    ///< of the next piece; last_phase + 1 when all is done
   std::size_t piece = 0;
   std::size_t looked_at = 0;  ///< floors
   std::mutex mutex;           ///< held while a piece is done ahead
@@ -56,7 +56,7 @@ struct RimEdges::State {
     piece = 0;
     if (++phase == last_phase) edges = shared.take();
   }
-  /// The next piece. False: there is none.
+  /// Does the next piece. Returns false if there is none.
   bool do_ahead() {
     const std::lock_guard lock(mutex);
     if (ended) return false;
@@ -67,7 +67,7 @@ struct RimEdges::State {
       ++piece;
       return true;
     } catch (const std::exception&) {
-      ended = true;  // who asks does it again, and is told
+      ended = true;  // look_at_all() repeats the work and reports the error
       return false;
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Edges of floors that may have a void outside, whoever comes there: what is asked of the scene alone, and so may be
-/// asked while places are looked for.
+/// Edges of floors that may have a void outside. This needs the scene only, not the reached places, so it can be
+/// computed while a search for places is running.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,26 +15,26 @@ namespace roam::cracks {
 /// Used by one thread at a time.
 class RimEdges {
  public:
-  /// `survey` must outlive it. So many floors are looked at together: some milliseconds of work, for most edges are
-  /// inside a floor.
+  /// `survey` must outlive it. `floors_together` is the size of one piece of work. The default takes some milliseconds,
+  /// because most edges are inside a floor.
   explicit RimEdges(const Survey& survey, const CrackOptions& options, int floors_together = 4096);
   ~RimEdges() noexcept;
   RimEdges(const RimEdges&) = delete;
   RimEdges& operator=(const RimEdges&) = delete;
 
   [[nodiscard]] const CrackOptions& options() const;
-  /// Lets one other core begin, where there is one and as long as it has nothing else to do.
+  /// Starts the work on one other core at low priority, if there is one.
   void look_ahead();
-  /// What that core does next, done here. Returns whether there was anything left.
+  /// Does the next piece of that work on this thread. Returns false if nothing was left.
   bool look_ahead_here();
 
-  /// Of one of survey.floor_triangles(), by its number. Bit k of `without`: no void lies outside the edge from corner k
-  /// to the next, within one floor or beside it. `is_known`: the others have one somewhere; else they have not been
-  /// looked at.
+  /// Receives a floor's index in survey.floor_triangles(). Bit k of `without` is set if no void lies outside the edge
+  /// from corner k to the next, because floor continues there or a wall stands there. `is_known`: all other edges have
+  /// a void somewhere; otherwise they have not been examined.
   using Look = std::function<void(std::size_t floor, std::uint8_t& without, bool is_known)>;
-  /// Ends looking ahead, and calls `look` with all floors, from all cores: it sets what it finds out. `goes_on`, if
-  /// any, is asked with the fraction done, by one thread at a time; false ends it early. Returns whether it did not end
-  /// so: all is known then.
+  /// Ends looking ahead, then calls `look` for all floors, from all cores; `look` sets the bits that it finds. Calls
+  /// `goes_on`, if any, with the fraction done, from one thread at a time; false ends it early. Returns true if it was
+  /// not ended: then everything is known.
   bool look_at_all(const Look& look, const std::function<bool(double)>& goes_on);
 
  private:

@@ -14,10 +14,10 @@ namespace roam::cracks {
 
 namespace {
 
-/// On which side of an edge, from its lesser corner to its greater, the triangle lies in the plan.
+/// The side of an edge, from its lesser corner to its greater, on which the triangle lies in the plan.
 enum Side : std::uint64_t { neither = 0, left = 1, right = 2 };
 
-/// Floors that are gone through together.
+/// Floors of one block of work.
 constexpr std::size_t block_floors = 16'384;
 
 std::uint64_t hash_of(const Vec3& corner) { return hashed(corner + Vec3(0.0)); }  // -0 is 0
@@ -69,7 +69,7 @@ void SharedEdges::each_edge(std::size_t block, const Take& take) const {
     const std::array<std::uint64_t, 3> corners{hash_of(t[0]), hash_of(t[1]), hash_of(t[2])};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      // Sums: either order of the corners.
+      // Sums do not depend on the order of the corners.
       const std::uint64_t more = mix(corners[k]) + mix(corners[next]);
       take(Edge{corners[k] + corners[next], more >> 44, side_of(t[k], t[next], t[(k + 2) % 3]), 3 * floor + k});
     }
@@ -102,7 +102,7 @@ void SharedEdges::mark(std::size_t part) {
   const std::span<Edge> edges(edges_.data() + begins_[part], edges_.data() + begins_[part + 1]);
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.hash != b.hash ? a.hash < b.hash : a.number < b.number; });
-  constexpr std::size_t most_compared = 8;  // of edges with one hash: more meet only in damaged meshes
+  constexpr std::size_t most_compared = 8;  // edges with one hash; more occur only in damaged meshes
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = i + 1; j < edges.size() && j - i <= most_compared && edges[j].hash == edges[i].hash; ++j) {
       if (!edges[i].is_same(edges[j]) || (edges[i].side | edges[j].side) != (left | right)) continue;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Edges inside a floor: those that two of its triangles share, one on each side.
+/// Edges inside a floor: two of its triangles share each of them, one on each side.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace roam::cracks {
 
-/// Finds them in phases. The pieces of one phase may be done in any order, by any number of threads; a phase begins
-/// when the one before it is done. The answer does not depend on it. Takes 50 bytes a floor while it is at work.
+/// Finds these edges in phases. The pieces of one phase may run in any order, on any number of threads; a phase begins
+/// when the one before it is done. The result does not depend on the order. Takes 50 bytes a floor while it runs.
 class SharedEdges {
  public:
   /// `survey` must outlive it.
@@ -22,17 +22,17 @@ class SharedEdges {
   [[nodiscard]] std::size_t pieces(int phase) const;
   /// Some milliseconds of work.
   void run(int phase, std::size_t piece);
-  /// When all is done, once. Of each of survey.floor_triangles(): bit k is set where the edge from corner k to the next
-  /// is also, with the same two corners as numbers, whatever their order, an edge of a floor that lies on its other
-  /// side in the plan. Nothing can be told from a bit that is not set: floors may meet without such an edge.
+  /// Call it once, after all phases. Returns a byte for each of survey.floor_triangles(). Bit k is set if another floor
+  /// shares the edge from corner k to the next, with equal corners in any order, and lies on its other side in the
+  /// plan. A bit that is not set says nothing: floors may meet without such an edge.
   [[nodiscard]] std::vector<std::uint8_t> take();
 
  private:
   /// Edges are compared within parts that fit into a core's cache.
   static constexpr std::size_t parts = 512;
 
-  /// Of an edge, told from others by 84 bits of a hash of its corners: looking the corners up again would be most of
-  /// the work, for what shares an edge lies anywhere in memory.
+  /// An edge, identified by 84 bits of a hash of its corners. Comparing the corners themselves would be most of the
+  /// work, because the triangles of one edge lie anywhere in memory.
   struct Edge {
     std::uint64_t hash;
     std::uint64_t more_hash : 20, side : 2, number : 42;  ///< 3 * floor + corner
@@ -47,7 +47,7 @@ class SharedEdges {
   void mark(std::size_t part);
 
   const Survey* survey_;
-  std::vector<std::array<std::size_t, parts>> at_;  ///< of each block: where its next edge of each part goes
+  std::vector<std::array<std::size_t, parts>> at_;  ///< for each block: the next position for its edges of each part
   std::array<std::size_t, parts + 1> begins_{};     ///< of the parts
   std::vector<Edge> edges_;
   std::vector<std::uint8_t> shared_;

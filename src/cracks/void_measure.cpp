@@ -18,28 +18,28 @@ namespace roam::cracks {
 
 namespace {
 
-constexpr double window = 4.0;         ///< m around a rim's disc that one flood fills
-constexpr double spacing_share = 0.7;  ///< of the probe's radius: each place of a ridge has a cell within half of it
-constexpr double sink_margin = 0.003;  ///< m that a sphere is smaller than the disc it sinks in: a store's 2 mm
+constexpr double window = 4.0;         ///< m around a rim place that one flood fills
+constexpr double spacing_share = 0.7;  ///< of the probe's radius, so that a cell lies within half a radius of any place
+constexpr double sink_margin = 0.003;  ///< m that the sinking sphere is smaller than its disc: a store rounds by 2 mm
 constexpr double finest = 0.1 * VoidProbe::precision;  ///< m
-constexpr std::size_t most_discs = 32;                 ///< of one flood that are grown
-constexpr std::size_t most_beside = 3;                 ///< likewise, up to where an open drop begins, which takes long
+constexpr std::size_t most_discs = 32;                 ///< discs grown for one flood
+constexpr std::size_t most_beside = 3;                 ///< likewise, up to the border of an open drop, which is slow
 
 /// A place of the lattice at the level of one void.
 struct Cell {
   std::int64_t x = 0, y = 0;
   double level = 0.0;
-  double distance = 0.0;  ///< of floor or wall
-  double floor = 0.0;     ///< of floor
+  double distance = 0.0;  ///< from floor or wall
+  double floor = 0.0;     ///< from floor
   std::uint32_t flood = 0;
-  bool inside = false;  ///< of the flood; else floor, a wall, filled up, or an open drop
-  bool drop = false;    ///< turned out to belong to an open drop
+  bool inside = false;  ///< of the flood; else floor, a wall, too narrow, or an open drop
+  bool drop = false;    ///< proved to belong to an open drop
 };
 
-/// The voids of one part of the scene that no other part's floods come to.
+/// The voids of one part of the scene, which floods of other parts do not reach.
 class Floods {
  public:
-  /// `ended`: what is being flooded is measured as far as it came.
+  /// Once `ended` is set, the current flood is measured as far as it is.
   Floods(const CrackOptions& options, const VoidProbe& probe, const OpenDrops& drops,
          const std::function<bool(const Vec3& foot)>& is_reached, const std::atomic<bool>& ended)
       : options_(options),
@@ -56,14 +56,14 @@ class Floods {
     rims_[*flood].push_back(place.rim);
   }
 
-  /// Whether a place lies in what was flooded already; then it belongs to that.
+  /// Adds a place to the flood that contains it. Returns false if there is none.
   bool add_to_known(const RimPlace& place) {
     const std::optional<std::uint32_t> flood = flood_at(place.outside);
     if (flood) rims_[*flood].push_back(place.rim);
     return flood.has_value();
   }
 
-  /// Of each void that floods make up, the largest disc that is no open drop; and what of it is one, by itself.
+  /// For each void, joined from its floods: the largest disc that is no open drop. Open drops are separate entries.
   std::vector<MeasuredVoid> measured() {
     std::map<std::pair<std::uint32_t, bool>, MeasuredVoid> voids;
     for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
@@ -90,7 +90,7 @@ class Floods {
   Vec3 place_of(const Cell& cell) const { return place_of(cell.x, cell.y, cell.level); }
   double half_diagonal() const { return 0.5 * std::numbers::sqrt2 * spacing_; }
 
-  /// The cell of a flood at about the level, or what was looked at on just this level.
+  /// A cell of a flood at about that level, or an examined cell at exactly that level.
   Cell* find(std::int64_t x, std::int64_t y, double level) {
     const auto square = cells_.find(square_number(x, y));
     if (square == cells_.end()) return nullptr;
@@ -101,7 +101,7 @@ class Floods {
     return nullptr;
   }
 
-  /// The four places of the lattice about a place, the nearest first.
+  /// The four lattice places around a place, the nearest first.
   std::array<Cell, 4> about(const Vec3& place) const {
     const auto x = std::int64_t(std::floor(place.x / spacing_)), y = std::int64_t(std::floor(place.y / spacing_));
     std::array<Cell, 4> cells{{{.x = x, .y = y}, {.x = x + 1, .y = y}, {.x = x, .y = y + 1}, {.x = x + 1, .y = y + 1}}};
@@ -121,7 +121,7 @@ class Floods {
     return std::nullopt;
   }
 
-  /// Floods the void about `seed`; answers the flood's number.
+  /// Floods the void around `seed`. Returns the flood's number.
   std::uint32_t fill(const Vec3& seed) {
     const std::uint32_t flood = sets_.add();
     rims_.emplace_back();
@@ -151,7 +151,7 @@ class Floods {
     return flood;
   }
 
-  /// The cell at (x, y) if it is new to all floods and belongs to this one. What another has joins the two.
+  /// The cell at (x, y) if no flood has it yet and it belongs to this one. If another flood has it, the two are joined.
   std::optional<Cell> entered(const Vec3& from, std::int64_t x, std::int64_t y, double level, std::uint32_t flood) {
     Cell* cell = find(x, y, level);
     if (cell && cell->inside) {
@@ -167,7 +167,7 @@ class Floods {
       square.push_back({x, y, level, body, floor, flood, false, false});
       cell = &square.back();
     }
-    // A ridge where the probe just fits has cells on it with so much less.
+    // Where the probe just fits on a ridge, the cells nearest to the ridge have this much less room.
     const double least = probe_.radius() - half_diagonal();
     if (cell->distance < least) return std::nullopt;
     if (drops_.cover(place, cell->floor)) return std::nullopt;
@@ -179,8 +179,8 @@ class Floods {
     return *cell;
   }
 
-  /// None of the flood's cells about it is higher, but for some that belong to an open drop and rise from it slowly, as
-  /// along a ridge. One that rises steeply has this cell on the flank of its ridge.
+  /// Whether no neighbouring cell of the flood is higher. Cells of an open drop may rise slowly from this one, as along
+  /// a ridge. If one rises steeply, this cell is on the flank of that drop's ridge.
   bool is_highest(const Cell& cell) {
     constexpr double slowly = 0.5;
     for (std::int64_t x = cell.x - 1; x <= cell.x + 1; ++x) {
@@ -194,27 +194,27 @@ class Floods {
     return true;
   }
 
-  /// Whether one of a flood's own open discs takes in a place of it.
+  /// Whether an open disc of the flood itself covers a place of it.
   bool is_in(const std::vector<Vec3>& own_drops, const Vec3& place, double floor) const {
     return std::any_of(own_drops.begin(), own_drops.end(),
                        [&](const Vec3& centre) { return takes_in(options_, probe_, centre, place, floor); });
   }
 
-  /// Whether a place lies in an open disc that is known.
+  /// Whether a known open disc covers a place.
   bool is_open(const Vec3& place, const std::vector<Vec3>& own_drops) const {
     const double floor = probe_.floor().nearest(place, options_.support_max).distance;
     return drops_.cover(place, floor) || is_in(own_drops, place, floor);
   }
 
-  /// Whether a place in no open disc is a part of the drop that it lies beside.
+  /// Whether a place that no open disc covers belongs to a drop beside it.
   bool is_beside_drop(const Vec3& place, const std::vector<Vec3>& own_drops) const {
-    // Of a body and on to where it comes to, and of an arc about a corner: open discs are known on its two ends.
+    // Covers the largest body, its way to the drop, and an arc around a corner with open discs at its ends.
     const double reach = 2.5 * options_.support_max;
     return (drops_.any_near(place, reach) || is_near(own_drops, place, reach)) &&
            opens_into_drop(options_, probe_, is_reached_, place, ended_);
   }
 
-  /// The farthest from floor that the axis of a smallest body comes, outside open drops: no foot carries there.
+  /// The greatest distance from floor of a smallest body's axis, outside open drops, which no foot bridges.
   double foot_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.floor != b.floor ? a.floor > b.floor : std::tie(a.x, a.y) < std::tie(b.x, b.y);
@@ -236,9 +236,8 @@ class Floods {
                        [&](const Vec3& other) { return level_distance(other, place) < reach; });
   }
 
-  /// Grown from the best cells that none beside them exceeds, and from the seed, but to no place that belongs to an
-  /// open drop. Radius 0 where no place is left; open where the flood itself found such a drop. The open discs that are
-  /// met go to `own_drops`.
+  /// The largest disc grown from local maxima of the cells and from the seed, outside open drops. Radius 0 if no place
+  /// is left; an open disc if the flood itself is a drop. Adds the open discs that it finds to `own_drops`.
   Disc largest(const Vec3& seed, std::vector<Cell>& cells, std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.distance != b.distance ? a.distance > b.distance : std::tie(a.x, a.y) < std::tie(b.x, b.y);
@@ -271,7 +270,7 @@ class Floods {
     return {own_drops.front(), options_.support_max};
   }
 
-  /// As grown, into no open disc; those that are met go to `own_drops`. Radius 0 where one takes in `start`.
+  /// As grown, but outside open discs. Adds the discs that it meets to `own_drops`. Radius 0 if one covers `start`.
   Disc grown_outside(const Vec3& start, std::vector<Vec3>& own_drops) const {
     while (!is_open(start, own_drops)) {
       const Disc disc = grown(start, [&](const Vec3& to) { return !is_open(to, own_drops); });
@@ -281,9 +280,9 @@ class Floods {
     return {};
   }
 
-  /// As grown, past no place that belongs to an open drop, as far as `about`.
+  /// As grown, but only over places that do not belong to an open drop, to a precision of `about`.
   Disc grown_beside(const Vec3& start, const std::vector<Vec3>& own_drops) const {
-    constexpr double about = 0.01;  // m: where such places begin is not sharper
+    constexpr double about = 0.01;  // m: the border of such places is no sharper than this
     const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
     const Disc near = grow(probe_.body(), start, probe_.open(), about,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
@@ -292,12 +291,12 @@ class Floods {
     };
     const Disc body = grow(probe_.body(), near.centre, probe_.open(), finest,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && in_reach(to); });
-    // Where it must stop before it is on the ridge it is that much nearer to a wall than to floor, and no wall decides.
+    // Stopped before the ridge, it is that much nearer to a wall than to floor, although no wall limits the void.
     const double floor = probe_.floor().nearest(body.centre, probe_.open()).distance;
     return floor <= body.radius + 2.0 * about ? body : grown(near.centre, in_reach);
   }
 
-  /// The centres of open discs among a flood's cells, in their order, none nearer to another than a probe.
+  /// The centres of open discs among a flood's cells, in their order, at least a probe apart.
   std::vector<Vec3> open_discs(const std::vector<Cell>& cells) const {
     std::vector<Vec3> discs;
     for (const Cell& cell : cells) {
@@ -310,16 +309,16 @@ class Floods {
     return discs;
   }
 
-  /// The way between two places lies in the void.
+  /// Whether the straight way between two places stays in the void.
   bool stays(const Vec3& from, const Vec3& to) const {
     return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - sink_margin);
   }
 
-  /// The largest body that goes in near `start` and where it may, and a foot that carries it there. Where walls leave
-  /// no room for a body as wide as the gap, it takes the foot that carries the widest bodies that they let in.
+  /// The largest body that fits into the void near `start`, within `may_be`, as the foot that carries it. If walls
+  /// leave no room for a body as wide as the gap, it is the foot for the widest bodies that fit between the walls.
   Disc grown(const Vec3& start, const std::function<bool(const Vec3& to)>& may_be) const {
-    constexpr double walls_decide = 0.001;  // m of floor's distance beyond the wall's
-    constexpr double widest_share = 0.8;    // of the room between the walls, that bodies are thought to need
+    constexpr double walls_decide = 0.001;  // m: walls limit the body if floor is farther than this beyond them
+    constexpr double widest_share = 0.8;    // of the room between the walls; assumed width of bodies
     const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
     const Disc body = grow(probe_.body(), start, probe_.open(), finest, may_move);
     if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
@@ -339,10 +338,10 @@ class Floods {
   DisjointSets sets_;
   std::vector<Disc> discs_;              ///< of each flood
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
-  std::vector<double> feet_;             ///< likewise: the farthest that the axis of a smallest body is from floor
+  std::vector<double> feet_;             ///< likewise: the greatest distance from floor of a smallest body's axis
 };
 
-/// What was climbed to and not measured: the widest disc of each void.
+/// The voids that were climbed but not measured, with their widest discs.
 std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& drops, std::vector<RimPlace> places) {
   std::erase_if(places, [&](const RimPlace& place) { return drops.cover(place.outside); });
   std::vector<MeasuredVoid> voids;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// How wide a void is: flooded on a lattice, for a climb alone stops on the ridge of an arm and a flood alone is
-/// coarse.
+/// The width of a void. It is flooded on a lattice first, then climbed: a climb alone would stop on the ridge of one
+/// arm, and a flood alone is coarse.
 
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace roam::cracks {
 
-/// A void that was measured: the largest disc of all its arms.
+/// A measured void: the largest disc of all its arms.
 struct MeasuredVoid {
   Disc disc;
   double foot = 0.0;
   std::vector<Vec3> rim;
 };
 
-/// The voids of rim places that lie in no drop that was climbed to, and what of them turned out to be one after all.
-/// Places that belong to drops are left out. `is_reached` as find_cracks. `goes_on` is asked from
-/// several threads, one at a time, with the fraction done; when it says so, or `ended` is set before, what is not
-/// measured yet is as wide as its best climb, to some millimetres.
+/// The voids of rim places outside the known drops, including parts that prove to be drops themselves. Places that
+/// belong to drops are left out. `is_reached` as in find_cracks. Calls `goes_on` with the fraction done, from several
+/// threads, one at a time. After it returns false, or if `ended` is set, each void not measured yet gets the width of
+/// its best climb, to some millimetres.
 [[nodiscard]] std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidProbe& probe,
                                                       const OpenDrops& drops, const std::vector<RimPlace>& places,
                                                       const std::function<bool(const Vec3& foot)>& is_reached,

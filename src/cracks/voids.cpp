@@ -11,13 +11,13 @@ namespace roam::cracks {
 
 namespace {
 
-/// Ground deeper than a step by less than this is stepped on: a kerb as high as a step, in a world that stores to 2 mm.
+/// m: ground lower than a step by less than this is within reach, such as a kerb as high as a step in a store of 2 mm.
 constexpr double step_slack = 0.003;
-/// Of the smallest gap that is looked for: the sphere that sinks into it, and the one that looks about at knee height.
+/// Shares of the smallest gap: the sphere that sinks into it, and the one that tests for walls at knee height.
 constexpr double probe_share = 0.9, sight_share = 0.2 * probe_share;
-/// How finely a void is climbed before it is measured: only what a disc grows to matters there, not how large.
+/// m: precision of a climb. Before the measurement only its place matters, not its exact size.
 constexpr double climb_precision = 0.004;
-/// Two corners of an edge nearer than this in the plan have no side.
+/// m: two corners of an edge nearer than this in the plan define no side.
 constexpr double shortest_way = 1e-9;
 
 }  // namespace
@@ -26,7 +26,7 @@ bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double k
   const double sphere = sight_share * smallest;
   const Vec3 eye = from + Vec3(0.0, 0.0, knee);
   Impact met = world.sweep({sphere, 0.0}, eye, to - from);
-  // A sphere that came to touch a wall may not be let go again: a smaller one is.
+  // A sphere in contact with a wall may be unable to leave it; a smaller one can.
   if (met.hit && met.time == 0.0) met = world.sweep({0.7 * sphere, 0.0}, eye, to - from);
   return !met.hit;
 }
@@ -67,7 +67,7 @@ std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
 
 namespace {
 
-/// A place of a rim, the way out of the floor there, and the place just outside.
+/// A place of a rim, the direction out of the floor, and a place just outside.
 struct Rim {
   Vec3 at{0.0}, out{0.0}, outside{0.0};
 };
@@ -77,8 +77,9 @@ class Rims {
  public:
   Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
 
-  /// Calls take(rim) with each for which asks(place) and that has a void outside, whoever comes there, of the edges
-  /// that `known` does not say have none, until it returns false for that edge. Those that have none beside `known`.
+  /// Finds rim places with a void outside, on the edges without a bit in `known`. Examines places for which `asks`
+  /// returns true, and calls take(rim) for each that has a void; false from `take` ends that edge. Returns `known` plus
+  /// the edges without a void.
   template <class Asks, class Take>
   std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Asks& asks, const Take& take) const {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +91,7 @@ class Rims {
   }
 
  private:
-  /// Whether there may be any.
+  /// Whether the edge may have a void.
   template <class Asks, class Take>
   bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Asks& asks, const Take& take) const {
     const Vec3 along = b - a;
@@ -112,9 +113,9 @@ class Rims {
     return any;
   }
 
-  /// The cheap questions first: most edges have floor on both sides, and most others have a wall.
+  /// The cheap tests first: most edges have floor on both sides, and most others have a wall.
   bool is_void(const Rim& rim) const {
-    // Seen from a little inside, or a wall on the rim itself would be touched from its far side as well.
+    // The sight line starts a little inside: a wall on the rim itself would count as touched from its far side.
     return !probe_.has_floor(rim.outside) && probe_.sees(rim.at - probe_.outside() * rim.out, rim.outside) &&
            probe_.sinks(rim.outside, probe_.radius());
   }
@@ -146,7 +147,7 @@ std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& optio
   std::mutex mutex;
   const auto look = [&](std::size_t f, std::uint8_t& without, bool is_known) {
     std::vector<RimPlace> found;
-    // Most of the edges that are left by now have a void somewhere: who comes there is asked first.
+    // Most edges left have a void somewhere, so test first whether they are reached.
     without = rims.with_void(
         survey.triangle(floors[f]), without, [&](const Vec3& at) { return !is_known || is_reached(at); },
         [&](const Rim& rim) {

@@ -78,14 +78,14 @@ class Composer {
     return text;
   }
 
-  /// A heading with its explanation on the left; what `right` draws, from the right end leftward, on the right.
+  /// A heading with its explanation on the left. `right` draws on the right, from the right end leftward.
   void heading(const std::string& what, const std::string& name, const std::string& explanation) {
     y_ += 58.0;
     const Rect box = labels_.write(what + " heading", name, {sheet_margin, y_}, heading_size, true, ink);
     labels_.write(what + " explanation", explanation, {box.upper.x + 22.0, y_}, small_size, false, pale_ink);
   }
 
-  /// A bar of a round length that ends at the right border.
+  /// A scale bar of a round length that ends at the right border.
   void scale_bar(const std::string& what, double pixels_per_metre) {
     const double metres = round_length(260.0 / pixels_per_metre);
     const double right = sheet_width - sheet_margin, left = right - metres * pixels_per_metre;
@@ -107,7 +107,7 @@ class Composer {
         .what = what + " frame", .lines = {outline(map.panel())}, .width = 1.5, .stroke = frame_ink, .closed = true});
   }
 
-  /// Where the scene's x and y point on the sheet, whose y points down.
+  /// The directions of the scene's x and y on the sheet, whose y points down.
   void axes() {
     const Turn& turn = c_.frames.turn;
     const Point centre(sheet_width - sheet_margin - 0.45 * axes_width, sheet_margin + 50.0);
@@ -148,7 +148,7 @@ class Composer {
 
   [[nodiscard]] std::vector<std::string> full_label(std::size_t i) const {
     const Mark& m = c_.marks[i];
-    // A few falls are named, many speak for themselves.
+    // A few falls are named; many are not.
     if (m.kind == MarkKind::fell && count_falls() > most_named_falls) return {};
     std::vector<std::string> lines{m.name};
     for (std::size_t from = 0; from < m.note.size();) {
@@ -161,7 +161,7 @@ class Composer {
 
   static std::string letter(std::size_t detail) { return {static_cast<char>('A' + detail)}; }
 
-  /// The detail's letter and the names of all marks in it, at the mark that it is about; nothing at the others.
+  /// At the mark that a detail is about: the detail's letter and the names of all marks in it. Nothing at the others.
   [[nodiscard]] std::vector<std::string> lettered(std::size_t i) const {
     for (std::size_t k = 0; k < c_.frames.details.size(); ++k) {
       const auto& marks = c_.frames.details[k].marks;
@@ -235,7 +235,7 @@ class Composer {
     y_ += f.height() + 42.0;
   }
 
-  /// Ticks at round heights, fewer where their numbers would touch.
+  /// Ticks at round heights, fewer if their numbers would touch.
   void height_axis(const Map& map) {
     const double step = round_length(64.0 / map.frame.scale_y * 1.9);
     const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));

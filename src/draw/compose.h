@@ -12,7 +12,7 @@
 
 namespace roam::draw {
 
-/// All that a picture tells.
+/// The contents of a picture.
 struct Contents {
   std::string title;  ///< the scene and the path, for people
   const words::EndedWalk& report;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which places of a line must stay for its shape to stay.
+/// Finds the places of a line that keep its shape.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace roam::draw {
 
-/// Where between `a` (0) and `b` (1) the straight piece comes nearest to `p`; 0 when it is no longer than a point.
+/// The position of the place of the segment from `a` (0) to `b` (1) nearest to `p`; 0 if the segment is no longer than
+/// a point.
 template <typename V>
 [[nodiscard]] double nearest_part(const V& p, const V& a, const V& b) {
   const V d = b - a;
@@ -18,8 +19,8 @@ template <typename V>
   return square > 0.0 ? std::clamp(glm::dot(p - a, d) / square, 0.0, 1.0) : 0.0;
 }
 
-/// Sets those of `keep` to 1, first and last among them, that must stay so that every other of [first, last] deviates
-/// by at most `tolerance` from the straight piece between its neighbours that stay (Douglas and Peucker, 1973).
+/// Sets keep[i] to 1 for the places of [first, last] that must stay, including first and last. Every other place
+/// deviates by at most `tolerance` from the straight piece between its kept neighbours (Douglas and Peucker, 1973).
 /// `deviation(i, from, to)` is that of `i` from the piece between `from` and `to`.
 template <typename Deviation>
 void keep_corners(std::size_t first, std::size_t last, double tolerance, const Deviation& deviation,

@@ -21,19 +21,19 @@ bool before(const Vec3& a, const Vec3& b) {
   return a.z < b.z;
 }
 
-/// Where `side` changes its sign along the triangle's border: two points, or none.
+/// The points where `side` changes its sign along the triangle's border: two, or none.
 bool crossings(const TurnedTriangle& t, const std::array<double, 3>& side, std::array<Vec3, 2>& points) {
   std::size_t found = 0;
   for (std::size_t k = 0; k < 3 && found < 2; ++k) {
     std::size_t i = k, j = (k + 1) % 3;
     if ((side[i] < 0.0) == (side[j] < 0.0)) continue;
-    if (before(t[j], t[i])) std::swap(i, j);  // the neighbour comes along the edge from the other end
+    if (before(t[j], t[i])) std::swap(i, j);  // same order as in the triangle on the edge's other side
     points[found++] = t[i] + side[i] / (side[i] - side[j]) * (t[j] - t[i]);
   }
   return found == 2;
 }
 
-/// The stretches in a tree of boxes over their running numbers: most triangles are far from all of them.
+/// The stretches in a tree of boxes over their indices: most triangles are far from all of them.
 class StretchTree {
  public:
   explicit StretchTree(std::span<const Stretch> stretches) : stretches_(stretches) {
@@ -69,7 +69,7 @@ class StretchTree {
   template <class Visit>
   void descend(std::size_t node, std::size_t from, std::size_t to, const Rect& box, const Visit& visit) const {
     const Rect& b = nodes_[node].box;
-    // Boxes that only touch count: a stretch along an axis has a flat one.
+    // Boxes that only touch count too: the box of a stretch along an axis is flat.
     if (b.lower.x > box.upper.x || box.lower.x > b.upper.x || b.lower.y > box.upper.y || box.lower.y > b.upper.y)
       return;
     if (to - from <= leaf) {
@@ -85,7 +85,7 @@ class StretchTree {
   std::vector<Node> nodes_;
 };
 
-/// The z of the unit normal, either way up: 1 for level ground, 0 for a wall and for what has no normal.
+/// The absolute z of the unit normal: 1 for level ground, 0 for a wall and for a degenerate triangle.
 double levelness(const TurnedTriangle& t) {
   const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
   const double length = glm::length(normal);
@@ -160,7 +160,7 @@ std::vector<Stretch> stretches(const Way& way, const Turn& turn, double beyond, 
     }
   }
   if (result.empty()) {
-    // A body that never left its place: across the plan, from left to right.
+    // The body never left its place: cut across the plan, from left to right.
     const Point at = turn.plan(way.points.front().position);
     return {{at - Point(beyond, 0.0), at + Point(beyond, 0.0), -beyond, lowest, highest}};
   }
@@ -222,7 +222,7 @@ Box Cutter::box() const {
       include(p, stretch.highest);
     }
   }
-  // By more than turning back is rounded.
+  // Covers the rounding of turning back.
   constexpr double rounding = 1e-6;
   return box.empty() ? box : box.grown(rounding);
 }

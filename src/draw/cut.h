@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What planes cut out of a scene: level ones for plans, upright ones along the way for sections.
+/// Cuts planes out of a scene: level ones for plans, upright ones along the way for sections.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,34 +21,34 @@ namespace roam::draw {
 /// The corners of a triangle, turned as the plan is.
 using TurnedTriangle = std::array<Vec3, 3>;
 
-/// Where the plane at `height` cuts a triangle. None where it does not, and for a triangle that lies in it. The same
-/// edge of two triangles is cut at the same point, bit by bit.
+/// The cut of the plane at `height` with a triangle. None if they do not meet, or if the triangle lies in the plane.
+/// Two triangles with a common edge are cut at the same point, bit by bit.
 [[nodiscard]] std::optional<Segment> cut_level(const TurnedTriangle& triangle, double height);
 
-/// A plan that is to be cut.
+/// A plan to cut.
 struct PlanView {
   LevelMap map;
   std::vector<double> cuts;   ///< heights of the levels, ascending, metres
-  std::vector<double> below;  ///< how far under each level is cut again, to show what lies below; metres
-  /// Triangles whose normal's z is more than this are ground to walk on. At body height they are shown as what lies
-  /// below; further down they are not cut: contour lines would look like steps. 1 or more: there are none.
+  std::vector<double> below;  ///< metres below each level of further cuts, which show lower surfaces
+  /// Triangles whose normal's z exceeds this are ground to walk on. At body height they are drawn as lower surfaces.
+  /// Further down they are not cut: contour lines would look like steps. 1 or more: no triangle counts.
   double ground = 1.0;
 };
 
 struct PlanCut {
   std::vector<Segment> walls;  ///< at body height, in metres of the plan
-  std::vector<Segment> below;  ///< what lies below: at the depths `below`, the lower of two storeys, and rising ground
+  std::vector<Segment> below;  ///< lower surfaces: at the depths `below`, the lower of two storeys, and rising ground
 };
 
-/// A stretch of the way, straight when seen from above, along which is cut.
+/// A stretch of the way, straight when seen from above, for the section.
 struct Stretch {
-  Point from{0.0}, to{0.0};  ///< in the plan, metres; not the same
+  Point from{0.0}, to{0.0};  ///< in the plan, metres; distinct
   double along = 0.0;        ///< of `from`, metres
-  double lowest = 0.0;       ///< heights between which is cut, metres
+  double lowest = 0.0;       ///< least height of the cut, metres
   double highest = 0.0;
 };
 
-/// The stretches of a way, led on straight by `beyond` metres at both ends.
+/// The stretches of a way, extended by `beyond` metres at both ends.
 [[nodiscard]] std::vector<Stretch> stretches(const Way& way, const Turn& turn, double beyond, double lowest,
                                              double highest);
 
@@ -57,19 +57,19 @@ struct Cuts {
   std::vector<Segment> section;  ///< (along, height), metres
 };
 
-/// Cuts a scene that comes little by little, on all cores; the result does not depend on how many.
+/// Cuts a scene that arrives in parts, on all cores. The result does not depend on their number.
 class Cutter {
  public:
-  /// The views and the section must stay. Of each plan and of the section no more than about `most` segments are held:
-  /// where there are more, their ends are rounded to a grid and what is there twice is left out, as in joined().
+  /// The views and the section must outlive it. Holds at most about `most` segments of each plan and of the section. If
+  /// there are more, rounds their ends to a grid and removes duplicates, as in joined().
   Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section,
          std::size_t most = std::numeric_limits<std::size_t>::max());
   ~Cutter();
 
-  /// Where all lies that is cut, metres of the scene. Empty where nothing is.
+  /// Box of all cuts, metres of the scene; empty if there are none.
   [[nodiscard]] Box box() const;
-  /// Cuts these triangles. `goes_on` is called now and then, from one thread at a time, with the number of triangles
-  /// done in all.
+  /// Cuts these triangles. Calls `goes_on` now and then, from one thread at a time, with the number of triangles done
+  /// in total.
   void add(std::span<const Mesh> meshes, const std::function<void(std::uint64_t)>& goes_on);
   [[nodiscard]] Cuts take();
 
@@ -78,7 +78,7 @@ class Cutter {
   std::unique_ptr<State> state_;
 };
 
-/// The same for a scene that is there as a whole.
+/// The same for a whole scene.
 [[nodiscard]] Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
                        std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on);
 

@@ -26,7 +26,7 @@ struct Free {
 using Context = std::unique_ptr<cairo_t, Free>;
 using Surface = std::unique_ptr<cairo_surface_t, Free>;
 
-/// Letters as wide in a PNG as in an SVG: not fitted to pixels.
+/// Keeps letters as wide in a PNG as in an SVG: not fitted to pixels.
 void prepare(cairo_t* context) {
   const std::unique_ptr<cairo_font_options_t, Free> options(cairo_font_options_create());
   cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
@@ -103,7 +103,7 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
   cairo_show_page(context.get());
 }
 
-/// Appends to a std::string. Cairo is C, which nothing may be thrown through.
+/// Appends to a std::string. Cairo is C, so no exception may pass through it.
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned int size) noexcept {
   try {
     static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), size);

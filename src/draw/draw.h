@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sheets to files, with Cairo. The only file of the picture that knows Cairo.
+/// Writes sheets to files, with Cairo. The only file of the picture that uses Cairo.
 
 #include <filesystem>
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace roam::draw {
 
-/// Measures with the font that write() draws with.
+/// Measures with the font of PictureFile::write.
 [[nodiscard]] Rect measure_text(const std::string& text, double size, bool bold);
 
-/// Throws app::UsageError for a --picture whose extension is not .svg or .png, in either case.
+/// Throws app::UsageError if the extension of a --picture is neither .svg nor .png, in either case.
 void check_picture(const std::filesystem::path& file);
 
-/// A picture that appears under its name only when it is complete.
+/// A picture file that appears under its name only when it is complete.
 class PictureFile {
  public:
-  /// Makes sure that the file can be written: begins it. check_picture must let `file` pass. Throws roam::Error.
+  /// Begins the file, to make sure that it can be written. `file` must pass check_picture. Throws roam::Error.
   explicit PictureFile(const std::filesystem::path& file);
 
-  /// Draws the sheet, as SVG or, a pixel of the sheet a pixel of the image, as PNG; and puts it in its place. Once.
-  /// Throws roam::Error; what was there before then stays.
+  /// Draws the sheet and puts the file in its place. Call it once. SVG, or PNG with one pixel per pixel of the sheet.
+  /// Throws roam::Error; an earlier file then stays.
   void write(const Sheet& sheet);
 
  private:

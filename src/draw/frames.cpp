@@ -19,13 +19,13 @@ constexpr double detail_gap = 30.0;
 constexpr double detail_height = 0.62;  ///< of its plan's width
 constexpr std::size_t most_details = 4;
 
-// Of the best scale that any turn allows, so much is given up for a plan that is not turned, or by right angles.
+// The least share of the best turn's scale for a plan that is not turned, or turned by a right angle.
 constexpr double unturned = 0.75;
 constexpr double right_angled = 0.85;
 constexpr double lowness = 0.4;
-/// The whole scene is shown when that costs no more than this part of the scale.
+/// The whole scene is shown if its scale is at least this share.
 constexpr double whole_scene = 0.45;
-/// The section takes the plan's scale when it then fills so much of the width.
+/// The section takes the plan's scale if it then fills this part of the width.
 constexpr double section_part = 0.45;
 
 Turn turn_by(double angle, const Vec3& origin) { return {origin, std::cos(angle), std::sin(angle)}; }
@@ -33,7 +33,8 @@ Turn turn_by(double angle, const Vec3& origin) { return {origin, std::cos(angle)
 /// Places that a plan must show.
 struct Sights {
   std::vector<Vec3> way;
-  /// Where the room beside the way ends, as far as the survey looked, and so the ends of the narrowest place too.
+  /// The ends of the room beside the way, as far as the survey measured; so they include the ends of the narrowest
+  /// place.
   std::vector<Vec3> beside;
 };
 
@@ -51,7 +52,7 @@ Sights find_sights(const Way& way, const Survey& survey, double radius) {
   return sights;
 }
 
-/// What must be seen, with some room around it.
+/// The visible part of the plan, with a margin.
 Rect surroundings(const Sights& sights, const Turn& turn, double radius) {
   Rect r;
   for (const Vec3& p : sights.way) r.include(turn.plan(p));
@@ -71,7 +72,7 @@ double fitting_scale(const Rect& r) { return std::min(content_width / r.width(),
 Turn choose_turn(const Way& way, const Sights& sights, double radius) {
   const Vec3 origin = way.points.front().position;
   const Vec3 end = way.points.back().position - origin;
-  // A low plan is worth some scale: else each straight way would lie along the sheet's diagonal.
+  // A low plan may cost some scale. Otherwise each straight way would lie along the sheet's diagonal.
   const auto scale = [&](double angle) {
     const Rect r = surroundings(sights, turn_by(angle, origin), radius);
     const double fit = fitting_scale(r);
@@ -129,7 +130,7 @@ void frame_section(Frames& frames, const Way& way, const Survey& survey, double 
     low -= 0.5 * missing;
     high += 0.5 * missing;
   }
-  // Below its part of the plan where that is possible, so that both can be read together.
+  // Below its part of the plan if possible, so that both can be compared.
   double left = -beyond;
   if (frames.section_has_plan_scale) {
     const double start = frames.turn.plan(way.points.front().position).x - frames.plan.view.lower.x;
@@ -142,10 +143,10 @@ void frame_section(Frames& frames, const Way& way, const Survey& survey, double 
 void frame_details(Frames& frames, const Survey& survey, const std::vector<Mark>& marks,
                    const WalkerSettings& settings) {
   double size = std::max(28.0 * settings.radius, 4.0 * settings.height);  // metres across
-  // The measure of the narrowest place should be seen whole, unless it is as good as open.
+  // The measure of the narrowest place should be visible whole, unless it is nearly open.
   if (survey.narrowest) size = std::clamp(survey.narrowest->width / detail_height * 1.2, size, 1.6 * size);
   if (2.0 * settings.radius * frames.plan.scale_x >= least_body) return;
-  // How it ended comes first, then what was tight, then the start, then falls on the way.
+  // The end comes first, then narrow places, then the start, then falls on the way.
   const auto rank = [&](std::size_t i) {
     if (i + 1 == marks.size()) return 0;
     switch (marks[i].kind) {

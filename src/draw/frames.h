@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which part of the scene a picture shows, at which scale: pure numbers, before anything is cut or drawn.
+/// Chooses the part of the scene that a picture shows, and its scale: pure numbers, before anything is cut or drawn.
 
 #include <vector>
 
@@ -17,7 +17,7 @@ inline constexpr double sheet_width = 2000.0;
 inline constexpr double sheet_margin = 60.0;
 inline constexpr double content_width = sheet_width - 2.0 * sheet_margin;
 
-/// A part of a plan or section, and how large it is drawn.
+/// A part of a plan or section, with its scale.
 struct Frame {
   Rect view;             ///< in metres of the plan or section
   double scale_x = 1.0;  ///< pixels per metre
@@ -27,9 +27,9 @@ struct Frame {
   [[nodiscard]] double height() const { return view.height() * scale_y; }  ///< pixels
 };
 
-/// A place that is shown again, magnified.
+/// A magnified place.
 struct Detail {
-  std::vector<std::size_t> marks;  ///< that lie in it; the first is what it is about
+  std::vector<std::size_t> marks;  ///< marks in it; the first one is its subject
   Frame plan;
   Frame section;
 };
@@ -43,10 +43,13 @@ struct Frames {
   std::vector<Detail> details;
 };
 
-/// Turns the plan so that the way leads from left to right, unless it fits about as well with x to the right and y up;
-/// shows the walls beside the way as far as the survey looked, and the whole scene where it is not much larger than the
-/// way; takes the scale of the plan for the section where that fits; and adds details where the body would be smaller
-/// than a dot.
+/// Chooses the frames:
+/// - turns the plan so that the way leads from left to right, unless it fits about as well with x to the right and y
+///   up;
+/// - shows the walls beside the way as far as the survey measured, or the whole scene if that is not much larger than
+///   the way;
+/// - uses the plan's scale for the section if that fits;
+/// - adds details if the body would be smaller than a dot.
 [[nodiscard]] Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mark>& marks,
                                    const Box& scene, const WalkerSettings& settings);
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The plane values that a picture is made of. A point of a plan is (right, up) in metres, of a section (distance along
-/// the way, height) in metres, of a sheet (right, down) in pixels.
+/// Plane values of a picture. A point of a plan is (right, up) in metres. A point of a section is (distance along the
+/// way, height) in metres. A point of a sheet is (right, down) in pixels.
 
 #include <algorithm>
 #include <glm/vec2.hpp>
@@ -19,7 +19,7 @@ struct Segment {
   Point a{0.0}, b{0.0};
 };
 
-/// A rectangle with sides along the axes; empty until something is included.
+/// A rectangle with sides along the axes; empty until a point is included.
 struct Rect {
   Point lower{std::numeric_limits<double>::infinity()};
   Point upper{-std::numeric_limits<double>::infinity()};
@@ -46,7 +46,7 @@ struct Rect {
   }
 };
 
-/// How a plan is laid on the sheet: the scene turned about the vertical through `origin`. Heights stay.
+/// The orientation of a plan on the sheet: the scene turned about the vertical through `origin`. Heights stay.
 struct Turn {
   Vec3 origin{0.0};
   double cosine = 1.0;  ///< of the angle by which the scene is turned clockwise, seen from above
@@ -64,7 +64,7 @@ struct Turn {
   }
 };
 
-/// The part of the segment inside the rectangle. False where there is none.
+/// Cuts the segment to its part inside the rectangle. False if there is none.
 [[nodiscard]] inline bool clip(Segment& s, const Rect& r) {
   const Point d = s.b - s.a;
   double from = 0.0, to = 1.0;

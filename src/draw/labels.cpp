@@ -8,9 +8,9 @@ namespace roam::draw {
 namespace {
 
 constexpr double padding = 5.0;       ///< pixels around the lines of a label
-constexpr double avoided_step = 8.0;  ///< pixels between the points of a line that is kept clear
+constexpr double avoided_step = 8.0;  ///< pixels between the points of a line to avoid
 
-/// Number of bytes of the UTF-8 character at the beginning of `s`; 0 where there is none.
+/// Number of bytes of the UTF-8 character at `i`; 0 if there is none.
 std::size_t character(const std::string& s, std::size_t i) {
   const auto byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0U; };
   const unsigned first = byte(i);
@@ -60,7 +60,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
       lines.emplace_back();
       continue;
     }
-    // A word that is longer than a line: as many of its characters as fit.
+    // A word longer than a line: as many of its characters as fit.
     std::size_t part = i;
     while (part < end) {
       const std::size_t next = part + character(shown, part);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Texts on a sheet, none over another.
+/// Texts on a sheet, without overlaps.
 
 #include <string>
 #include <vector>
@@ -12,14 +12,14 @@ namespace roam::draw {
 inline constexpr Colour paper{1.0, 1.0, 1.0, 1.0};
 inline constexpr Colour ink{0.11, 0.13, 0.17, 1.0};
 
-/// The text with everything that is no printable UTF-8 replaced by "?": file and object names may be any bytes.
+/// The text with every byte that is not printable UTF-8 replaced by "?": file and object names may contain any bytes.
 [[nodiscard]] std::string printable(const std::string& text);
 
-/// The printable text in lines that are not wider than `width`, broken at spaces, or within words that are too long.
+/// The printable text in lines no wider than `width`, broken at spaces, or inside words that are too long.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
                                                const MeasureText& measure);
 
-/// Writes texts on a sheet and remembers where they and other things that must stay clear are.
+/// Writes texts on a sheet. Remembers the places of texts and of other things that must stay clear.
 class Labels {
  public:
   Labels(Sheet& sheet, MeasureText measure) : sheet_(sheet), measure_(std::move(measure)) {}
@@ -30,13 +30,13 @@ class Labels {
   [[nodiscard]] const MeasureText& measure() const { return measure_; }
 
   enum class Align : std::uint8_t { left, centre, right };
-  /// Writes a line with its baseline at `at`, wherever that is.
+  /// Writes a line with its baseline at `at`, without looking for a free place.
   Rect write(const std::string& what, const std::string& text, const Point& at, double size, bool bold,
              const Colour& colour, Align align = Align::left);
 
-  /// Keeps texts that are placed away from a rectangle.
+  /// Keeps placed texts away from a rectangle.
   void block(const Rect& r) { taken_.push_back(r); }
-  /// Keeps them off lines, if they find room beside them: the more, the greater `weight`.
+  /// Keeps placed texts off lines if there is room beside them; a greater `weight` does so more strictly.
   void avoid(const std::vector<Polyline>& lines, double weight);
 
   /// A label of a place: its lines, the first one bold.
@@ -46,9 +46,9 @@ class Labels {
     double size = 0.0;
     Colour colour{};
   };
-  /// Writes a label as near to `anchor` as it can be inside `panel` without covering a text or what is blocked, on a
-  /// pale ground, joined to the anchor by a thin line where it is not beside it. Writes nothing where the panel is
-  /// full, and says so by false.
+  /// Writes a label as near to `anchor` as possible inside `panel`, without covering texts or blocked rectangles. It
+  /// has a pale ground, and a thin line to the anchor if it is not beside it. If the panel is full, writes nothing and
+  /// returns false.
   bool place(const Label& label, const Point& anchor, const Rect& panel);
 
  private:

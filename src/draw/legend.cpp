@@ -12,12 +12,12 @@ constexpr double row_height = 36.0;
 constexpr double sample_width = 40.0;
 constexpr double gap = 34.0;
 
-/// One sample after the other, from the left, in rows.
+/// Samples one after the other, from the left, in rows.
 class Rows {
  public:
   Rows(Sheet& sheet, Labels& labels, double top) : sheet_(sheet), labels_(labels), at_(sheet_margin, top) {}
 
-  /// `draw` draws a sample about the middle of a box of the given width.
+  /// `draw` draws a sample around the middle of a box of the given width.
   template <class Draw>
   void entry(const std::string& text, double width, const Draw& draw) {
     const double needed = width + 12.0 + labels_.measured(text, size, false).width();
@@ -67,7 +67,7 @@ std::string gap_text(const GapScale& scale, std::size_t k) {
 }  // namespace
 
 double draw_legend(const Contents& contents, Sheet& sheet, Labels& labels, double top) {
-  // Asked before the legend adds its own.
+  // Looks before the legend adds its own items.
   const bool below = shows(sheet, " below"), touched = shows(sheet, " touch"), body = shows(sheet, " body"),
              narrowest = shows(sheet, " narrowest");
   Rows rows(sheet, labels, top + 48.0);

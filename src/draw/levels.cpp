@@ -6,15 +6,15 @@
 namespace roam::draw {
 namespace {
 
-/// Cells along the longer side of a map, and stations that are looked at for each cell.
+/// Cells along the longer side of a map, and stations examined for each cell.
 constexpr double cells_across = 160.0;
 constexpr std::size_t most_looked_at = 2'000;
-/// What is within so many storeys of two parts of the way shows both.
+/// A place within this many storeys of two parts of the way shows both.
 constexpr double beside = 1.5;
 
-/// Windows whose parts of the way differ by less than this hold as much.
+/// Windows whose parts of the way differ by less than this are equal.
 constexpr double evenness = 1e-3;
-/// Where the way is steeper, the body falls, or flies straight up or down: seen from above it is where it was.
+/// On steeper parts the body falls, or flies straight up or down: seen from above it does not move.
 constexpr double steepest = 1.5;  ///< height per length
 
 struct Sample {
@@ -41,13 +41,13 @@ Levels find_levels(std::span<const Station> stations, double body_height) {
   }
   std::sort(open.begin(), open.end(), [](const Sample& a, const Sample& b) { return a.z < b.z; });
   const double window = 0.5 * body_height;
-  std::vector<std::pair<double, std::size_t>> cuts;  // height, and the number under which stations know it
+  std::vector<std::pair<double, std::size_t>> cuts;  // height, and the index that stations use
   while (!open.empty()) {
     std::size_t best_from = 0, best_to = 0;
     double best = 0.0, sum = 0.0;
     for (std::size_t from = 0, to = 0; from < open.size(); ++from) {
       while (to < open.size() && open[to].z <= open[from].z + window) sum += open[to++].weight;
-      // The lowest of those that hold as much, so that a ramp is cut at even steps.
+      // The lowest of equal windows, so that a ramp is cut at even steps.
       if (sum > best * (1.0 + evenness)) {
         best = sum;
         best_from = from;
@@ -104,7 +104,7 @@ LevelMap::LevelMap(const Rect& area, const Levels& levels, std::span<const Stati
       }
       const double least = *std::min_element(nearest.begin(), nearest.end());
       const double limit = std::max(least, beside * storey * beside * storey);
-      // Of the levels that are near, the highest says which storey is on top; of each storey the nearest level counts.
+      // The highest of the near levels determines the upper storey. For each storey the nearest level counts.
       std::size_t top = levels.cuts.size() - 1;
       while (nearest[top] > limit) --top;
       Cell cell;

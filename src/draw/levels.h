@@ -1,15 +1,17 @@
 #pragma once
 /// \file
-/// At which heights a plan is cut, and where.
+/// The heights at which a plan is cut, and the places of each cut.
 ///
 /// A floor is not flat, so a plan at body height needs more than one cut. The heights of the body's centre along the
-/// way are gathered into levels: first the window of half a body's height that holds the longest part of the way, then
-/// the one that holds most of what is left, and so on. Each level is cut at the median height of its part of the way.
-/// So a walk on one floor has one cut, at the very height of the body's centre, crouching or not; and no cut is farther
+/// way are grouped into levels. The first level is the window of half a body's height with the longest part of the way;
+/// the next one has the longest part of the rest, and so on. Each level is cut at the median height of its part of the
+/// way.
+///
+/// So a walk on one floor has one cut, exactly at the height of the body's centre, crouching or not. No cut is farther
 /// than half a body's height from the centre of the body that walks there.
 ///
-/// Each place of the plan shows the level of the part of the way that is nearest to it, seen from above. Where the way
-/// passes over itself, a storey higher, the upper level is shown and the lower one beneath it, paler.
+/// Each place of the plan shows the level of the nearest part of the way, seen from above. Where the way crosses itself
+/// a storey higher, the upper level is shown, and the lower one beneath it, paler.
 
 #include <array>
 #include <cmath>
@@ -29,7 +31,7 @@ struct Levels {
 
 [[nodiscard]] Levels find_levels(std::span<const Station> stations, double body_height);
 
-/// Which levels are shown in each cell of a grid over a rectangle of the plan.
+/// The levels shown in each cell of a grid over a rectangle of the plan.
 class LevelMap {
  public:
   static constexpr std::uint16_t none = 0xffff;
@@ -38,15 +40,15 @@ class LevelMap {
     std::uint16_t lower = none;  ///< shown pale beneath, if any
   };
 
-  /// One level all over.
+  /// One level everywhere.
   LevelMap(const Rect& area, std::uint16_t level) : area_(area), cells_{{level, none}} {}
-  /// `storey` is the least difference in height, metres, of two levels that are shown one over the other.
+  /// `storey`: the least difference in height, metres, of two levels shown one over the other.
   LevelMap(const Rect& area, const Levels& levels, std::span<const Station> stations, const Turn& turn, double storey);
 
   [[nodiscard]] const Rect& area() const { return area_; }
   [[nodiscard]] const Cell& at(const Point& p) const { return cells_[index(p)]; }
 
-  /// Hands out the pieces of a segment within the area, each with its cell.
+  /// Passes the pieces of a segment within the area to `take`, each with its cell.
   template <class Take>
   void pieces(Segment s, const Take& take) const;
 
@@ -68,14 +70,14 @@ void LevelMap::pieces(Segment s, const Take& take) const {
   }
   const Point d = s.b - s.a;
   const std::array<double, 2> cell{area_.width() / columns_, area_.height() / rows_};
-  // From border to border of the grid's lines, whichever comes next.
+  // Steps to the next border of the grid.
   double t = 0.0;
   while (t < 1.0) {
     double next = 1.0;
     for (int k = 0; k < 2; ++k) {
       if (d[k] == 0.0) continue;
       const double at = (s.a[k] + t * d[k] - area_.lower[k]) / cell[k];
-      // A border that is met at t already, up to rounding, is passed.
+      // Skips a border at t itself, up to rounding.
       constexpr double rounding = 1e-9;
       const double line = d[k] > 0.0 ? std::floor(at + rounding) + 1.0 : std::ceil(at - rounding) - 1.0;
       next = std::min(next, (area_.lower[k] + line * cell[k] - s.a[k]) / d[k]);

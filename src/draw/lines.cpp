@@ -10,7 +10,7 @@
 namespace roam::draw {
 namespace {
 
-constexpr double finest_grid = 0.125;  ///< pixels; also a number that drawings write with few digits
+constexpr double finest_grid = 0.125;  ///< pixels; gives numbers with few digits
 constexpr double coarsest_grid = 4.0;
 constexpr double straight = 0.2;  ///< pixels
 
@@ -35,7 +35,7 @@ std::vector<Edge> snapped(std::span<const Segment> segments, double grid) {
   return edges;
 }
 
-/// Edges with, for each node, which of them end there.
+/// Edges, and for each node the edges that end there.
 class Network {
  public:
   explicit Network(std::vector<Edge> edges) : edges_(std::move(edges)), used_(edges_.size(), 0) {
@@ -47,7 +47,7 @@ class Network {
 
   [[nodiscard]] std::vector<Polyline> lines(double grid) {
     std::vector<Polyline> result;
-    // First what begins at a free end or a fork, then the rings that are left.
+    // First lines that begin at a free end or a fork, then the remaining rings.
     for (const bool rings : {false, true}) {
       for (std::size_t i = 0; i < edges_.size(); ++i) {
         for (std::size_t end = 0; end < 2 && !used_[i]; ++end) {
@@ -117,7 +117,7 @@ std::vector<Polyline> joined(std::span<const Segment> segments, const std::funct
     edges = snapped(on_sheet, grid);
   }
   if (edges.size() > most) {
-    // A thicket of long lines: the longest tell most.
+    // Too many long lines: the longest are the most useful.
     const auto length = [](const Edge& e) { return std::hypot(e[1][0] - e[0][0], e[1][1] - e[0][1]); };
     std::stable_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return length(a) > length(b); });
     edges.resize(most);

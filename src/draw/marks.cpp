@@ -8,12 +8,12 @@
 namespace roam::draw {
 namespace {
 
-/// A long name keeps its end, which tells more than the beginning that it shares with others.
+/// A long name keeps its end, because many names share their beginning.
 std::string shortened(const std::string& name) {
   constexpr std::size_t longest = 36;
   if (name.size() <= longest) return name;
   std::size_t from = name.size() - longest;
-  while (from < name.size() && (static_cast<unsigned char>(name[from]) & 0xc0U) == 0x80U) ++from;  // within a character
+  while (from < name.size() && (static_cast<unsigned char>(name[from]) & 0xc0U) == 0x80U) ++from;  // inside a character
   return "…" + name.substr(from);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The places of a walk that a picture points at.
+/// The marked places of a walk.
 
 #include <string>
 #include <vector>
@@ -15,16 +15,16 @@ enum class MarkKind : std::uint8_t { start, end, narrowest, nearest, blocked, fe
 
 struct Mark {
   MarkKind kind = MarkKind::start;
-  Vec3 point{0.0};      ///< what is marked: the body's centre, or of `blocked` the point that was touched
-  Vec3 centre{0.0};     ///< of the body that stands or falls there
+  Vec3 point{0.0};      ///< the body's centre; for `blocked` the touched point
+  Vec3 centre{0.0};     ///< of the body there
   double height = 0.0;  ///< of that body, metres
   double along = 0.0;   ///< metres, as WayPoint::along
   std::string name;     ///< "start", "narrowest", ...
   std::string note;     ///< more about it, or nothing: "0.750 m clear"
 };
 
-/// In the order in which they lie along the way. `nearest`, the least certified clearance, only flying: on foot that is
-/// the ground.
+/// The marks in their order along the way. `nearest`, the place of the least certified clearance, only for flying: on
+/// foot that would be the ground.
 [[nodiscard]] std::vector<Mark> find_marks(const words::EndedWalk& report, const Record& record, const Way& way,
                                            const Survey& survey);
 

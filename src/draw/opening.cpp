@@ -24,7 +24,7 @@ constexpr double text_size = 23.0;
 constexpr double small_size = 20.0;
 constexpr double panel_gap = 40.0;
 constexpr double panel_width = 0.5 * (content_width - panel_gap);
-constexpr double caption_height = 92.0;  ///< that the compass needs
+constexpr double caption_height = 92.0;  ///< space for the compass
 constexpr double crack_measure = 34.0;   ///< below the rim
 constexpr double tick = 12.0;
 constexpr double letter_beside = 16.0;
@@ -106,7 +106,7 @@ class OpeningPainter {
     labels_.write("explanation", explanation, {box.upper.x + 16.0, y_}, small_size, false, pale_ink);
   }
 
-  /// Of both panels, which have one scale.
+  /// For both panels, which have the same scale.
   void scale_bar(double pixels_per_metre) {
     const double metres = round_length(scale_bar_length / pixels_per_metre);
     const double right = sheet_width - sheet_margin, left = right - metres * pixels_per_metre;
@@ -186,7 +186,7 @@ class OpeningPainter {
     }
     if (l.is_level) {
       const double half = 0.5 * o.width * glm::length(glm::dvec2(o.direction.x, o.direction.y));
-      // An oblique width is longer than its plan: its number stands in the section.
+      // An oblique width is longer than in the plan, so its number stands in the section.
       const bool whole = std::abs(o.direction.z) < 0.1;
       measure(map, {-half, 0.0}, {half, 0.0}, whole ? o.width : 0.0);
     }
@@ -221,7 +221,7 @@ class OpeningPainter {
     const bool crack = o.kind == OpeningView::Kind::crack;
     if (crack && !o.fits) fall(map, {0.0, o.floor});
     const Point middle(0.0, o.point.z - (crack ? crack_measure / map.frame.scale_y : 0.0));
-    // A height stands beside the body, as far as what hangs there is drawn out.
+    // The number of a height stands beside the body, beyond the drawn lintel.
     const bool is_height = !l.is_level && o.kind == OpeningView::Kind::passage;
     const Point aside(is_height ? l.body.x + o.radius + 0.2 * o.radius : 0.0, 0.0);
     if (is_height) {
@@ -237,19 +237,19 @@ class OpeningPainter {
     label(map, {l.body.x + o.radius, o.floor + 0.5 * o.height}, body_text(o), stroke);
   }
 
-  /// Whether the plan was turned so that the direction points to the right, or to the left.
+  /// 1 if the plan was turned so that the direction points to the right, -1 if to the left.
   static double sign(const OpeningView& o, const OpeningLayout& l) {
     return o.direction.x * l.turn.cosine + o.direction.y * l.turn.sine < 0.0 ? -1.0 : 1.0;
   }
 
   static std::vector<std::string> body_text(const OpeningView& o) {
-    // To the millimetre, as what it is compared with.
+    // To the millimetre, like the width that it is compared with.
     const std::string across = fmt::format("{:.3f} m across", 2.0 * o.radius);
     if (o.height <= 2.0 * o.radius) return {"body", across};
     return {"body", across, fmt::format("{:.3f} m high", o.height)};
   }
 
-  /// A line from side to side with its length beside it; 0: no length.
+  /// A line from side to side with its length beside it; 0: no number.
   void measure(const Map& map, const Point& from, const Point& to, double metres) {
     const Point a = map(from), b = map(to);
     const double apart = glm::distance(a, b);
@@ -279,14 +279,14 @@ class OpeningPainter {
     labels_.avoid({circle}, 1.0);
   }
 
-  /// An arrow downward, from where the ground is missing.
+  /// An arrow downward, where the ground is missing.
   void fall(const Map& map, const Point& at) {
     const Point top = map(at) + Point(0.0, crack_measure + 16.0), tip = top + Point(0.0, 52.0);
     lines("fall", {{top, tip}, {tip - Point(11.0, 14.0), tip, tip - Point(-11.0, 14.0)}}, 4.0, misfit_ink, map.panel());
     labels_.block(Rect::around(0.5 * (top + tip), 30.0, 56.0));
   }
 
-  /// Where the section lies, outside of what is measured.
+  /// The position of the section, outside the measured width.
   void section_line(const OpeningView& o, const Map& map, const std::string& name) {
     const double beyond = std::max({0.5 * o.width, o.radius, o.support_radius}) + 0.2 * o.radius;
     const Rect panel = map.panel();
@@ -299,7 +299,7 @@ class OpeningPainter {
     lines("section line", std::move(drawn), 1.4, pale_ink, panel, {14.0, 5.0, 3.0, 5.0});
   }
 
-  /// What the colours stand for, only those that are there.
+  /// The meanings of the colours that occur.
   void legend(std::span<const OpeningView> openings) {
     const auto any = [&](const auto& is) { return std::any_of(openings.begin(), openings.end(), is); };
     y_ += 50.0;

@@ -12,15 +12,16 @@ namespace {
 constexpr double most_height = 760.0;
 constexpr double least_height = 360.0;
 
-/// Metres: what hangs over a plan is cut so much above its lower side; walls are seen so much beyond an opening's
+/// Metres. A surface above a plan is cut this far above its lower side. Walls are shown this far beyond an opening's
 /// depth.
 constexpr double over = 0.01;
 constexpr double face_beyond = 0.02;
 constexpr std::size_t most_faces = 40'000;
 
 constexpr std::size_t most_floor = 40'000;  ///< triangles of floor in one plan
-constexpr double least_level = 0.6;         ///< of a normal's z: what is drawn as floor
-/// A direction counts as upright, and its level part as unknown, below this length of that part.
+constexpr double least_level = 0.6;         ///< of a normal's z, for floor
+/// If the level part of a direction is shorter than this, the direction counts as upright, and the level part as
+/// unknown.
 constexpr double upright = 0.3;
 
 }  // namespace
@@ -56,11 +57,11 @@ OpeningLayout lay_out(const OpeningView& o, double panel_width) {
   l.section = {{{-0.5 * width, low}, {0.5 * width, high}}, scale, scale};
   l.plan = {Rect::around({0.0, 0.0}, width, height), scale, scale};
   const double knee = o.floor + o.step + 0.02 * o.height;
-  // In the middle of the body where nothing was measured level.
+  // At the middle of the body if no level width was measured.
   const bool no_height = o.kind == OpeningView::Kind::apart || o.kind == OpeningView::Kind::step;
   l.cut = crack ? knee : no_height ? o.floor + 0.5 * o.height : o.point.z;
   if (!l.is_level && o.kind == OpeningView::Kind::passage) l.above = o.point.z + upright_half + over;
-  // Of a crack its own walls, else what stands lower than the cut and is still a wall.
+  // For a crack its own walls; else the lower obstacles that still are walls.
   l.below = crack ? o.floor - 0.05 * o.height : flies ? l.cut : std::min(l.cut, knee);
   return l;
 }
@@ -79,7 +80,7 @@ std::vector<Polyline> floor_around(std::span<const Mesh> meshes, const OpeningVi
       if (!box.overlaps(l.plan.view)) continue;
       const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
       if (!(std::abs(normal.z) >= least_level * glm::length(normal)) || normal.z == 0.0) continue;
-      // All turn one way: where a face lies on the back of another, areas would cancel each other.
+      // All areas turn one way. Otherwise the areas of faces on each other's back would cancel.
       const bool turns_back = normal.z < 0.0;
       areas.push_back(
           {map(l.turn.plan(t[0])), map(l.turn.plan(t[turns_back ? 2 : 1])), map(l.turn.plan(t[turns_back ? 1 : 2]))});

@@ -24,11 +24,11 @@ constexpr double least_height = 240.0;
 constexpr double caption_size = 23.0;
 constexpr double small_size = 20.0;
 constexpr double label_size = 22.0;
-constexpr double dot = 8.0;  ///< radius of an end that would be smaller
+constexpr double dot = 8.0;  ///< least radius of an end
 constexpr double scale_bar_length = 220.0;
-constexpr double least_cell = 5.0;  ///< of what is reached
+constexpr double least_cell = 5.0;  ///< of the reached places
 
-/// Metres around what is shown, and parts of its size.
+/// Metres around the contents, and parts of their size.
 constexpr double margin = 1.5;
 constexpr double margin_part = 0.08;
 
@@ -40,7 +40,7 @@ constexpr Colour bad_ink{0.78, 0.06, 0.10};
 constexpr Colour pale_ink{0.36, 0.39, 0.45};
 constexpr std::size_t most_segments = 60'000;
 
-/// Places for the heights of the plan's levels: of the body's centre.
+/// The heights of the body's centre for the plan's levels.
 std::vector<Station> stations_of(const Overview& o) {
   std::vector<Station> stations;
   const double up = o.mode == Mode::walk ? 0.5 * o.height : 0.0;
@@ -82,7 +82,7 @@ class OverviewPainter {
     turn_ = {{middle.x, middle.y, 0.0}, 1.0, 0.0};
     Rect view = shown(o, turn_);
     if (view.height() > 1.5 * view.width()) {
-      // What leads north leads to the right.
+      // North points to the right.
       turn_ = {turn_.origin, 0.0, 1.0};
       view = shown(o, turn_);
     }
@@ -158,7 +158,7 @@ class OverviewPainter {
   void reached(const std::string& what, const std::vector<Vec3>& places, const Colour& fill, double share) {
     const double side = std::max(o_.spacing, least_cell / map_.frame.scale_x);
     std::set<std::pair<long, long>> cells;
-    // Counted from one of them: as the lattice lies.
+    // Counted from one of the places, to match the lattice.
     const Point origin = places.empty() ? Point(0.0) : turn_.plan(places.front());
     for (const Vec3& place : places) {
       const Point p = turn_.plan(place);
@@ -214,7 +214,7 @@ class OverviewPainter {
   [[nodiscard]] double end_radius() const { return std::max(dot, o_.radius * map_.frame.scale_x); }
   [[nodiscard]] double ring_radius() const { return std::max(2.0 * dot, 1.3 * o_.radius * map_.frame.scale_x); }
 
-  /// Beside a circle about the place.
+  /// Writes a label beside a circle around the place.
   void label(const std::string& text, const Vec3& place, double radius, const Colour& colour) {
     labels_.place({"overview label", {text}, label_size, colour}, map_(turn_.plan(place)) - Point(0.0, radius),
                   map_.panel().grown(-6.0));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a way leads, or breaks off, in one plan: the first panel of `roam probe --picture`.
+/// A way, or the place where it breaks off, in one plan: the first panel of `roam probe --picture`.
 
 #include <span>
 #include <string>
@@ -18,13 +18,13 @@ struct Overview {
   Mode mode = Mode::walk;
   double radius = 0.0;  ///< of the body, metres
   double height = 0.0;
-  double step = 0.3;  ///< on foot: what is lower than this above the feet is walked over
+  double step = 0.3;  ///< on foot: the body walks over obstacles lower than this above the feet
   Vec3 start{0.0}, target{0.0};
   std::vector<Vec3> way;  ///< empty: there is none
-  /// Where there is no way: what is reached from both ends, on a lattice of `spacing` metres.
+  /// Without a way: the places reached from both ends, on a lattice of `spacing` metres.
   std::vector<Vec3> from_start, from_target;
   double spacing = 0.2;
-  /// A place to look at, with a few words.
+  /// A marked place, with a few words.
   struct Mark {
     Vec3 place{0.0};
     std::string text;
@@ -33,11 +33,11 @@ struct Overview {
   std::vector<Mark> marks;
 };
 
-/// Where the scene's y points, which in maps is north, and its x.
+/// The directions of the scene's y, which is north on maps, and of its x.
 void draw_compass(const Turn& turn, const Point& centre, Sheet& sheet, Labels& labels);
 
-/// Draws the plan with its caption below `y` (pixels), as wide as the sheet's contents, and its legend. Returns where
-/// it ends. Throws roam::Cancelled after Ctrl-C.
+/// Draws the plan below `y` (pixels) with its caption and legend, as wide as the sheet's contents. Returns its lower
+/// end. Throws roam::Cancelled after Ctrl-C.
 [[nodiscard]] double draw_overview(const Overview& overview, std::span<const Mesh> meshes, double y, Sheet& sheet,
                                    Labels& labels);
 

@@ -11,12 +11,12 @@ namespace roam::draw {
 namespace {
 
 constexpr double way_width = 4.0;
-constexpr double least_outline = 4.0;   ///< pixels; a body of a smaller radius is only a dot
-constexpr double touch_distance = 8.0;  ///< pixels between two that are drawn, roughly
+constexpr double least_outline = 4.0;   ///< pixels; bodies of a smaller radius are drawn as a dot
+constexpr double touch_distance = 8.0;  ///< pixels between two drawn touches, roughly
 constexpr double label_size = 22.0;
-constexpr double steepest_wall = 0.7;  ///< of a normal's z: a steeper one belongs to floor or ceiling
+constexpr double steepest_wall = 0.7;  ///< of a normal's z: surfaces with a larger one are floor or ceiling
 
-/// A capsule from the side, corners close enough for any scale; metres, about its centre.
+/// A capsule from the side, with corners fine enough for any scale; metres, around its centre.
 Polyline capsule(double radius, double height) {
   Polyline line;
   const double half = std::max(0.0, 0.5 * height - radius);
@@ -111,7 +111,7 @@ void PanelPainter::way(const std::string& prefix, const Map& map, const std::fun
 }
 
 void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_plan) {
-  // A walk along a wall leaves many: one for each cell of a grid.
+  // A walk along a wall leaves many touches: one for each cell of a grid is drawn.
   std::set<std::pair<int, int>> drawn;
   for (const Touch& touch : c_.record.touches) {
     if (c_.report.mode == Mode::walk && std::abs(touch.normal.z) > steepest_wall) continue;
@@ -138,7 +138,7 @@ Point PanelPainter::at(const Mark& mark, bool is_plan) const {
 
 Point PanelPainter::unrolled(const Vec3& point, const Vec3& centre, double along) const {
   const auto& stations = c_.survey.stations;
-  // Where the body stands still or falls, it looks as it went last.
+  // If the body stands still or falls, it keeps its last heading.
   auto station = std::upper_bound(stations.begin(), stations.end(), along,
                                   [](double value, const Station& s) { return value < s.along; });
   while (station != stations.begin() && (station == stations.end() || station->heading == Vec3(0.0))) --station;
@@ -236,7 +236,7 @@ void PanelPainter::plan(const std::string& prefix, const Map& map, const PlanCut
 
 void PanelPainter::section(const std::string& prefix, const Map& map) {
   segments(prefix + "walls", map, c_.cuts.section, 2.0, wall_ink);
-  // What the body takes up: between the heights of its head and of its feet.
+  // The space of the body: between the heights of its head and its feet.
   std::vector<Polyline> band;
   const auto& stations = c_.survey.stations;
   const Rect seen = map.frame.view.grown(2.0 * c_.report.settings.radius);
@@ -258,7 +258,7 @@ void PanelPainter::section(const std::string& prefix, const Map& map) {
       close();
       continue;
     }
-    // A body keeps its height from station to station; where it crouches the next piece begins with another.
+    // A body keeps its height between stations. After crouching, the next piece begins with another height.
     for (const Station* s : {&from, &to}) {
       top.push_back(map({s->along, s->centre.z + 0.5 * from.height}));
       bottom.push_back(map({s->along, s->centre.z - 0.5 * from.height}));

@@ -7,7 +7,7 @@
 
 namespace roam::draw {
 
-/// Gaps beside the body, metres, at which the colour of the way changes, and the colours from tight to wide.
+/// The gaps beside the body, metres, at which the colour of the way changes, and the colours from tight to wide.
 struct GapScale {
   std::array<double, 4> limits{};
   static constexpr std::array<Colour, 5> colours{
@@ -24,10 +24,10 @@ inline constexpr Colour body_ink{0.10, 0.38, 0.72};
 inline constexpr Colour body_fill{0.10, 0.38, 0.72, 0.16};
 inline constexpr Colour ghost_ink{0.45, 0.25, 0.65};
 inline constexpr Colour touch_ink{0.86, 0.10, 0.32};
-/// A mark's colour: what went well, what to look at, what went wrong.
+/// A mark's colour: success, attention or failure.
 [[nodiscard]] Colour mark_colour(MarkKind kind);
 
-/// Where a frame lies on the sheet.
+/// The position of a frame on the sheet.
 struct Map {
   Frame frame;
   Point corner{0.0};  ///< upper left, pixels
@@ -44,24 +44,24 @@ class PanelPainter {
  public:
   PanelPainter(const Contents& contents, Sheet& sheet, Labels& labels);
 
-  /// Walls, way, touches, bodies and marks; `prefix` begins what the items are called.
+  /// Draws walls, way, touches, bodies and marks; `prefix` begins the names of the items.
   void plan(const std::string& prefix, const Map& map, const PlanCut& cut);
   void section(const std::string& prefix, const Map& map);
 
-  /// A label for each mark that lies in the panel: `text` says its lines.
+  /// Writes a label for each mark in the panel; `text` returns its lines.
   void label_marks(const std::string& prefix, const Map& map, bool is_plan,
                    const std::function<std::vector<std::string>(std::size_t)>& text);
 
  private:
   void segments(const std::string& what, const Map& map, std::span<const Segment> segments, double width,
                 const Colour& colour);
-  /// The way through `at` (station to a place in the map's metres), in the colours of the gaps.
+  /// Draws the way through `at` (maps a station to a place in the map's metres), in the colours of the gaps.
   void way(const std::string& prefix, const Map& map, const std::function<Point(const Station&)>& at);
   void touches(const std::string& prefix, const Map& map, bool is_plan);
   void mark(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
   void body_outline(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
   [[nodiscard]] Point at(const Mark& mark, bool is_plan) const;
-  /// A point near the body, in the section: ahead of the body's centre or behind it, as the body goes.
+  /// A point near the body, in the section: ahead of the body's centre or behind it, along the body's heading.
   [[nodiscard]] Point unrolled(const Vec3& point, const Vec3& centre, double along) const;
 
   const Contents& c_;

@@ -9,16 +9,16 @@
 namespace roam::draw {
 namespace {
 
-/// By how much the way may be straightened, in radii and at most in metres: far less than a line is wide, and so little
-/// that a body on the straightened way still fits where the true one did when the survey makes it slimmer.
+/// How far the way may be straightened: in radii, and at most in metres. Far less than a line's width. The survey makes
+/// the body slimmer, so it still fits on the straightened way.
 constexpr double straightening = 0.04;
 constexpr double most_straightening = 0.002;
-/// Segments that are held, before those that make a line are joined.
+/// Segments held for each shown one, before they are joined.
 constexpr std::size_t held_for_each_shown = 4;
-/// Storeys that are shown one over the other are at least so many body heights apart.
+/// Storeys shown one over the other are at least this many body heights apart.
 constexpr double storey_heights = 1.2;
-/// On foot two cuts more, under the body's centre: just above what it steps onto, for what stops its legs; and below
-/// what it steps down, for the ditches and pits that it may fall into.
+/// Two further cuts on foot, below the body's centre. One is just above its step height, for obstacles to its legs. The
+/// other is below its step down, for ditches and pits.
 std::vector<double> depths_below(const WalkerSettings& settings) {
   const double feet = 0.5 * settings.height, margin = 0.1 * settings.height;
   const double legs = feet - settings.step - margin;
@@ -43,7 +43,7 @@ std::vector<PlanView> plan_views(const Walked& walked, const Frames& frames, con
   return views;
 }
 
-/// Everything that one of the sections shows.
+/// The combined range of all sections.
 Rect section_range(const Frames& frames) {
   Rect range = frames.section.view;
   for (const Detail& detail : frames.details) {

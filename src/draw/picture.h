@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// `roam walk --picture`: plan and section of the way that was walked, as an SVG or a PNG. docs/pictures.md shows one.
+/// `roam walk --picture`: plan and section of a walk, as an SVG or a PNG. docs/pictures.md shows one.
 ///
-/// A picture is made in steps, each a file of its own and each, but for the last, from values to values:
-///   way       the places of all steps -> few corners, and how far along they lie
-///   survey    -> the room beside the body, floor, ceiling, the narrowest place (asks the space)
-///   marks     -> the places to point at
+/// A picture is made in steps, one file each. All steps but the last turn values into values:
+///   way       the places of all steps -> few corners, with their distances along the way
+///   survey    -> the room beside the body, floor, ceiling, the narrowest place (queries the space)
+///   marks     -> the places to mark
 ///   levels    -> the heights at which the plan is cut
-///   frames    -> which part of the scene is shown at which scale
-///   cut       -> what planes cut out of the scene; lines: loose segments -> few long lines
+///   frames    -> the part of the scene to show, and its scale
+///   cut       -> cuts of planes with the scene; lines: loose segments -> few long lines
 ///   compose   -> a sheet: lines, discs and texts in pixels (panel, legend, labels)
 ///   draw      -> a file, with Cairo
 
@@ -28,7 +28,7 @@
 
 namespace roam::draw {
 
-/// What must be measured while the space is there.
+/// Measurements that need the space.
 struct Measured {
   Way way;
   Survey survey;
@@ -37,10 +37,10 @@ struct Measured {
 [[nodiscard]] Measured measure(const Space& space, const words::EndedWalk& report, const Record& record,
                                const Arrive& arrive = {});
 
-/// Hands out all triangles that meet a box, little by little.
+/// Passes all triangles that meet a box to `take`, in parts.
 using Triangles = std::function<void(const Box&, const std::function<void(std::span<const Mesh>)>& take)>;
 
-/// What a picture is made from.
+/// The input of a picture.
 struct Walked {
   std::string title;  ///< the scene and the path, for people
   const words::EndedWalk& report;

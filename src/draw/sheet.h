@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A drawing as plain values: what is on the sheet, from the bottom to the top. Pixels, y down.
+/// A drawing as plain values: the items of a sheet, from the bottom to the top. Pixels, y down.
 
 #include <functional>
 #include <optional>
@@ -18,14 +18,14 @@ struct Colour {
 
 /// Lines, or areas where `closed`.
 struct Lines {
-  std::string what;  ///< it stands for: "walls", "way", "scale bar", ...
+  std::string what;  ///< the meaning: "walls", "way", "scale bar", ...
   std::vector<Polyline> lines;
   double width = 0.0;  ///< of the stroke; 0: none
   Colour stroke{};
   std::optional<Colour> fill{};
   bool closed = false;
   std::vector<double> dash{};
-  Rect clip{};  ///< only what lies in it is seen; empty: everything
+  Rect clip{};  ///< only the part inside is visible; empty: everything
 };
 
 struct Disc {
@@ -45,7 +45,7 @@ struct Text {
   double size = 0.0;
   bool bold = false;
   Colour colour{};
-  Rect box{};  ///< what it covers
+  Rect box{};  ///< the covered rectangle
 };
 
 struct Sheet {
@@ -54,7 +54,7 @@ struct Sheet {
   std::vector<std::variant<Lines, Disc, Text>> items;
 };
 
-/// What a text would cover with its baseline's left end at (0, 0): all lines of one size are equally high.
+/// The rectangle covered by a text whose baseline begins at (0, 0). All lines of one size are equally high.
 using MeasureText = std::function<Rect(const std::string& text, double size, bool bold)>;
 
 }  // namespace roam::draw

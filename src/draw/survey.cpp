@@ -7,14 +7,14 @@
 namespace roam::draw {
 namespace {
 
-/// How far is looked: in radii to the sides, in heights up and down.
+/// How far to measure: in radii to the sides, in heights up and down.
 constexpr double side_reach = 12.0;
 constexpr double height_reach = 5.0;
 constexpr double most_stations = 10'000.0;
-/// Metres by which the body is slimmer when its room is measured: a body that touches the ground is at home on it, but
-/// a sweep that begins in touch would end there. More than the 2 mm within which a space answers a hit.
+/// Metres by which the body is slimmer when the room around it is measured. A body may touch the ground, but a sweep
+/// that begins in contact would end at once. More than the 2 mm within which a space reports a hit.
 constexpr double slimmer = 0.005;
-/// The narrowest place is looked for again between its neighbours, so many times as densely.
+/// The narrowest place is measured again between its neighbours, this many times as densely.
 constexpr int refinement = 24;
 
 class Surveyor {
@@ -30,14 +30,14 @@ class Surveyor {
     return std::min(side_reach * settings_.radius, Space::reach_limit - settings_.radius);
   }
 
-  /// Free metres from the body to a side, measured with the body itself.
+  /// Free metres beside the body on one side, measured with the body itself.
   [[nodiscard]] double room(const Vec3& centre, double height, const Vec3& side) const {
     const double less = std::min(slimmer, 0.25 * settings_.radius);
     Body body = Body::capsule(settings_.radius, height);
     body.radius -= less;
     Vec3 place = centre;
     if (mode_ == Mode::walk) {
-      // The legs are lifted over what is stepped onto; a body that is hardly taller than wide is lifted as a whole.
+      // The legs are lifted over steps. A body hardly taller than wide is lifted as a whole.
       const double low = std::min(settings_.step, height - 2.0 * settings_.radius);
       body.half_height -= 0.5 * low;
       place.z += 0.5 * low;
@@ -64,12 +64,12 @@ class Surveyor {
   [[nodiscard]] Station station(const WayPoint& a, const WayPoint& b, double t) const {
     Station s;
     s.centre = a.position + t * (b.position - a.position);
-    s.height = b.height;  // which a piece has all along, see Segment
+    s.height = b.height;  // constant along a piece, see Segment
     s.along = a.along + t * (b.along - a.along);
     if (arrive_) arrive_(s.centre, std::max(reach() + settings_.radius, height_reach * s.height) + s.height);
     const Vec3 way(b.position.x - a.position.x, b.position.y - a.position.y, 0.0);
     const double length = glm::length(way);
-    // Steeper than some 84 degrees there is no telling left from right.
+    // Steeper than about 84 degrees, left and right are undefined.
     if (length > 0.1 * std::abs(b.position.z - a.position.z)) s.heading = way / length;
     if (s.heading != Vec3(0.0) && mode_ != Mode::ghost) measure_at(s, 0.0);
     s.floor = height_at(s.centre, -1.0, s.height);
@@ -77,7 +77,7 @@ class Surveyor {
     return s;
   }
 
-  /// Turns the measure of a station by an angle from straight across the way.
+  /// Measures a station at an angle from straight across the way.
   void measure_at(Station& s, double angle) const {
     const Vec3 left(-s.heading.y, s.heading.x, 0.0);
     s.across = std::cos(angle) * left + std::sin(angle) * s.heading;
@@ -85,13 +85,13 @@ class Surveyor {
     s.right = room(s.centre, s.height, -s.across);
   }
 
-  /// Clear width where it is bounded on both sides; infinite where it is not.
+  /// Clear width if walls bound it on both sides, else infinite.
   [[nodiscard]] double width(const Station& s) const {
     const bool bounded = s.across != Vec3(0.0) && s.left < reach() && s.right < reach();
     return bounded ? s.left + s.right + 2.0 * settings_.radius : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether the body could go on and back by its radius: else it is in a corner, which is no narrow passage.
+  /// Whether the body can move on and back by its radius. Otherwise it is in a corner, which is no narrow passage.
   [[nodiscard]] bool is_passage(const Station& s) const {
     return room(s.centre, s.height, s.heading) >= settings_.radius &&
            room(s.centre, s.height, -s.heading) >= settings_.radius;
@@ -126,7 +126,7 @@ Survey survey(const Space& space, const Way& way, const WalkerSettings& settings
   const double spacing = std::max(0.5 * settings.radius, way.length / between);
   result.stations.reserve(points.size() + static_cast<std::size_t>(is_true ? way.length / spacing : 0.0));
   double least = std::numeric_limits<double>::infinity();
-  std::size_t piece = 0;  // of the narrowest station: it lies between points[piece] and the next
+  std::size_t piece = 0;  // piece of the narrowest station: from points[piece] to the next
   double least_t = 0.0, dt = 0.0;
   // Measures at the fraction t of the piece from points[i] to points[j].
   const auto add = [&](std::size_t i, std::size_t j, double t, double step) {
@@ -164,7 +164,7 @@ Survey survey(const Space& space, const Way& way, const WalkerSettings& settings
     const Station s = surveyor.station(a, b, t);
     if (surveyor.width(s) < surveyor.width(best) && surveyor.is_passage(s)) best = s;
   }
-  // A way that crosses a passage aslant has its least width aslant too.
+  // If the way crosses a passage obliquely, the least width is oblique too.
   Station turned = best;
   for (int degrees = -45; degrees <= 45; degrees += 3) {
     surveyor.measure_at(turned, glm::radians(static_cast<double>(degrees)));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a surveyor would measure along a way: the room beside the body, floor and ceiling, and where it is narrowest.
+/// Measurements along a way: the room beside the body, floor and ceiling, and the narrowest place.
 
 #include <functional>
 #include <optional>
@@ -11,43 +11,42 @@
 
 namespace roam::draw {
 
-/// A place at which was measured.
+/// A measured place.
 struct Station {
   Vec3 centre{0.0};               ///< of the body, metres
   double height = 0.0;            ///< of the body on the way to the next station, metres
   double along = 0.0;             ///< metres, as WayPoint::along
   bool jump = false;              ///< no way leads here from the station before
   Vec3 heading{0.0};              ///< level, unit length; 0 where the way leads straight up or down
-  Vec3 across{0.0};               ///< level, to the left, unit length; 0 where nothing was measured beside
-  double left = 0.0;              ///< metres that are free beside the body along `across`, at most the survey's reach
-  double right = 0.0;             ///< and the other way
-  std::optional<double> floor;    ///< height in the scene of what is right below the centre, metres
+  Vec3 across{0.0};               ///< level, to the left, unit length; 0 without a measurement
+  double left = 0.0;              ///< free metres beside the body along `across`, at most the survey's reach
+  double right = 0.0;             ///< the same to the other side
+  std::optional<double> floor;    ///< height of the surface straight below the centre, metres
   std::optional<double> ceiling;  ///< the same above
 };
 
-/// Where the least room is between something on the left and something on the right, with a way on and a way back.
+/// The place with the least room between a left and a right wall, if the way continues in both directions.
 struct Narrowest {
   Vec3 centre{0.0};
   double height = 0.0;
   double along = 0.0;
-  double width = 0.0;  ///< metres that are clear: measured level, within 45 degrees of across the way, by moving
-                       ///< the body aside
+  double width = 0.0;  ///< clear metres: measured level, within 45 degrees of across the way, by moving the body aside
   Vec3 left{0.0};      ///< the ends of that measure, at the height of the centre
   Vec3 right{0.0};
 };
 
 struct Survey {
-  double reach = 0.0;  ///< metres beside the body that were looked at
+  double reach = 0.0;  ///< measured metres beside the body, at most
   std::vector<Station> stations;
-  std::optional<Narrowest> narrowest;  ///< none where the way is open to one side everywhere, and for a ghost
+  std::optional<Narrowest> narrowest;  ///< none if the way is open to one side everywhere, and for a ghost
 };
 
-/// Is called before each place that is looked at: `reach` metres around it should be known then.
+/// Called before each measurement: `reach` metres around the place should be loaded then.
 using Arrive = std::function<void(const Vec3& place, double reach)>;
 
-/// Measures at every corner of the way, and in between at least every half radius, but at some 10,000 places at most.
-/// Where the way is not true enough for the body to fit on it, at its corners alone. On foot the room beside is that
-/// above the step height: what is lower is walked onto.
+/// Measures at every corner of the way, and in between at least every half radius, at some 10,000 places at most. If
+/// the way is too imprecise for the body to fit on it, measures only at its corners. On foot the room beside the body
+/// counts above the step height, because the body walks over lower obstacles.
 [[nodiscard]] Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode,
                             const Arrive& arrive = {});
 

@@ -7,7 +7,7 @@
 namespace roam::draw {
 namespace {
 
-/// Cells of the first grid along the longer side of the area: a sheet has 2,000 pixels, and shows parts of it larger.
+/// Cells of the first grid along the longer side of the area: a sheet has 2,000 pixels, and magnifies parts of it.
 constexpr double first_cells = 1 << 17;
 
 auto key(const Segment& s) { return std::tuple(s.a.x, s.a.y, s.b.x, s.b.y); }
@@ -24,7 +24,7 @@ void ThinSegments::add(std::vector<Segment>&& segments) {
   segments_.insert(segments_.end(), segments.begin(), segments.end());
   if (segments_.size() <= most_) return;
   thin();
-  // So that the next few do not lead here again at once.
+  // Half as many, so that the next few segments do not thin again at once.
   while (segments_.size() > most_ / 2) {
     grid_ *= 2.0;
     thin();

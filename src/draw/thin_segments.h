@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Segments that are to be drawn, in bounded memory: what cannot be told apart is held once.
+/// Segments for drawing, in bounded memory: indistinguishable ones are held once.
 
 #include <cstddef>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace roam::draw {
 
-/// Takes any number of segments and holds about `most`. Where there are more, ends are rounded to a grid over `area`,
-/// so that lines stay joined, and what has shrunk to a point or is there twice goes. The grid begins far finer than a
-/// sheet shows and gets coarser by twos, as it must. The same segments in the same order give the same.
+/// Takes any number of segments and holds about `most`. If there are more, rounds their ends to a grid over `area`, so
+/// that lines stay joined, and removes points and duplicates. The grid begins far finer than a sheet can show, and
+/// doubles its cells as needed. The same segments in the same order give the same result.
 class ThinSegments {
  public:
   ThinSegments(const Rect& area, std::size_t most);
 
   void add(std::vector<Segment>&& segments);
-  /// Once.
+  /// Call it once.
   [[nodiscard]] std::vector<Segment> take() { return std::move(segments_); }
 
  private:

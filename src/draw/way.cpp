@@ -10,15 +10,15 @@ namespace {
 
 double plan_distance(const Vec3& a, const Vec3& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-/// How far a place lies from the straight piece a-b, its height counted as a fourth coordinate.
+/// The distance of a place from the straight piece a-b, with the body's height as a fourth coordinate.
 double deviation(const Place& p, const Place& a, const Place& b) {
   const double t = nearest_part(p.position, a.position, b.position);
   const double height = std::abs(p.height - (a.height + t * (b.height - a.height)));
   return std::max(glm::distance(p.position, a.position + t * (b.position - a.position)), height);
 }
 
-/// Which places from `begin` on must stay, 1, so that no other lies farther than `tolerance` from the lines between
-/// them. All before stay.
+/// Marks with 1 the places from `begin` on that must stay, so that all others lie within `tolerance` of the lines
+/// between them. All places before `begin` stay.
 std::vector<char> corners_of(const std::vector<Place>& places, std::size_t begin, double tolerance) {
   std::vector<char> keep(places.size(), 0);
   std::fill_n(keep.begin(), begin, char{1});
@@ -34,7 +34,7 @@ std::vector<char> corners_of(const std::vector<Place>& places, std::size_t begin
   return keep;
 }
 
-/// Leaves out the places that are not to be kept. The one with the least clearance stays.
+/// Removes the places without a mark in `keep`. The place with the least clearance stays.
 void leave_out(Record& record, std::vector<char> keep) {
   auto& places = record.places;
   std::size_t nearest = places.size();
@@ -43,9 +43,9 @@ void leave_out(Record& record, std::vector<char> keep) {
     if (places[i].clearance > 0.0 && nearer) nearest = i;
   }
   if (nearest < places.size()) keep[nearest] = 1;
-  std::vector<std::size_t> now(places.size());  // the number of each place, or of the next that stays
+  std::vector<std::size_t> now(places.size());  // new index of each place, or of the next one that stays
   std::size_t count = 0;
-  double least = 0.0;  // clearance of what was left out since the last that stayed; 0: none
+  double least = 0.0;  // clearance of removed places since the last kept one; 0: none
   for (std::size_t i = 0; i < places.size(); ++i) {
     now[i] = count;
     const double clearance = places[i].clearance;
@@ -59,14 +59,14 @@ void leave_out(Record& record, std::vector<char> keep) {
   for (Touch& touch : record.touches) touch.place = now[touch.place];
 }
 
-/// Leaves out places until a quarter of the most is free.
+/// Removes places until a quarter of the limit is free.
 void thin_places(Record& record) {
   constexpr double finest = 1e-3;  // m
   const auto thin_from = [&](std::size_t begin) {
     leave_out(record, corners_of(record.places, begin, record.tolerance));
   };
   record.tolerance = std::max(finest, record.tolerance);
-  // What was thinned before is not thinned again by the same: deviations would add up.
+  // Places thinned before are not thinned again with the same tolerance, or deviations would add up.
   thin_from(record.thinned > 0 ? record.thinned - 1 : 0);
   while (record.places.size() > Record::most / 4 * 3) {
     record.tolerance *= 2.0;
@@ -75,7 +75,7 @@ void thin_places(Record& record) {
   record.thinned = record.places.size();
 }
 
-/// Leaves out touches until half of the most are left.
+/// Removes touches until half of the limit is left.
 void thin_touches(Record& record) {
   auto& touches = record.touches;
   while (touches.size() > Record::most / 2) {
@@ -115,11 +115,11 @@ Way simplified(const Record& record, double tolerance) {
   const auto& places = record.places;
   const std::vector<char> keep = corners_of(places, 0, tolerance);
   Way way;
-  way.tolerance = tolerance + 2.0 * record.tolerance;  // each time it was thinned, twice as much
+  way.tolerance = tolerance + 2.0 * record.tolerance;  // the tolerance doubles each time the record is thinned
   way.along.resize(places.size());
   way.nearest = places.size();
   double least = std::numeric_limits<double>::infinity();
-  std::size_t before = 0;  // the last place that stayed
+  std::size_t before = 0;  // the last kept place
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& p = places[i];
     if (p.clearance > 0.0 && p.clearance < least) {

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* suffix = ".roam";
 constexpr const char* extension = ".json";
-/// Characters of a file name. Every file system allows 255; the rest is for what is appended.
+/// Characters of a file name. File systems allow 255; the rest is for the suffixes.
 constexpr std::size_t name_limit = 200;
 constexpr std::array<const char*, 3> methods{"paper", "interval", "roaming"};
 constexpr std::array<Mode, 2> modes{Mode::walk, Mode::fly};
@@ -46,7 +46,7 @@ void demand_foot(const std::string& member, double radius) {
   }
 }
 
-/// Throws what a Walker would throw for such a body.
+/// Throws the error that a Walker would throw for such a body.
 void demand_body(const std::string& member, const Profile& profile, double radius) {
   WalkerSettings body;
   body.radius = radius;

@@ -16,9 +16,9 @@
 namespace roam {
 namespace {
 
-/// Part of half an opening's width: the radius that is offered. The width is measured to a few millimetres.
+/// The offered radius as a part of half the opening's width, which is measured to a few millimetres.
 constexpr double room_part = 0.97;
-/// Metres by which the support disc is made larger than the largest disc that falls through.
+/// Metres by which the support disc exceeds the largest disc that falls through.
 constexpr double support_margin = 0.02;
 /// Metres: precision to which that disc is measured.
 constexpr double disc_precision = 1e-3;
@@ -27,7 +27,7 @@ constexpr double sunk = 0.02;
 
 /// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is floor.
 constexpr double cosine_rounding = 1e-9;
-/// Part of the radius: a body that has moved less is still at its place.
+/// Part of the radius: a body that moved less has not moved.
 constexpr double moved_part = 0.1;
 /// Trials of a support disc walk at this speed (m/s), in steps of trial_step seconds, for at most trial_limit steps: a
 /// minute.
@@ -194,8 +194,8 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
   if (!firm_ || !lost_) return std::nullopt;
   double low = std::max(walker.body().radius, walker.settings().support_radius), high = limits_.support_max;
   if (high <= low) return std::nullopt;
-  // Not even the largest disc carries: a pit or a cliff. Otherwise this walker knows the plane of the floor and stands
-  // at the place of the loss.
+  // If not even the largest disc carries, this is a pit or a cliff. Otherwise the trial walker knows the plane of the
+  // floor and stands where footing was lost.
   const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
   if (!largest) return std::nullopt;
   while (high - low > disc_precision) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Waiting for what a pager brings, as long as it brings something.
+/// Waits for a pager's loads, as long as any arrive.
 
 #include <chrono>
 #include <cstdint>
@@ -10,18 +10,19 @@
 
 namespace roam::app {
 
-/// Waits while something comes.
+/// Waits while anything arrives.
 class Arrivals {
  public:
-  /// Seconds without anything that came: memory is full, and the rest does not come.
+  /// Seconds without an arrival after which memory counts as full: the rest will not arrive.
   static constexpr double full_after = 0.1;
 
   /// The scene must be a store.
   explicit Arrivals(OpenScene& scene);
 
-  /// Seconds since anything came. What is wanted is what a body could reach that moves at `velocity` from `place`.
+  /// Waits for the tiles that a body moving at `velocity` from `place` could reach. Returns the seconds since anything
+  /// arrived.
   double wait(const Body& body, const Vec3& place, const Vec3& velocity);
-  /// Whether all is there, but for what cannot be read.
+  /// Whether all of them are loaded, except unreadable ones.
   [[nodiscard]] bool settled() const { return settled_; }
 
  private:
@@ -33,18 +34,18 @@ class Arrivals {
   bool settled_ = false;
 };
 
-/// Waits for what lies around places, as far as memory holds it.
+/// Waits for the surroundings of places, as far as memory allows.
 class Surroundings {
  public:
   explicit Surroundings(OpenScene& scene) : scene_(scene) {}
 
-  /// Until all within `reach` (m) is known that can be read; of a store for which memory is too small, until no more
-  /// comes, and from then on it waits for less.
+  /// Waits until everything readable within `reach` (m) is loaded. If memory is too small for a store, waits until
+  /// nothing more arrives, and from then on for a smaller reach.
   void wait(const Vec3& place, double reach);
 
  private:
   OpenScene& scene_;
-  double fits_ = std::numeric_limits<double>::infinity();  ///< metres, as far as is known
+  double fits_ = std::numeric_limits<double>::infinity();  ///< metres, as far as known
 };
 
 }  // namespace roam::app

@@ -13,12 +13,12 @@ namespace roam::app {
 /// Beside the scene, its whole name and ".roam": "Data/" -> "Data.roam", "mine.dae" -> "mine.dae.roam".
 [[nodiscard]] std::filesystem::path store_beside(const std::filesystem::path& scene);
 
-/// Throws roam::Error where that, which nobody named, is a link: the folder of a scene may come from a stranger, and
-/// the link would lead a build to another store.
+/// Throws roam::Error if the store beside a scene, whose name the user did not give, is a link. The folder of a scene
+/// may come from a stranger, and the link would lead a build to another store.
 void demand_no_link(const std::filesystem::path& store);
 
-/// The notes of a build, as sentences of the program. What was read now is noted by the program itself. Notes of parts
-/// that were read before are a store's, which may come from a stranger: they are quoted.
+/// The notes of a build, as sentences of the program. Notes of parts read now are the program's own. Notes of parts
+/// read before are stored in the store, which may come from a stranger: they are quoted.
 [[nodiscard]] std::vector<std::string> told_notes(const StoreBuildReport& report, const std::filesystem::path& store);
 
 }  // namespace roam::app

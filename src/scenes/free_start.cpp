@@ -10,14 +10,13 @@
 namespace roam::app {
 namespace {
 
-/// Places that are looked at, metres around each, and what is looked at there.
+/// Places to examine, metres around each, and the triangles examined there.
 constexpr std::uint64_t places = 16;
 constexpr double around = 30.0;
 constexpr std::size_t floors_each = 64;
 constexpr int columns_each = 8;
 
-/// Bytes that a triangle takes while it is looked at: its corners, once more for the index, the index, and what
-/// building that needs.
+/// Bytes for each examined triangle: its corners, again for the index, the index, and its construction.
 constexpr std::uint64_t bytes_a_triangle = 400;
 
 [[noreturn]] void fail_to_start(const WalkerSettings& settings) {
@@ -46,7 +45,7 @@ Vec3 free_start(const Store& store, std::uint64_t memory, const WalkerSettings& 
   std::optional<WanderStart> best;
   for (const Vec3& place : store.sample(places)) {
     Mesh mesh;
-    // Where something cannot be read one may still begin beside it.
+    // A start beside unreadable parts is allowed.
     store::append(mesh, triangles_around(store, place, around, most, [&] { return !goes_on || goes_on(); }).triangles);
     const World world = World::build({&mesh, 1});
     const auto floors = floor_samples({&mesh, 1}, floors_each);

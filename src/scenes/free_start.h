@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a body starts when nobody says it: wander_start, with sentences for those who started the program.
+/// The default start of a body: wander_start, with errors for users of the program.
 
 #include <functional>
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace roam::app {
 
-/// How many triangles of a store can be read and indexed in so many bytes.
+/// The number of triangles of a store that can be read and indexed in `memory` bytes.
 [[nodiscard]] std::size_t indexed_in(std::uint64_t memory);
 
-/// The place of wander_start. Throws roam::Error where the body fits nowhere and in an empty scene.
+/// The place of wander_start. Throws roam::Error if the body fits nowhere, or if the scene is empty.
 [[nodiscard]] Vec3 free_start(const Space& space, const WalkerSettings& settings, Mode mode,
                               std::span<const Vec3> floors, const std::function<bool()>& goes_on = {});
 
-/// The same of a store, looking around a few places of it that lie where its triangles are: at each as far as `memory`
-/// (bytes) lets, 30 m at most.
+/// The same for a store. Examines a few places near its triangles, each as far as `memory` (bytes) allows, at most 30
+/// m.
 [[nodiscard]] Vec3 free_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                               const std::function<bool()>& goes_on = {});
 

@@ -22,20 +22,21 @@
 namespace roam::app {
 namespace {
 
-/// Seconds. How long a body that is put somewhere may wait for what is there; then it is held, as said.
+/// Seconds. How long a body may wait for its surroundings when it is placed; then it is held.
 constexpr double longest_wait = 60.0;
 
-/// How long a thread of the pager may take to name what is not known; where all of them wait for reads it is not named.
+/// How long a pager's thread may take to find the name of an unknown part. If all threads wait for reads, it stays
+/// unnamed.
 constexpr std::chrono::milliseconds longest_naming{200};
 
-/// From now on what is large goes back to the system when it is freed, and leaves no holes.
+/// From now on, large freed blocks return to the system and leave no holes.
 void keep_no_large_block() {
 #ifdef __GLIBC__
   ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
 #endif
 }
 
-/// What was freed goes back to the system: it is not to be resident beside what comes next.
+/// Returns freed memory to the system, so that it is not resident beside later allocations.
 void return_memory() {
 #ifdef __GLIBC__
   ::malloc_trim(0);
@@ -96,7 +97,7 @@ std::optional<PagerStats> OpenScene::paging() const {
 
 Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
   if (!store_) return free_start(loaded_.world, settings, mode, loaded_.floors);
-  // The pager's memory, and that of what is looked through, are not there at the same time.
+  // The pager's memory and the memory of the search do not exist at the same time.
   leave();
   const Vec3 place = free_start(*store_, memory_, settings, mode);
   return_memory();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a verb moves bodies in: a scene that was read and indexed whole, or a store that is paged while one moves.
+/// The scene of a verb: read and indexed whole, or a store that is paged while bodies move.
 
 #include <cstdint>
 #include <memory>
@@ -15,54 +15,54 @@ namespace roam::app {
 
 class OpenScene {
  public:
-  /// Reads and indexes a scene, or opens a store, which must then be the only one that is named. Throws what load and
-  /// Store::open throw, and UsageError for options that have no meaning for what is opened.
+  /// Reads and indexes a scene, or opens a store, which must be the only one named. Throws the errors of load and
+  /// Store::open, and UsageError for options without meaning for that scene.
   OpenScene(const SceneOptions& options, Source source);
 
   [[nodiscard]] const Space& space() const;
   [[nodiscard]] std::uint64_t triangles() const;
   [[nodiscard]] Box bounds() const;
-  /// Of what bodies move in, which a world stores a little off.
+  /// Bounds of the space, which a world stores with a small error.
   [[nodiscard]] Box walked_bounds() const { return store_ ? bounds() : loaded_.world.bounds(); }
-  /// Null where the scene was read whole.
+  /// Null if the scene was read whole.
   [[nodiscard]] const Store* store() const { return store_.get(); }
   [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
-  /// Bytes that a store may take.
+  /// Bytes for a store.
   [[nodiscard]] std::uint64_t memory() const { return memory_; }
-  /// Of the pager; nothing where the scene was read whole.
+  /// Statistics of the pager; none if the scene was read whole.
   [[nodiscard]] std::optional<PagerStats> paging() const;
 
   /// A free place to start from, see free_start.
   /// To be called before space().
   [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode);
-  /// After the last step: gives a pager's memory back, for what follows. space() is gone then.
+  /// Call it after the last step: frees a pager's memory for later work. space() is invalid then.
   void leave();
-  /// Waits until a body there has ground to stand on, where it must be waited for.
+  /// Waits until a body there has ground to stand on, if it must be loaded.
   void wait_at(const Body& body, const Vec3& place);
-  /// Waits until what a body can reach within a second at this velocity is known or cannot be read, `seconds` at most.
-  /// Returns whether it is.
+  /// Waits until everything that a body can reach within a second at this velocity is loaded or unreadable, at most
+  /// `seconds`. Returns whether it is.
   bool wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds);
-  /// To be called after every step: takes into use what has come. A walk that is computed faster than a person walks
-  /// waits for what that person would have had, at most as long as the step lasts.
+  /// Call it after every step: puts loaded tiles into use. A walk that is computed faster than real time waits for
+  /// tiles that would have loaded in real time, at most as long as the step lasts.
   void follow(const Walker& walker);
 
-  /// How the object of a triangle of an answer is called, and which triangle of the scene it is.
+  /// The name of the object of a triangle of a result, and the triangle's number in the scene.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
-  /// Just SourceTriangle::scene.
+  /// Only SourceTriangle::scene.
   [[nodiscard]] TriangleId scene_triangle(TriangleId triangle) const;
 
-  /// Why the unknown that a contact names is not known; waits a moment for what is found out beside.
+  /// The reason why the unknown part of a contact is not loaded. Waits a moment for other threads to find it.
   [[nodiscard]] std::string why_unknown(TriangleId unknown) const;
 
  private:
-  std::uint64_t memory_;  ///< bytes for a store
+  std::uint64_t memory_;  ///< for a store
   LoadedScene loaded_;
   std::shared_ptr<const Store> store_;
   std::unique_ptr<Pager> pager_;
 };
 
-/// Lets a scene be read as the store was that was made of it, in what its options do not say. Throws roam::Error where
-/// this program does not know how.
+/// Sets the options that determine how a scene is read to those of its store. Throws roam::Error if this program does
+/// not know them.
 void read_as(SceneOptions& scene, const Store& store);
 
 }  // namespace roam::app

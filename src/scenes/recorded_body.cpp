@@ -74,7 +74,7 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
       body = read;
       body->mode = *mode;
     }
-    // The places of a way that was partly flown are reached in the air alone.
+    // Some places of a way that was partly flown can only be reached by flying.
     if (*mode != Mode::walk) body->mode = Mode::fly;
     body->ghost |= *mode == Mode::ghost;
   }

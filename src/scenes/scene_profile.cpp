@@ -11,7 +11,7 @@ namespace roam::app {
 std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode mode,
                                                const std::optional<RecordedBody>& recorded) {
   if (mode == Mode::ghost) return std::nullopt;
-  // A scene without a name is refused by those who read it.
+  // The readers refuse a scene without a name.
   if (std::any_of(scene.scenes.begin(), scene.scenes.end(), [](const auto& file) { return file.empty(); }))
     return std::nullopt;
   const std::filesystem::path file = profile_path(scene.scenes);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The profile beside a scene, as `roam walk` and `roam view` take it when nobody says how large the body is.
+/// The profile beside a scene, as `roam walk` and `roam view` use it if the user gives no size of the body.
 
 #include <filesystem>
 #include <optional>
@@ -17,17 +17,17 @@ struct SceneProfile {
   Profile profile;
 };
 
-/// For a body whose radius nobody said. None where there is no profile, for a ghost, and where a profile was trained
-/// for flying and the body walks. A path that says its body is gone by that body: the profile then counts only where it
-/// is of the same one, for the sizes in its regions. Throws roam::Error for a profile that cannot be read, which also
-/// says how to do without.
+/// The profile for a body without a given radius. None if there is no profile, for a ghost, and for a walking body if
+/// the profile is for flying. A path with a recorded body uses that body; then the profile counts only if it is for the
+/// same body, for the sizes in its regions. Throws roam::Error for an unreadable profile, with advice how to do
+/// without.
 [[nodiscard]] std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode mode,
                                                              const std::optional<RecordedBody>& recorded);
 
-/// Throws roam::Error when the profile is not of this scene: what, and what to do.
+/// Throws roam::Error, with advice, if the profile is not of this scene.
 void demand_belongs(const SceneProfile& profile, const SceneIdentity& scene, const std::string& scene_name);
 
-/// That it is used, and for what body: one line.
+/// One line: that the profile is used, and for what body.
 [[nodiscard]] std::string describe(const SceneProfile& profile);
 
 }  // namespace roam::app

@@ -17,11 +17,11 @@
 namespace roam::app {
 namespace {
 
-/// Bytes that a triangle of a store takes here at most: loose corners, the same once more for floor, both indexes and
-/// what building them needs.
+/// Bytes for each triangle of a store here, at most: its corners, the same again for floor, both indexes and their
+/// construction.
 constexpr std::uint64_t bytes_a_triangle = 400;
 
-/// Of the machine, now; nothing where it does not say.
+/// Free memory of the machine; none if it is unknown.
 std::optional<std::uint64_t> free_memory() {
   std::ifstream in("/proc/meminfo");
   std::string name, unit;
@@ -53,7 +53,7 @@ std::vector<Mesh> read_store(const Store& store) {
     progress.at(mesh.triangles.size(), info.triangles);
   };
   store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
-    // What is not known would be a hole, where a body falls, or a door that is not there.
+    // An unknown part would look like a hole in the floor, or like a missing door.
     throw Error(fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
                             store.name()));
   });
@@ -100,7 +100,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
 
 void check_spacing(const Surveyed& scene, double spacing, double width) {
   constexpr double usual = 0.2;       // m
-  constexpr double overlooked = 0.7;  // of the spacing: openings under that
+  constexpr double overlooked = 0.7;  // of the spacing: smaller openings may be overlooked
   const Box bounds = scene.survey.world().bounds();
   if (bounds.empty() || spacing <= usual) return;
   const Vec3 size = bounds.size();

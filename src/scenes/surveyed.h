@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `roam train` and `roam probe` ask: a scene, or a store, read whole and surveyed.
+/// The input of `roam train` and `roam probe`: a scene, or a store, read whole and surveyed.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace roam::app {
 
-/// Adds SCENE..., --up, --unit, --ignore and --threads, and nothing that has no meaning for a survey.
+/// Adds SCENE..., --up, --unit, --ignore and --threads, but no option without meaning for a survey.
 void add_surveyed_to(CLI::App& verb, SceneOptions& options);
 
 struct Surveyed {
   Survey survey;           ///< lossless
-  SceneIdentity identity;  ///< of what was read: the scene, or the store
+  SceneIdentity identity;  ///< of the scene or the store
 };
 
 /// Reads and surveys, with progress and the import's notes on standard error. A store is read whole, as it is stored.
-/// Throws what import_scene, Store::open and Survey::build throw, UsageError for options that mean nothing to a store,
-/// and roam::Error for a store that is larger than the memory that is free.
+/// Throws the errors of import_scene, Store::open and Survey::build. Throws UsageError for options without meaning for
+/// a store, and roam::Error for a store larger than the free memory.
 [[nodiscard]] Surveyed survey_scene(const SceneOptions& options, double slope_degrees);
 
-/// Of --spacing, m: throws UsageError where it is more than half the scene's length, so that hardly a place would be
-/// looked at, and warns on standard error where openings of `width`, m, may be overlooked.
+/// Checks --spacing, m. Throws UsageError if it is more than half the scene's length, which would leave hardly any
+/// place. Warns on standard error if openings of `width`, m, may be overlooked.
 void check_spacing(const Surveyed& scene, double spacing, double width);
 
 }  // namespace roam::app

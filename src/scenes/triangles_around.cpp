@@ -7,9 +7,9 @@
 namespace roam::app {
 namespace {
 
-constexpr double least_reach = 0.5;  // m: nobody looks less far
+constexpr double least_reach = 0.5;  // m: no search is smaller
 
-/// Too many have come.
+/// Thrown if there are too many triangles.
 struct Enough {};
 
 }  // namespace

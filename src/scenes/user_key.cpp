@@ -27,7 +27,7 @@ constexpr unsigned own_folder = 0700, own_file = 0600;  // rights
 /// 64 digits and a line feed.
 constexpr std::size_t key_bytes = 65;
 
-/// Throws where it is not the user's, or others have these rights.
+/// Throws if it does not belong to the user, or if others have these rights.
 void demand_own(const fs::path& path, mode_t rights) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) files::fail("read", path, errno);
@@ -84,7 +84,7 @@ UserKey found(bool makes) {
         if (::mkdir(folder.c_str(), own_folder) != 0 && errno != EEXIST) files::fail("make the folder", folder, errno);
       }
       demand_own(folder, others_writing);
-      // Of two that begin at once, one makes the key for both. Some file systems know no locks.
+      // If two processes begin at once, one makes the key for both. Some file systems have no locks.
       const Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
       (void)files::again([&] { return ::flock(lock.number(), LOCK_EX); });
       if (!fs::exists(fs::symlink_status(file, error))) make(file);

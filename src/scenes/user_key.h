@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The key by which the user's own collision stores are told from those that came with a scene.
+/// The key that distinguishes the user's own collision stores from those that came with a scene.
 
 #include <filesystem>
 #include <optional>
@@ -18,11 +18,11 @@ struct UserKey {
   std::string problem;  ///< why there is none: a clause without a full stop, which names the file and what to do
 };
 
-/// The user's key. Nothing where it is not there, is damaged, is not the user's own, or others may read or replace it.
+/// The user's key. None if it does not exist, is damaged, is not the user's own, or if others may read or replace it.
 [[nodiscard]] UserKey user_key();
-/// The same. Where there is none yet it is made, and kept where only the user can read it.
+/// The same, but makes a key if there is none, and stores it where only the user can read it.
 [[nodiscard]] UserKey made_user_key();
-/// A key that nobody keeps: what was not built with it is not built upon.
+/// A random key that is not stored anywhere, so a build with it continues no earlier build.
 [[nodiscard]] StoreKey key_of_this_run();
 
 }  // namespace roam::app

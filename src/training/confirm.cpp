@@ -20,48 +20,48 @@
 namespace roam::training {
 namespace {
 
-/// How often the ways are planned again.
+/// How often the ways are planned again, at most.
 constexpr int most_rounds = 12;
-/// Places that a way round may be looked for beyond those that are known.
+/// New places that the search for a way around may make.
 constexpr std::uint64_t most_new_places = 100'000;
-/// m: a way that rises by more where a walker was stopped climbs something, and places at its top are shut; to this
-/// above and below.
+/// m: a way that rises by more at the stop is a climb. Then places at its top are closed, within this height above and
+/// below.
 constexpr double climbs = 0.1;
-/// What is shut grows by so much each time that the way is stopped near by, up to so many metres.
+/// A closed place grows by this factor each time that the way is stopped nearby, up to most_shut metres.
 constexpr double growth = 1.6;
 constexpr double most_shut = 2.0;
 
-/// A body that is stopped at a crack becomes larger by so much, so often; then it gets a foot.
+/// A body that is stopped at a crack grows by this factor, most_larger times; then it gets a foot.
 constexpr double larger = 1.08;
 constexpr int most_larger = 2;
-/// A body that is so much larger than what the rims carry is not stopped by them.
+/// A body larger than the radius that the rims carry by this factor is not stopped by them.
 constexpr double unhindered = 1.25;
-/// m: who is stopped no farther from a gap, and a radius, may be by that.
+/// m: a body stopped within this distance and its radius of a gap may have been stopped by it.
 constexpr double beside_gap = 0.2;
 
-/// Where no way leads any more: a disc, seen from above, at one level.
+/// A closed part of the lattice: a disc, seen from above, at one level.
 struct Shut {
   Vec3 place{0.0};
   double reach = 0.0;
-  double level = 0.0;  ///< how far above and below
+  double level = 0.0;  ///< m above and below
   [[nodiscard]] bool holds(const Vec3& p) const {
     return std::hypot(p.x - place.x, p.y - place.y) <= reach && std::abs(p.z - place.z) <= level;
   }
 };
 
-/// How a walker was stopped.
+/// A stop of a walker.
 struct Stop {
   Trial trial;
   double along = 0.0;                ///< m of the way
-  std::optional<std::size_t> crack;  ///< at which it was
+  std::optional<std::size_t> crack;  ///< the crack that stopped it
 };
 
-/// What is known of one path.
+/// The attempts on one path.
 struct Tries {
   std::vector<ways::NodeId> nodes;
   std::vector<Shut> shut;
   std::optional<Stop> stop;
-  BodySize walked;    ///< that came through
+  BodySize walked;    ///< the body that got through
   bool gone = false;  ///< no way is left
 };
 
@@ -95,18 +95,18 @@ class Confirmation {
   }
 
  private:
-  /// Walks what has not been walked by the body that comes of the paths. False: nobody is stopped on any.
+  /// Sends the body of the paths along each path that it has not walked yet. Returns false if no walker was stopped.
   bool walk_all(std::vector<Tries>& tries) {
     const BodySize body = body_of_paths(kind_, options_, evidence_, crossings_, layout_);
     tbb::parallel_for(std::size_t(0), tries.size(), [&](std::size_t i) {
       Tries& t = tries[i];
       PlannedPath& path = layout_.paths[i];
-      // Where that body does not fit, one that does.
+      // A path that is too narrow for that body gets one that fits.
       BodySize fitting = body;
       if (path.passage.limited && path.passage.radius < body.radius)
         fitting.radius = inside_share * path.passage.radius;
       if (path.walked && BodySize{path.walked->radius, path.walked->support_radius} == fitting) t.walked = fitting;
-      if (t.walked == fitting) t.stop.reset();  // by another body
+      if (t.walked == fitting) t.stop.reset();  // that was another body's stop
       if (stages_.ended() || t.walked == fitting) return;
       t.stop = stop_on(path, fitting);
       if (!t.stop) t.walked = fitting;
@@ -114,8 +114,8 @@ class Confirmation {
     return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
   }
 
-  /// Where walkers were stopped at cracks whose rims may carry a larger body, or a foot. Each crack asks for more at
-  /// most so often; where nothing helped, it asks for what it did before. Whether there is another body to be sent.
+  /// For each crack that stopped a walker, raises its Evidence::carried, or demands a foot, a limited number of times.
+  /// If nothing helps, restores the old value. Returns whether there is another body to send.
   bool ask_for_more(std::vector<Tries>& tries) {
     std::set<std::size_t> cracks;
     for (const Tries& t : tries)
@@ -140,7 +140,7 @@ class Confirmation {
     return !cracks.empty();
   }
 
-  /// The crack at which a body is that stops between two places of a way.
+  /// The crack near a body that stops between two places of a way.
   [[nodiscard]] std::optional<std::size_t> crack_at(const std::vector<Vec3>& way, double from, double to,
                                                     const BodySize& body) const {
     for (const Crossing& crossing : crossings_.on(way)) {
@@ -153,7 +153,7 @@ class Confirmation {
     return std::nullopt;
   }
 
-  /// Whether a crack that stops such a body may be asked for what it carries.
+  /// Whether Evidence::carried of the crack that stopped such a body may still change.
   [[nodiscard]] bool is_asked(std::size_t crack, const BodySize& body) const {
     const cracks::FoundCrack& found = evidence_.cracks[crack];
     const auto asked = asked_.find(crack);
@@ -163,7 +163,7 @@ class Confirmation {
            (asked != asked_.end() || body.radius < unhindered * evidence_.carried[crack]);
   }
 
-  /// Where a body is stopped on its way back, up over a gap that it came down over.
+  /// The place where a body is stopped on its way back, up over a gap that it came down over.
   [[nodiscard]] std::optional<Stop> stop_back(const std::vector<Vec3>& way, const BodySize& body) const {
     for (const Crossing& crossing : crossings_.on(way)) {
       if (!is_asked(crossing.crack, body)) continue;
@@ -179,7 +179,8 @@ class Confirmation {
     return std::nullopt;
   }
 
-  /// Where a body is stopped or falls; none where it comes through, which is kept, or is not meant to.
+  /// The place where a body is stopped or falls. None if it gets through, which is recorded in `path`, or if it sinks
+  /// into a shallow trench.
   [[nodiscard]] std::optional<Stop> stop_on(PlannedPath& path, const BodySize& body) const {
     const Passage& passage = path.passage;
     const auto tried = [&](const std::vector<Vec3>& way) {
@@ -197,7 +198,7 @@ class Confirmation {
       if (stop.trial.outcome == Outcome::blocked) stop.crack = crack_at(passage.way, stop.along, stop.along, body);
       return stop;
     }
-    // Where it left the level of the way, and not where it came to lie.
+    // Finds the place where it left the level of the way, not the one where it came to rest.
     double goes = 0.0, falls = passage.length;
     while (falls - goes > 0.5 * options_.spacing && !stages_.ended()) {
       const double half = 0.5 * (goes + falls);
@@ -208,7 +209,7 @@ class Confirmation {
     return stop;
   }
 
-  /// No foot helps over such a trench: the answer says so.
+  /// No foot bridges such a trench; the result reports it.
   [[nodiscard]] bool sinks_into_shallow(const std::vector<Vec3>& way, double radius) const {
     const std::vector<Crossing> on = crossings_.on(way);
     return std::any_of(on.begin(), on.end(), [&](const Crossing& crossing) {
@@ -222,7 +223,7 @@ class Confirmation {
     return trial.at - Vec3(0.0, 0.0, 0.5 * height);
   }
 
-  /// Shuts the lattice where the walker was stopped, and looks for another way of it.
+  /// Closes the lattice where the walker was stopped, and searches for another way.
   void go_round(const PlannedPath& path, Tries& t, bool may_try) {
     t.gone = true;
     if (!may_try || t.stop->trial.outcome == Outcome::held) return;
@@ -256,7 +257,7 @@ class Confirmation {
         shut.reach = std::max(shut.reach, std::min(most, growth * other.reach));
     }
     t.shut.push_back(shut);
-    // The way itself is shut in any case.
+    // At least one place of the way itself is closed.
     if (t.nodes.size() < 3) return;
     const auto apart = [&](ways::NodeId id) { return glm::distance(layout_.tree.node(id).place, shut.place); };
     const ways::NodeId nearest = *std::min_element(t.nodes.begin() + 1, t.nodes.end() - 1,
@@ -269,7 +270,7 @@ class Confirmation {
       Tries& t = tries[i];
       if (!t.stop || t.gone || stages_.ended()) return;
       Passage passage = plan_along(survey_, layout_, options_.spacing, t.nodes);
-      // A way round that is too narrow for the body that was stopped is no way of its.
+      // A way around that is too narrow for the stopped body does not help it.
       const bool enough = passage.found && !(passage.limited && passage.radius < t.stop->trial.radius);
       t.gone = !enough || passage.way.size() < 2;
       if (t.gone) return;
@@ -307,7 +308,7 @@ class Confirmation {
   Layout& layout_;
   Stages& stages_;
   const Crossings crossings_;
-  /// What a crack was asked for.
+  /// The attempts at one crack.
   struct Asked {
     double before = 0.0;  ///< Evidence::carried, before
     int times = 0;
@@ -322,7 +323,7 @@ void confirm_paths(const Survey& survey, const TrainOptions& options, const ways
   stages.begin(TrainStage::walking);
   Confirmation(survey, options, kind, evidence, layout, stages).run();
   if (layout.unwalked.empty() || stages.ended()) return;
-  // Other ends, once: of the parts whose ends could not be walked to.
+  // Draws other ends, once, in components whose ends could not be walked to.
   const std::size_t before = layout.paths.size();
   for (std::size_t i = 0; i < layout.components.size(); ++i) {
     const std::vector<ways::NodeId>& nodes = layout.components[i].nodes;

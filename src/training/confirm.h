@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Planned ways are confirmed by the real Walker: a lattice cannot know all that one climbs, or where one slides off.
+/// Planned ways are confirmed by the real Walker: a lattice cannot know every step that a body climbs or slope that it
+/// slides down.
 
 #include "training/interval.h"
 #include "training/layout.h"
@@ -9,11 +10,10 @@
 
 namespace roam::training {
 
-/// On foot, for the interval. Sends the body that comes of the paths and the cracks along each of them, and back over
-/// gaps whose far rim is lower. Where that is stopped or falls at a crack that a larger body or one on a foot goes
-/// over, these are tried first: what is asked for is kept in Evidence::carried. Where it is still, the lattice is shut
-/// and the way is planned again, round that place; where no way is left the path is taken out and told
-/// (Layout::unwalked), and others are drawn in its stead, once.
+/// On foot, for the interval. Sends the body that body_of_paths() gives along each path, and back over gaps whose far
+/// rim is lower. If it is stopped or falls at a crack, a larger body or one on a foot is tried first; Evidence::carried
+/// keeps the radius needed. If that fails, the lattice is closed at that place and the way is planned again. If no way
+/// is left, the path moves to Layout::unwalked, and other paths are drawn instead, once.
 void confirm_paths(const Survey& survey, const TrainOptions& options, const ways::BodyKind& kind, Evidence& evidence,
                    Layout& layout, Stages& stages);
 

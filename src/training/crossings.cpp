@@ -8,11 +8,11 @@ namespace roam::training {
 
 namespace {
 
-/// m. A foot with floor so near stands on it: the lattice's feet are exact, ways between them cut across bumps.
+/// m. A foot this near to floor stands on it. The lattice's feet are exact, but ways between them cut across bumps.
 constexpr double on_floor = 0.04;
-/// m along the way between two looks at the floor.
+/// m along the way between two samples of the floor.
 constexpr double look_every = 0.03;
-/// m. How far above and below a rim floor is looked for on its two sides.
+/// m. How far above and below a rim to search for floor on its two sides.
 constexpr double rim_level = 0.3;
 
 }  // namespace

@@ -9,9 +9,9 @@ namespace roam::training {
 
 namespace {
 
-/// Places that are looked at for a way around, at most: at 0.2 m those of 800 m^2. Nobody walks farther around a crack.
+/// Places examined for a way around, at most: at a spacing of 0.2 m, 800 m^2. Longer ways around do not count.
 constexpr std::size_t most_places = 20'000;
-/// m beside the rim, where somebody stands before he crosses.
+/// m beside the rim: the standing place before a crossing.
 constexpr double before_rim = 0.3;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether a crack can be walked around.
+/// Whether a body can walk around a crack.
 
 #include <optional>
 
@@ -9,8 +9,8 @@
 
 namespace roam::training {
 
-/// The places on both sides of a crack, where every way from one to the other that was looked at goes over a gap of the
-/// floor; none where there is a way around, or one side is not reached.
+/// The places on both sides of a crack, if every examined way between them crosses a gap of the floor. None if there is
+/// a way around, or if one side is not reached.
 [[nodiscard]] std::optional<Ends> must_be_crossed(const Survey& survey, const Layout& layout, const Reached& reached,
                                                   const Crack& crack);
 

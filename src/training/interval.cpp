@@ -18,25 +18,25 @@ namespace roam::training {
 
 namespace {
 
-/// m, of a grown person: what a body is where nothing asks for another.
+/// m, of a grown person: the default body.
 constexpr double person = 0.3;
-/// m: FoundCrack::foot is found to this, and for the thinnest body that was asked for.
+/// m: precision of FoundCrack::foot, which is for the thinnest body of the search.
 constexpr double foot_precision = 0.03;
-/// Cracks are looked for along so many components, and none that is smaller than this part of the largest.
+/// Components searched for cracks, at most. None is smaller than least_searched of the largest one.
 constexpr std::size_t most_searched = 8;
 constexpr double least_searched = 0.01;
 
-/// Radii that a body of this kind can have at all.
+/// The largest radius of a body of this kind.
 double cap(const ways::BodyKind& kind, const TrainOptions& options) {
   return std::min(options.radius_max, ways::largest_radius(kind));
 }
 
-/// m: what lets less through decides no body and gets no region.
+/// m: openings narrower than this neither limit the body nor get a region.
 double least_useful(const ways::BodyKind& kind, const TrainOptions& options) {
   return std::min(options.radius_min, 0.5 * cap(kind, options));
 }
 
-/// The least of what the paths let through, of those that let `useful` through; none where there are none.
+/// The smallest radius of the paths that let `useful` through; none if there are no such paths.
 std::optional<double> least_from(double useful, const Training& training) {
   std::optional<double> least;
   for (const TrainedPath& path : training.paths) {
@@ -46,7 +46,8 @@ std::optional<double> least_from(double useful, const Training& training) {
   return least;
 }
 
-/// Component by component, for the floor at the bottom of a gap is a step down only where one can walk there.
+/// Searches component by component: the floor at the bottom of a gap makes it a step down only if the same component
+/// reaches it.
 std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptions& options, const Layout& layout,
                                           cracks::RimEdges& ahead, Stages& stages) {
   std::vector<cracks::FoundCrack> cracks;
@@ -64,7 +65,7 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
     std::vector<cracks::FoundCrack> found = find_cracks(
         survey, edges, [&](const Vec3& foot) { return reached(foot); },
         [&](double done) { return stages.at((static_cast<double>(i) + done) / static_cast<double>(count)); });
-    // Floor behind a thin wall counts, for what is an open drop there is one on this side too; not for a crack.
+    // Rims behind a thin wall count only for open drops, because an open drop there exists on this side too.
     std::erase_if(found, [&](const cracks::FoundCrack& crack) {
       return crack.kind != Crack::Kind::open_drop &&
              std::none_of(crack.rim.begin(), crack.rim.end(), [&](const Vec3& rim) { return reached.in_sight(rim); });
@@ -77,15 +78,15 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
 }
 
 void note_width(const cracks::FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
-  // Beside a wall a foot's disc finds room where no body does. Elsewhere the largest foot carries over all that is no
-  // open drop.
+  // Beside a wall a foot's disc finds room where no body fits. Elsewhere the largest foot bridges everything but open
+  // drops.
   const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
   const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest + foot_margin
                                      : std::min(crack.radius + foot_margin, options.support_max);
   evidence.least_foot = std::max(evidence.least_foot, foot);
 }
 
-/// Fills in what is found out path by path.
+/// Fills in the results for each path.
 class Paths {
  public:
   Paths(const Survey& survey, const TrainOptions& options, Layout& layout, Training& training, Evidence& evidence)
@@ -137,7 +138,7 @@ class Paths {
     if (!evidence_.hardest || carried > evidence_.carried[*evidence_.hardest]) evidence_.hardest = crack;
   }
 
-  /// Cracks are in the order of their width: the first that must be crossed decides.
+  /// The cracks are sorted by width: the first one that must be crossed decides.
   void add_crossings(const Crossings& crossings) {
     const Reached reached(survey_, layout_, options_.spacing, layout_.components);
     for (const cracks::FoundCrack& crack : evidence_.cracks) {
@@ -160,16 +161,16 @@ class Paths {
   Evidence& evidence_;
 };
 
-/// The lower end of which `carried` (m) is with its margin: of level rims it is half the width.
+/// The lower end for which `carried` (m) includes the margin. For level rims it is half the width.
 double without_margin(double carried, double smallest) {
   return carried > carried_share * smallest ? std::max(smallest, carried / (carried_share * rim_sine)) : smallest;
 }
 
-/// `lower` (m): what is carried over all cracks on the paths.
+/// `lower` (m): the least radius that all cracks on the paths carry.
 void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence, double lower,
             Training& training) {
   const double largest = training.largest.value_or(cap(kind, options));
-  // A size that nobody has serves nobody: where some paths ask for one, the body is that of the others.
+  // A size below `useful` helps no one. If some paths need one, the other paths decide.
   const double useful = least_useful(kind, options);
   const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
   const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
@@ -182,7 +183,7 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
   const auto widest = std::max_element(evidence.carried.begin(), evidence.carried.end());
   if (widest != evidence.carried.end() && training.radius < *widest)
     training.support_radius = std::min(options.support_max, evidence.least_foot);
-  // Over rims that only a larger body rolls up over, a foot that is hardly larger than the body is one of its own.
+  // Only a larger body rolls up over uneven rims. Here the foot must still exceed the body, or it would be no foot.
   if (training.support_radius > 0.0 && training.support_radius <= training.radius)
     training.support_radius = std::min(options.support_max, training.radius + foot_margin);
   if (training.support_radius <= training.radius) training.support_radius = 0.0;
@@ -226,7 +227,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
     if (crack.shallow_depth == 0.0) {
       note_width(crack, options, layout.measure.narrowest, evidence);
       const double rise = rise_of(survey, crack, layout.measure.step);
-      // No foot carries up to what is higher than its band, and what climbs there does so by its step.
+      // No foot carries a body above its band; a body climbs higher rims by its step.
       evidence.carried[i] = carried_from(crack.radius, rise > carrying_band ? 0.0 : rise, survey.slope_degrees());
     } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {
       evidence.shallow = i;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The feasible interval of a layout: its ends from widest ways and cracks, the body that is chosen from it, and the
-/// trials that prove it.
+/// The feasible interval of a layout: both ends from widest ways and cracks, the body chosen from it, and the trials
+/// that prove it.
 
 #include <optional>
 #include <string>
@@ -15,15 +15,15 @@
 
 namespace roam::training {
 
-/// Part of the upper end that a body gets: 1 cm less on each side of a door of 0.7 m is for turning into it.
+/// Part of the upper end that a body gets. The rest, 1 cm on each side of a door of 0.7 m, is room to turn into it.
 inline constexpr double inside_share = 0.97;
-/// Part of the upper end that certainly no body passes with.
+/// Part of the upper end with which certainly no body passes.
 inline constexpr double outside_share = 1.02;
-/// m. A foot is so much larger than a crack's half width, and a trial's foot that is to fall so much smaller.
+/// m. A foot exceeds a crack's half width by this. In a trial that must fall, the foot is smaller by this.
 inline constexpr double foot_margin = 0.02;
 
-/// A round body is carried by both rims of a crack from 1 / sin(70 degrees) of its half width on (docs/walking.md); and
-/// a little for rims that are not straight.
+/// Half widths of a crack: the least radius that both rims carry is 1 / sin(70 degrees) (docs/walking.md). The rest is
+/// for rims that are not straight.
 inline constexpr double carried_share = 1.08;
 
 /// A gap on a path.
@@ -32,25 +32,25 @@ struct PathCrossing {
   Crossing crossing;
 };
 
-/// What the ends were found from.
+/// The findings behind both ends.
 struct Evidence {
-  std::vector<cracks::FoundCrack> cracks;  ///< along the floor that was reached
-  /// m, of each of them that is one and no trench: the least radius that its rims carry in both directions. The walkers
-  /// that confirm the paths may ask for more.
+  std::vector<cracks::FoundCrack> cracks;  ///< along the reached floor
+  /// m, for each crack with Kind::crack that is no trench: the least radius that its rims carry in both directions. The
+  /// walkers that confirm the paths may raise it.
   std::vector<double> carried;
-  std::vector<PathCrossing> crossings;   ///< of gaps that are cracks
+  std::vector<PathCrossing> crossings;   ///< of gaps with Kind::crack
   std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
   std::optional<std::size_t> widest;     ///< the crack that decides the lower end
-  std::optional<std::size_t> hardest;  ///< the one on a path that asks for the largest body, where its rims are uneven
-  std::optional<std::size_t> shallow;  ///< the widest that no foot is carried over
-  double least_foot = 0.0;             ///< m, of the least foot that is carried over all of them; 0: there are none
+  std::optional<std::size_t> hardest;  ///< the crack on a path that needs the largest body, because its rims are uneven
+  std::optional<std::size_t> shallow;  ///< the widest crack that no foot bridges, because it is shallow
+  double least_foot = 0.0;             ///< m, the least foot that bridges all cracks; 0: there are none
   bool complete = true;                ///< false: ended before all cracks were found
 };
 
-/// How cracks are looked for.
+/// The options of the search for cracks.
 [[nodiscard]] cracks::CrackOptions crack_options(const TrainOptions& options, const ways::Measure& measure);
 
-/// The cracks of what was reached. `ahead` is what was looked at meanwhile, of any options.
+/// The cracks along the reached floor. `ahead` holds rim edges examined so far; it is ignored if its options differ.
 [[nodiscard]] Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout,
                                    cracks::RimEdges& ahead, Stages& stages);
 
@@ -60,44 +60,44 @@ struct BodySize {
   bool operator==(const BodySize&) const = default;
 };
 
-/// The body that choose_body() chooses for paths that go over those cracks, as long as no more are added.
+/// The body that choose_body() would choose for paths that cross those cracks, if no paths are added.
 [[nodiscard]] BodySize body_of_paths(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
                                      const Crossings& crossings, const Layout& layout);
 
-/// Fills in paths, cracks, both ends, trapped_radius and decisive. Where the number of paths is left open, a crack that
-/// is wider than those on the paths and that nobody can walk around gets a path of its own.
+/// Fills in paths, cracks, both ends, trapped_radius and decisive. If the number of paths is left open, a crack wider
+/// than those on the paths that cannot be walked around gets a path of its own.
 void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Evidence& evidence,
                Training& training);
 
 /// Whether a body is so much smaller than a crack that it sinks into it.
 [[nodiscard]] bool sinks_into(double radius, const Crack& crack);
 
-/// The radius below which a sphere that sank into a crack of that disc cannot step out of it; 0 where it can always.
+/// The radius below which a sphere that sank into a crack with that disc cannot step out of it; 0 if it always can.
 [[nodiscard]] double trapped_below(double crack_radius, double step);
 
-/// The least radius that is carried over all cracks on the paths in both directions, m.
+/// m, the least radius that all cracks on the paths carry in both directions.
 [[nodiscard]] double carried_on_paths(const Evidence& evidence, const Training& training);
 
-/// The lower end, m: half the width of the widest crack on the paths, or the least radius that comes up over a higher
+/// m, the lower end: half the width of the widest crack on the paths, or the least radius that rolls up over a higher
 /// rim.
 [[nodiscard]] double least_on_paths(const Evidence& evidence, const Training& training);
 
-/// Chooses radius and support_radius from the paths and both ends, and says whether the interval is feasible:
-///   - the radius of a person, 0.3 m, where it lies in the interval; else the nearest to it that does, with a margin of
-///     3 % to the upper end and 8 % to the lower, so that the rims carry it, and more where one rim is higher;
-///   - where the upper end is of no use to anybody, as above of the paths that let a useful size through;
-///   - where no radius is in the interval, the person's or the largest that passes, and a foot;
-///   - the foot, where any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall the largest
-///   disc
-///     whose centre is in the gap.
+/// Chooses radius and support_radius from the paths and both ends, and sets `feasible`:
+/// - the radius of a person, 0.3 m, if it lies in the interval; else the nearest one that does. The margin is 3 % to
+///   the upper end. To the lower end it is 8 %, so that the rims carry the body, and more if one rim is higher;
+/// - if the upper end is too small for any use: as above, from the paths that let a useful size through;
+/// - if no radius is in the interval: the person's radius, or the largest that passes, and a foot;
+/// - the foot, if any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall, the largest disc
+///   whose centre is in the gap.
 void choose_body(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training);
 
-/// Where the chosen body does not pass: smaller ones, for necks that are no part of a path, and the rooms behind.
+/// Adds regions of smaller sizes where the chosen body does not pass: necks that are on no path, and the rooms behind.
 void add_regions(const Survey& survey, const TrainOptions& options, const Layout& layout, Stages& stages,
                  Training& training);
 
-/// Sends bodies along all paths with the chosen size, and with sizes just inside and just outside both ends past the
-/// opening or over the crack that decides; adds the trials to the paths, and what contradicts the ends.
+/// Sends bodies along all paths with the chosen size. Sends others with sizes just inside and just outside both ends
+/// past the decisive opening or over the decisive crack. Adds the trials to the paths, and contradictions to the
+/// training.
 void prove(const Survey& survey, const ways::BodyKind& kind, const Layout& layout, const Evidence& evidence,
            Stages& stages, Training& training);
 

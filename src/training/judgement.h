@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a trial ended, as the paper means it.
+/// The result of a trial as the paper classifies it.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace roam::training {
 
-/// What the paper's two rules ask of an outcome.
+/// The three results that the paper's two rules distinguish.
 enum class Judgement : std::uint8_t {
   passed,
   cannot_enter,  ///< blocked or held: the radius goes down

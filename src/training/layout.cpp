@@ -19,19 +19,19 @@ namespace roam::training {
 
 namespace {
 
-/// m. No narrower way is looked for, unless narrower bodies are: nothing that a person or a device on wheels could be
-/// sent through.
+/// m. The narrowest searched ways, unless narrower bodies are requested: people and devices on wheels need more.
 constexpr double narrowest = 0.05;
 
-/// A part that no body gets to from a part with more than so many times its places is no part that paths are planned
-/// in: tops of plinths, closets without a door.
+/// Components with fewer places than the largest one's divided by this get no paths: tops of plinths, closets without a
+/// door.
 constexpr std::size_t least_part = 100;
-/// m2. Less floor, and less than a tenth of that of the largest part, is no room: the bottom of a shaft.
+/// m2. A component with less floor than this, and less than a tenth of the largest one's, is no room: the bottom of a
+/// shaft.
 constexpr double least_room = 2.0;
 constexpr std::size_t beside_room = 10;
 
-/// How many paths each component gets, 0 for as many as it needs, or none: each its dead ends where it is not said how
-/// many, else one each, as far as they go round, and the largest the rest.
+/// How many paths each component gets; 0: as many as it needs. If `asked` is 0, each component gets one per dead end,
+/// at least one. Otherwise each gets one as far as they go, and the largest one gets the rest.
 std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
   std::vector<std::optional<int>> counts(layout.components.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -45,7 +45,7 @@ std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
   return counts;
 }
 
-/// Why a component of that verdict is not roamed.
+/// The reason why a component of that verdict is not trained.
 LeftOut why_left_out(Verdict verdict) {
   switch (verdict) {
     case Verdict::inside:
@@ -126,13 +126,13 @@ ways::BodyKind kind_of(const Survey& survey, const TrainOptions& options) {
 
 namespace {
 
-/// m, to which an end of a path is moved to where it is widest.
+/// m, precision of moving an end of a path to its widest place.
 constexpr double end_precision = 1e-4;
 
-/// m, how far.
+/// m, how far an end may move.
 constexpr double farthest_end = 1.0;
 
-/// The widest place beside one of the lattice: or the wall beside its end would decide what a path lets through.
+/// The widest place beside a lattice place. Otherwise the wall beside an end would limit the path.
 Vec3 widest_beside(const Survey& survey, const ways::Measure& measure, double spacing, const Vec3& from) {
   const bool flies = measure.mode == Mode::fly;
   Vec3 best = from;
@@ -140,7 +140,7 @@ Vec3 widest_beside(const Survey& survey, const ways::Measure& measure, double sp
   for (double step = 0.5 * spacing; step > end_precision; step *= 0.5) {
     for (bool moved = true; moved;) {
       moved = false;
-      // In a corner only a slanting step makes room on both sides.
+      // In a corner, only a diagonal step gains room on both sides.
       for (int direction = 0; direction < (flies ? 27 : 9); ++direction) {
         const Vec3 way(direction % 3 - 1, direction / 3 % 3 - 1, flies ? direction / 9 - 1 : 0);
         Vec3 place = best + step * way;
@@ -185,7 +185,7 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
   stages.begin(TrainStage::places);
   std::vector<Component> found =
       find_components(survey, measure, layout.tree, options.seed, [&](double done) { return stages.at(done); });
-  // Most places first.
+  // Components are sorted, largest first.
   const auto largest = std::find_if(found.begin(), found.end(), [](const Component& c) { return c.inside; });
   const std::size_t most = largest == found.end() ? 0 : largest->nodes.size();
   std::size_t least = most / least_part;
@@ -238,7 +238,7 @@ bool Reached::sees(const Vec3& place, const Vec3& foot) const {
 }
 
 ways::NodeId Reached::nearest(const Vec3& foot, bool in_sight) const {
-  // No node farther than half of `widest` need be asked: there are others nearer by, unless the way there is closed.
+  // Nodes farther than half of `widest` are not needed: nearer ones exist, unless the way there is closed.
   const std::int64_t x = cell(foot.x), y = cell(foot.y);
   ways::NodeId nearest = ways::no_node;
   double least = std::numeric_limits<double>::infinity();
@@ -249,7 +249,7 @@ ways::NodeId Reached::nearest(const Vec3& foot, bool in_sight) const {
     for (; at != cells_.end() && at->x == x + dx && at->y <= y + 1; ++at) {
       const ways::Node& node = tree_->node(at->node);
       const double apart = std::hypot(foot.x - node.place.x, foot.y - node.place.y);
-      // Where a body has room there is no wall.
+      // Within a node's clearance there is no wall.
       const bool has_room = apart <= static_cast<double>(node.clearance);
       if (!(has_room || apart <= beside_) || std::abs(foot.z - node.place.z) > level_) continue;
       if (apart < least && (!in_sight || has_room || sees(node.place, foot))) {

@@ -9,10 +9,10 @@ namespace roam::training {
 
 namespace {
 
-/// Places that a way goes on by into a room at each of its ends, at most.
+/// Places by which a way continues into a room at each end, at most.
 constexpr std::size_t most_steps = 10;
 
-/// Best first: the largest least clearance, then the smaller number, so that the order is always the same.
+/// Ordered by the largest minimum clearance, then by node, so that the order is deterministic.
 struct Front {
   float least;
   ways::NodeId node, from;
@@ -50,7 +50,7 @@ class NeckWay {
     return std::binary_search(neck_.nodes.begin(), neck_.nodes.end(), id);
   }
 
-  /// The widest neighbour in a room of that kind.
+  /// The widest neighbour in a room for which `wanted` is true.
   template <class Wanted>
   [[nodiscard]] ways::NodeId neighbour(ways::NodeId id, const Wanted& wanted) const {
     ways::NodeId best = ways::no_node;
@@ -74,8 +74,8 @@ class NeckWay {
     return way;
   }
 
-  /// On from a place of a room for as long as that widens: a way's ends stay where they are when it is refined, and
-  /// beside a jamb they would be narrower than the door.
+  /// Continues from a place of a room as long as the way widens. Refining keeps a way's ends, and beside a jamb they
+  /// would be narrower than the door.
   void add_widening(ways::NodeId id, std::vector<Vec3>& way) const {
     const auto room = room_of_.find(id);
     if (room == room_of_.end()) return;

@@ -9,9 +9,8 @@
 
 namespace roam::training {
 
-/// For each of rooms.necks, in their order: the places of the widest way through it from the first room that it touches
-/// to another, with the last places before it and the first behind, as far as it widens there; empty where the lattice
-/// has none.
+/// For each of rooms.necks, in their order: the places of the widest way through it, from the first room that it
+/// touches to another. Continues into both rooms as long as the way widens. Empty if the lattice has no such way.
 [[nodiscard]] std::vector<std::vector<Vec3>> neck_ways(const ways::WidestTree& tree, const Rooms& rooms);
 
 }  // namespace roam::training

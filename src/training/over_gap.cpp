@@ -13,15 +13,15 @@
 namespace roam::training {
 namespace {
 
-/// m along a way between two looks for floor.
+/// m along a way between two samples of the floor.
 constexpr double look_every = 0.02;
-/// m: where a body begins, there is floor around it so far beyond its radius.
+/// m: where a body begins, floor must extend this far beyond its radius.
 constexpr double around = 0.1;
-/// m of the way on both sides of a gap that is gone back over.
+/// m of the way on both sides of a gap that is crossed back.
 constexpr double run_up = 1.5;
-/// Rims lie opposite where the ways to them are farther apart than this, as a cosine.
+/// The largest cosine between the directions to two opposite rims.
 constexpr double opposite = -0.7;
-/// And on one side where they are less.
+/// The least cosine between the directions to rims of one side.
 constexpr double same_side = 0.9;
 
 double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
@@ -32,7 +32,7 @@ double length_of(std::span<const Vec3> way) {
   return length;
 }
 
-/// z of the floor at a place, no farther than a step above or below.
+/// z of the floor at a place, at most a step above or below.
 std::optional<double> level_at(const Survey& survey, const Vec3& place, double step) {
   const Vec3 above = place + Vec3(0.0, 0.0, step);
   const Impact floor = survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
@@ -64,7 +64,7 @@ double rise_of(const Survey& survey, const Crack& crack, double step) {
   double rise = 0.0;
   const std::vector<cracks::TouchedFloor> touched =
       touched_floor(cracks::FloorPlan(survey, step), {crack.point, crack.radius});
-  // Under a kerb that stands on the rim there is floor too: a body touches what is highest.
+  // Floor may also lie under a kerb on the rim: the highest floor counts, because a body touches that.
   const auto level = [&](const cracks::TouchedFloor& rim) {
     double highest = rim.near.point.z;
     for (const cracks::TouchedFloor& other : touched)
@@ -87,7 +87,7 @@ std::optional<GapOnWay> gap_on(const Survey& survey, std::span<const Vec3> way, 
   for (double along = std::max(0.0, at - half); along <= last; along += look_every) {
     const std::optional<double> here = level_at(survey, place_on(way, along), step);
     if (!here && before && !gap) gap = GapOnWay{along - look_every, along, 0.0, *before};
-    if (here && gap && along - gap->from < 0.5 * half) gap.reset();  // another, narrower one
+    if (here && gap && along - gap->from < 0.5 * half) gap.reset();  // a narrower gap before it
     if (here && gap) {
       gap->to = along;
       gap->beyond = end - along;
@@ -104,7 +104,7 @@ std::vector<Vec3> back_over(const Survey& survey, std::span<const Vec3> way, con
   const double room = radius + around;
   if (gap.rise >= -level_rims || gap.from < room || gap.beyond < room) return {};
   std::vector<Vec3> part = stretch(way, 0.5 * (gap.from + gap.to), 0.5 * (gap.to - gap.from) + std::max(room, run_up));
-  // Ways cut across a step: a body must not begin within the floor, nor above it.
+  // Ways cut across steps, but a body must not begin inside or above the floor.
   for (Vec3* end : {&part.front(), &part.back()}) {
     const std::optional<double> level = level_at(survey, *end, step);
     if (!level) return {};

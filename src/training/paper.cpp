@@ -11,7 +11,7 @@ namespace {
 
 using Ending = PaperResult::Ending;
 
-/// The radius that passed most paths; of several the smallest, which enters most.
+/// The radius that passed most paths; the smallest of several.
 double most_passed(const std::vector<Trial>& trials) {
   std::map<double, std::size_t> passed;
   for (const Trial& trial : trials) passed[trial.radius] += judged(trial.outcome) == Judgement::passed ? 1 : 0;
@@ -30,7 +30,7 @@ class Adjustment {
  public:
   Adjustment(const PaperOptions& options, PaperResult& result) : options_(options), result_(result) {}
 
-  /// Takes a trial in; the next radius, or none when the bounds leave nothing to try.
+  /// Records a trial. Returns the next radius; none if the bounds leave nothing to try.
   std::optional<double> next(const Trial& trial) {
     const Judgement said = judged(trial.outcome);
     if (said == Judgement::cannot_enter && (!result_.blocked || trial.radius < result_.blocked->radius))

@@ -1,4 +1,4 @@
-// The trials that prove the ends of an interval: sizes just inside must come through, sizes just outside must not.
+// The trials that prove the ends of an interval: sizes just inside must get through, sizes just outside must not.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -18,30 +18,30 @@ namespace roam::training {
 
 namespace {
 
-/// m of the way on both sides of an opening or a crack that a trial goes along at least.
+/// m of the way on both sides of an opening or a crack that a trial covers at least.
 constexpr double run_up = 1.5;
-/// m, at most: there a body that is to be stopped by an opening has found room to stand before it.
+/// m: the longest run-up. Within it, a body that an opening must stop needs room to stand.
 constexpr double longest_run_up = 12.0;
 
-/// m beyond an opening that a path must lead, and a body's radius, for a body to be stopped by it.
+/// m: a path must continue beyond an opening by this and a body's radius, or the opening stops no body.
 constexpr double past_opening = 0.1;
-/// m, seen from above, over which a way falls at an edge.
+/// m, seen from above, between two points of a way on both sides of an edge.
 constexpr double edge = 0.1;
 
-/// m/s. Who is to fall goes slowly: at a walking pace a body hops across the last centimetres of a narrow crack.
+/// m/s. A body that must fall moves slowly: at walking pace it would hop across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
-/// m along a way between two looks whether there is floor near a foot.
+/// m along a way between two samples of the floor near a foot.
 constexpr double look_every = 0.0025;
-/// m: who is to fall finds none so far at least. Straight over a gap it is 2 foot_margin.
+/// m: a body that must fall finds no floor for at least this length. Straight over a gap it is 2 foot_margin.
 constexpr double long_enough = 1.7 * foot_margin;
 
-/// m: sides of a crack that differ by less are alike.
+/// m: sides of a crack that differ by less are level.
 constexpr double same_level = 0.02;
 
 using Tried = Contradiction::Body;
 
-/// A trial that is to be made.
+/// A trial to make.
 struct Attempt {
   std::size_t path = 0;
   double radius = 0.0, support_radius = 0.0;
@@ -49,7 +49,7 @@ struct Attempt {
   Tried body = Tried::chosen;
 };
 
-/// What a trial must come to.
+/// The result that a trial must have.
 Judgement expected_of(Tried body) {
   switch (body) {
     case Tried::outside_opening:
@@ -65,7 +65,7 @@ Judgement expected_of(Tried body) {
   return Judgement::passed;
 }
 
-/// Whether it is the body that is answered.
+/// Whether it is the chosen body.
 bool is_chosen(Tried body) { return body == Tried::chosen || body == Tried::chosen_back; }
 
 class Proof {
@@ -85,8 +85,8 @@ class Proof {
     std::vector<Attempt> all;
     for (std::size_t i = 0; i < training_.paths.size(); ++i) {
       const TrainedPath& path = training_.paths[i];
-      if (path.largest && *path.largest < training_.radius) continue;  // chosen for the others
-      if (sinks_into_shallow(i)) continue;                             // the answer says so
+      if (path.largest && *path.largest < training_.radius) continue;  // excluded when the body was chosen
+      if (sinks_into_shallow(i)) continue;                             // reported as a trench
       all.push_back({i, training_.radius, training_.support_radius, path.way, Tried::chosen});
       add_way_back(i, all);
     }
@@ -99,7 +99,7 @@ class Proof {
   }
 
  private:
-  /// Who comes down over a gap may drop onto its lower side: that does not show that he comes up again.
+  /// A body that comes down over a gap may drop onto its lower side. That does not show that it can come up again.
   void add_way_back(std::size_t path, std::vector<Attempt>& all) {
     for (const PathCrossing& c : evidence_.crossings) {
       const cracks::FoundCrack& crack = evidence_.cracks[c.crossing.crack];
@@ -119,20 +119,19 @@ class Proof {
     const double largest = *training_.paths[path].largest, outside = outside_share * largest;
     const double place = ways::nearest_on(passage.way, passage.opening->point, kind_.mode).along;
     all.push_back({path, inside_share * largest, foot_, stretch(passage.way, place, run_up), Tried::inside_opening});
-    // Beside a way that was planned round something there is a wider one, and a larger body may find it.
+    // A way planned around something has a wider one beside it, which a larger body may find.
     if (!layout_.paths[path].is_widest) return;
     if (drops_off(stretch(passage.way, place, outside + layout_.measure.step))) return;
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)
       through = stretch(passage.way, place, reach);
-    // Where the path begins or ends in what is narrow, or within a radius of it, nothing is to be stopped.
+    // If the path begins or ends in a narrow place, or within a radius of one, the opening need not stop the body.
     if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
     all.push_back({path, outside, foot_, std::move(through), Tried::outside_opening});
   }
 
-  /// Whether a way leads over an edge higher than a step: who comes down drops off it however wide he is, and nobody
-  /// goes up.
+  /// Whether a way leads over an edge higher than a step. A body of any width drops down there, and none comes up.
   [[nodiscard]] bool drops_off(std::span<const Vec3> way) const {
     for (std::size_t i = 0; i < way.size(); ++i) {
       for (std::size_t k = i + 1; k < way.size(); ++k) {
@@ -161,7 +160,7 @@ class Proof {
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
     if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) || !over_gap(way, small) ||
         !is_carried(way, foot)) {
-      // The path begins or ends over the crack, or crosses it near its rim or where it is narrower: who does that need
+      // The path begins or ends over the crack, or crosses it near its rim or where it is narrower. A body there need
       // not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
       if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
@@ -173,22 +172,22 @@ class Proof {
       }
       if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
     }
-    // No foot carries up to what is above its band. And a sphere climbs at most its radius: one that passes below the
-    // crack's width may not come up to its higher rim.
+    // No foot carries a body above its band. A sphere climbs at most its radius, so one that passes below the crack's
+    // width may fail at its higher rim.
     const double climbed = kind_.height > 0.0 ? carrying_band : std::min(body, carrying_band);
     if (rise_of(survey_, crack, layout_.measure.step) <= climbed)
       all.push_back({crossing.path, body, foot, way, Tried::wide_foot});
     all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Tried::small_foot});
   }
 
-  /// Whether a body that begins at the end of a way does not stand on floor there, but on a crack's rim.
+  /// Whether a body that begins at the end of a way stands on a crack's rim there, not on floor.
   [[nodiscard]] bool ends_at_rim(const std::vector<Vec3>& way, const cracks::FoundCrack& crack, double body) const {
     const double over = over_gap(way, crack.radius - foot_margin).value_or(0.0);
     const auto gap = gap_on(survey_, way, over - crack.radius, crack.radius, layout_.measure.step);
     return !gap || gap->beyond < body;
   }
 
-  /// m along a way: up to where a foot as large is free of floor, and stays so until it falls.
+  /// m along a way: the place where a foot of that radius is free of floor and stays so until it falls.
   [[nodiscard]] std::optional<double> over_gap(const std::vector<Vec3>& way, double foot) const {
     double over = 0.0, gone = 0.0;
     for (std::size_t i = 1; i < way.size(); ++i) {
@@ -204,7 +203,7 @@ class Proof {
     return std::nullopt;
   }
 
-  /// Whether a way leads down over a gap: who comes so may drop onto its lower side before he has sunk.
+  /// Whether a way leads down over a gap. A body may then drop onto its lower side before it sinks.
   [[nodiscard]] bool comes_from_above(const std::vector<Vec3>& way, double foot) const {
     const double at = over_gap(way, foot).value_or(0.0), beside = foot + layout_.measure.step;
     const auto highest = [&](double middle) {
@@ -226,7 +225,7 @@ class Proof {
     return highest(at - beside) > highest(at + beside) + same_level;
   }
 
-  /// Whether a foot is carried where a way leaves the floor. Beside an open drop it may find room in that.
+  /// Whether gaps along a way carry a foot. Beside an open drop the foot may find a free disc in the drop.
   [[nodiscard]] bool is_carried(const std::vector<Vec3>& way, double foot) const {
     constexpr double apart = 0.05;  // m along the way
     const SupportDisc disc{foot, survey_.slope_degrees(), cracks::knee_height(layout_.measure.step)};
@@ -255,7 +254,7 @@ class Proof {
   double foot_ = 0.0;
 };
 
-/// The same body on the same path is the same trial.
+/// The trial of the same body on the same path, made while confirming it.
 std::optional<Trial> walked_before(const Layout& layout, const Attempt& attempt) {
   if (attempt.body != Tried::chosen) return std::nullopt;
   const std::optional<Trial>& walked = layout.paths[attempt.path].walked;

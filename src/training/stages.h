@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far training is, and whether it is to end.
+/// The progress of training, and whether it is to end.
 
 #include <algorithm>
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace roam::training {
 
-/// The part of the whole work that a stage is: where it begins and where it ends, in [0, 1]. Rough: each scene
-/// differs. Only a training that is complete comes to 1.
+/// The range of the whole work that a stage covers, in [0, 1]. Rough, because scenes differ. Only a complete training
+/// reaches 1.
 [[nodiscard]] constexpr std::pair<double, double> part_of_work(TrainStage stage) {
   switch (stage) {
     case TrainStage::places:
@@ -34,20 +34,19 @@ namespace roam::training {
   return {0.0, 1.0};
 }
 
-/// Passes progress on, one thread at a time, and remembers that the caller wants an end: every later call returns
-/// false. What it passes on never falls, also where a stage begins once more. Safe to call from any thread, but for
-/// begin() and complete().
+/// Passes progress on, one thread at a time. Once the caller wants an end, every later call returns false. The reported
+/// value never falls, even if a stage begins again. Safe to call from any thread, except begin() and complete().
 class Stages {
  public:
   explicit Stages(const std::function<bool(TrainStage, double)>& progress) : progress_(progress) {}
 
-  /// What is being done from now on.
+  /// Sets the current stage.
   void begin(TrainStage stage) {
     if (ended_) return;
     stage_ = stage;
     at(0.0);
   }
-  /// So much of the stage is done, in [0, 1]. False: end.
+  /// Reports the done part of the stage, in [0, 1]. False means end.
   bool at(double done) {
     if (ended_) return false;
     if (!progress_) return true;
@@ -57,7 +56,7 @@ class Stages {
     if (!ended_ && !progress_(stage_, done_)) ended_ = true;
     return !ended_;
   }
-  /// All is done, unless it was ended before: then it is too late to end it.
+  /// Reports that all is done, unless training was ended before. It cannot be ended here any more.
   void complete() {
     if (!ended_ && progress_) progress_(stage_, 1.0);
   }

@@ -23,11 +23,11 @@ namespace {
 
 using namespace training;
 
-/// m, of the body that is answered where nothing is known.
+/// m, the default body's radius.
 constexpr double usual_radius = 0.3;
 /// The paper's number of paths.
 constexpr int usual_paths = 5;
-/// m: the smallest radius that the paper's procedure tries, and the largest step or height of anybody.
+/// m: the smallest radius that the paper's procedure tries, and the largest allowed length.
 constexpr double smallest_radius = 0.05;
 constexpr double most_metres = 100.0;
 
@@ -36,7 +36,7 @@ void check(const TrainOptions& options) {
     if (!(value >= low && value <= high))
       throw Error(fmt::format("training: the {} is {:g}; it must be from {:g} to {:g}", what, value, low, high));
   };
-  if (options.mode == Mode::ghost) throw Error("training: a ghost passes ways::everywhere; train to walk or to fly");
+  if (options.mode == Mode::ghost) throw Error("training: a ghost passes everything; train to walk or to fly");
   in("smallest radius", options.radius_min, 0.01, most_metres);
   in("largest radius", options.radius_max, 0.01, most_metres);
   in("largest support radius", options.support_max, 0.1, most_metres);
@@ -55,12 +55,12 @@ void check(const TrainOptions& options) {
   }
 }
 
-/// A body where nothing was found out.
+/// Sets the default body.
 void take_usual_body(const TrainOptions& options, const ways::BodyKind& kind, Training& training) {
   training.radius = std::min({usual_radius, options.radius_max, ways::largest_radius(kind)});
 }
 
-/// Parts that no path leads through were not trained. Fewer may have been asked for than there are parts.
+/// Marks parts without a path as not trained. There may be fewer requested paths than parts.
 void leave_out_parts_without_paths(const Layout& layout, Training& training) {
   auto part = training.parts.begin();
   for (const Component& component : layout.components) {
@@ -76,7 +76,7 @@ void leave_out_parts_without_paths(const Layout& layout, Training& training) {
   }
 }
 
-/// What confirming and planning left of the paths, and of those that do not count.
+/// Adds the results of planning and confirming the paths, and the paths that do not count.
 void describe_paths(const Layout& layout, Training& training) {
   for (std::size_t i = 0; i < training.paths.size(); ++i) training.paths[i].opening = layout.paths[i].passage.opening;
   for (const Unwalked& u : layout.unwalked) training.unwalked.push_back({u.from, u.to, u.last.outcome, u.end});
@@ -94,7 +94,7 @@ void describe_cracks(const Evidence& evidence, Training& training) {
   if (sinks_into(training.radius, shallow)) training.trench = Trench{shallow, shallow.shallow_depth};
 }
 
-/// Why no place was found.
+/// The reason why no place was found.
 Nowhere nowhere(const Survey& survey, const TrainOptions& options, const std::vector<ConnectedPart>& parts) {
   if (survey.triangles() == 0) return Nowhere::empty_scene;
   if (options.mode == Mode::walk && survey.floor_triangles().empty()) return Nowhere::no_floor;
@@ -118,14 +118,14 @@ void find_interval(const Survey& survey, const TrainOptions& options, const ways
 
 bool rolls(const TrainOptions& options) { return options.mode == Mode::walk && options.height == 0.0; }
 
-/// What is laid out first: a sphere climbs at most its radius.
+/// Options for the first layout: a sphere climbs at most its radius.
 TrainOptions first_laid_out(TrainOptions options) {
   if (options.method == Method::paper && options.paths == 0) options.paths = usual_paths;
   if (rolls(options)) options.step = std::min(options.step, std::min(usual_radius, options.radius_max));
   return options;
 }
 
-/// Laid out for the step of the body that comes of it. Less climbs less, so this comes down to it.
+/// Lays out for the step of the resulting body. A smaller step never gives a larger body, so this converges.
 Layout lay_out_for_body(const Survey& survey, TrainOptions options, const ways::BodyKind& kind, Stages& stages) {
   constexpr double same_step = 1e-4;  // m
   for (;;) {
@@ -193,7 +193,7 @@ Training trained(const Survey& survey, const TrainOptions& options) {
   cracks::RimEdges rims(survey, crack_options(laid, measure_of(laid)));
   if (options.mode == Mode::walk && options.method == Method::interval) rims.look_ahead();
   Layout layout = lay_out_for_body(survey, laid, kind_of(survey, options), stages);
-  // What follows is of the same step, or it would look for other cracks than the ways lead over.
+  // The next steps must use the same step, or they would search for other cracks than the ways cross.
   TrainOptions settled = options;
   settled.step = training.step = layout.measure.step;
   const ways::BodyKind kind = kind_of(survey, settled);
@@ -232,7 +232,7 @@ Profile profile_of(const Training& training, const SceneIdentity& scene) {
   profile.radius = training.radius;
   profile.height = training.height;
   profile.support_radius = training.support_radius;
-  // What flies was asked for any step.
+  // For a flying body, any step was accepted.
   profile.step = std::min(training.step, 0.5 * training.height);
   profile.slope_degrees = training.slope_degrees;
   profile.largest = training.largest;

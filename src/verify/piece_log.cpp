@@ -32,7 +32,7 @@ void PieceLog::each(std::size_t most, const Take& take) const {
     some.resize(kept + static_cast<std::size_t>(std::min<std::uint64_t>(most - kept, size() - next)));
     read(next, std::span(some).subspan(kept));
     next += some.size() - kept;
-    // The last step may go on in the next batch.
+    // The last step may continue in the next batch.
     std::size_t whole = some.size();
     while (next < size() && whole > 0 && some[whole - 1].step == some.back().step) --whole;
     if (whole == 0) whole = some.size();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The pieces of a way, however long it is, in little memory.
+/// The pieces of a way of any length, in little memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,20 +15,21 @@
 
 namespace roam::verification {
 
-/// A list that only grows. A few thousand pieces lie in memory, the others in an unnamed file in the folder for
+/// A list that only grows. A few thousand pieces are in memory. The others are in an unnamed file in the folder for
 /// temporary files (TMPDIR, else /tmp), 80 bytes each.
 class PieceLog {
  public:
-  /// Pieces that lie in memory.
+  /// The number of pieces in memory.
   static constexpr std::size_t held = 4096;
 
-  /// `piece` is of the step of the last one, or of a later one. Throws roam::Error when the file cannot be written.
+  /// `piece` belongs to the step of the last piece, or to a later one. Throws roam::Error if the file cannot be
+  /// written.
   void add(const Piece& piece);
   [[nodiscard]] std::uint64_t size() const { return in_file_ + last_.size(); }
 
   using Take = std::function<void(std::span<const Piece>)>;
-  /// Calls `take` with up to `most` (>= 1) pieces at a time, in their order. The pieces of a step stay together, unless
-  /// they alone are more. Throws roam::Error when the file cannot be read.
+  /// Calls `take` with up to `most` (>= 1) pieces at a time, in order. The pieces of a step stay together, unless there
+  /// are more than `most`. Throws roam::Error if the file cannot be read.
   void each(std::size_t most, const Take& take) const;
 
  private:
@@ -36,16 +37,16 @@ class PieceLog {
 
   std::optional<files::UnnamedFile> file_;
   std::uint64_t in_file_ = 0;  ///< pieces
-  std::vector<Piece> last_;    ///< that follow them
+  std::vector<Piece> last_;    ///< the pieces after those in the file
 };
 
 /// Checks every piece against every triangle of `meshes`; see verify().
 [[nodiscard]] Verification verify(std::span<const Mesh> meshes, const PieceLog& pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 
-/// The pieces of one step, for verify(): each straight piece of its way, with the size that the body had on it, and its
-/// place at the end, unless it is held there because it does not fit. Of the start, step 0, only the place where the
-/// body was put: the way out of a wall into which a path begins is no step.
+/// The pieces of one step, for verify(): each straight piece of its way with the body's size there, and its end place.
+/// The end place is left out if the body is held there because it does not fit. For the start, step 0, only the place
+/// where the body was put: the way out of a wall in which a path begins is no step.
 void append_pieces(PieceLog& pieces, std::uint64_t step, const StepReport& report);
 
 }  // namespace roam::verification

@@ -29,8 +29,8 @@ long double segment_segment(const Point& a0, const Point& a1, const Point& b0, c
       {point_segment(a0, b0, b1), point_segment(a1, b0, b1), point_segment(b0, a0, a1), point_segment(b1, a0, a1)});
   const Point u = a1 - a0;
   const Point v = b1 - b0;
-  // The common perpendicular, by cross products: unlike |u|^2 |v|^2 - (u.v)^2 they keep their digits when the
-  // segments are almost parallel.
+  // The common perpendicular by cross products. Unlike |u|^2 |v|^2 - (u.v)^2, they keep their digits if the segments
+  // are almost parallel.
   const Point n = glm::cross(u, v);
   const long double area = squared(n);
   if (area > 0) {
@@ -42,15 +42,15 @@ long double segment_segment(const Point& a0, const Point& a1, const Point& b0, c
   return least;
 }
 
-/// A triangle, or the parallelogram that it is half of: all corner + s * e1 + r * e2 with s, r >= 0 and s + r <= 1, or
-/// s, r <= 1.
+/// A triangle, or the parallelogram of which it is half: all corner + s * e1 + r * e2 with s, r >= 0. For a triangle s
+/// + r <= 1, for a parallelogram s, r <= 1.
 struct Face {
   Point corner, e1, e2;
   bool parallelogram;
 };
 
-/// The foot of `p` on the plane of a face when it lies inside the face. Nothing for a face without area: its edges are
-/// all of it.
+/// The foot of `p` on the plane of a face if it lies inside the face. None for a face without area, which its edges
+/// cover.
 std::optional<Point> foot_on(const Face& face, const Point& p) {
   const Point n = glm::cross(face.e1, face.e2);
   const long double area = squared(n);
@@ -86,7 +86,7 @@ long double segment_triangle(const Point& a, const Point& b, const Corners& t) {
 }  // namespace
 
 long double swept_distance(const Vec3& from, const Vec3& to, double half_height, const Triangle& triangle) {
-  // Relative to the start: the coordinates' common size then costs no digits in the products.
+  // Relative to the start, so that the coordinates' common size costs no digits in the products.
   const Point origin(from);
   const Corners corners{Point(triangle[0]) - origin, Point(triangle[1]) - origin, Point(triangle[2]) - origin};
   const Point start(0.0L);

@@ -16,8 +16,8 @@
 namespace roam::verification {
 namespace {
 
-// Pieces that look through all triangles together. More share the look but spread over more of the scene; halving
-// (see check) narrows the candidates down either way.
+// Pieces that share one pass over all triangles. More pieces share the pass but spread over more of the scene. Halving
+// (see check) reduces the candidates in both cases.
 constexpr std::size_t pieces_together = 1024;
 
 struct Candidate {
@@ -33,13 +33,14 @@ Box box_of(const Triangle& triangle) {
   return box;
 }
 
-/// Metres. What a body stands on or slides along is so near, but certified as a little less: it is measured, too.
+/// Metres. Surfaces this near to the body are measured too: it stands or slides on them with a slightly smaller
+/// certified clearance.
 constexpr double beside = 0.01;
 
-/// How near to the axis a triangle is measured, m.
+/// Triangles within this distance of the axis are measured, m.
 double reach_of(const Piece& piece) { return std::max(piece.body.radius, piece.clearance) + beside; }
 
-/// All that may lie within reach of the piece. Each bound is rounded outward once more than its sums were rounded.
+/// A box of everything within reach of the piece. Each bound is rounded outward once more than its sums.
 Box box_of(const Piece& piece) {
   const double reach = std::nextafter(reach_of(piece), infinity);
   Box box;
@@ -53,7 +54,7 @@ Box box_of(const Piece& piece) {
   return box;
 }
 
-/// Tells what is near a piece by balls around the triangles: a box around a slanted way holds much that is not near it.
+/// Finds triangles near a piece by balls around them: a box around an oblique way contains much that is far from it.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Piece& piece)
@@ -63,25 +64,26 @@ class Neighbourhood {
     per_level_ = inverse(level);
   }
 
-  /// False where the triangle is certainly farther than `reach` from all that the piece's axis passes.
+  /// Returns false if the triangle is certainly farther than `reach` from all places that the piece's axis passes.
   [[nodiscard]] bool may_hold(const Triangle& triangle, double reach) const {
     const Box box = box_of(triangle);
     const Vec3 middle = box.center();
     double round = 0.0;
     for (const Vec3& corner : triangle) round = std::max(round, glm::distance(corner, middle));
-    // The axis is no nearer than the way of its centre less half of its height; and no nearer than seen from above.
+    // Two lower bounds of the axis's distance: that of the centre's way less half of the height, and the one seen from
+    // above.
     const Vec3 to = middle - from_;
     const Vec3 nearest = to - std::clamp(glm::dot(to, way_) * per_length_, 0.0, 1.0) * way_;
     const double s = std::clamp((to.x * way_.x + to.y * way_.y) * per_level_, 0.0, 1.0);
     const double level = std::hypot(to.x - s * way_.x, to.y - s * way_.y);
     const double distance = std::max(glm::length(nearest) - half_height_, level);
-    // A dozen operations, each rounded by 2^-53 of no more than these: 2^-40 is far more than all of them.
+    // A dozen operations, each rounded by 2^-53 of at most these values. 2^-40 far exceeds their sum.
     const double rounding = 0x1p-40 * (glm::length(to) + glm::length(way_) + half_height_ + round + reach);
     return !(distance - round - rounding > reach);
   }
 
  private:
-  /// 0 of 0: then the end is as near as the start.
+  /// 0 for a piece without length, whose end is its start.
   static double inverse(double square) { return square > 0.0 ? 1.0 / square : 0.0; }
 
   Vec3 from_, way_;
@@ -89,10 +91,10 @@ class Neighbourhood {
   double per_length_ = 0.0, per_level_ = 0.0;
 };
 
-/// Metres. Who is so far outside of a scene's box is not in that scene.
+/// Metres. A way this far outside a scene's box is not in that scene.
 constexpr double outside = 10.0;
 
-/// What is not free at all is a body that is held: that says nothing of what is around it.
+/// A clearance of 0 means a held body, which says nothing about its surroundings.
 bool touches(const Piece& piece) { return std::abs(piece.clearance - piece.body.radius) <= beside; }
 
 bool meet(const Box& a, const Box& b) {
@@ -107,8 +109,8 @@ void sort_and_unite(std::vector<std::uint64_t>& steps) {
 
 }  // namespace
 
-/// Consecutive pieces and what was found out about them; runs are joined in the order of the walk, so that the result
-/// does not depend on threads.
+/// Consecutive pieces and their findings. Runs are joined in the order of the walk, so the result does not depend on
+/// threads.
 class Verifier::Run {
  public:
   explicit Run(std::span<const Piece> pieces) : pieces_(pieces), box_(box_of_all(pieces)) {}
@@ -147,7 +149,7 @@ class Verifier::Run {
 
   Triangle triangle(const Candidate& c) const { return meshes_[c.mesh].triangle(c.triangle); }
 
-  /// Halves the pieces until one is left; each half keeps the triangles that its box meets.
+  /// Halves the pieces until one is left. Each half keeps the triangles that its box meets.
   void halve(std::span<const Piece> pieces, std::span<const Candidate> candidates) {
     if (pieces.empty() || candidates.empty()) return;
     const Box box = box_of_all(pieces);
@@ -168,7 +170,7 @@ class Verifier::Run {
     const double reach = reach_of(piece);
     for (const Candidate& c : candidates) {
       const Triangle t = triangle(c);
-      // What is farther than the radius and the certified clearance may still be the nearest of all.
+      // A triangle farther than the radius and the certified clearance may still be the nearest of all.
       const double nearest = least_gap ? piece.body.radius + static_cast<double>(*least_gap) : infinity;
       if (!near.may_hold(t, std::max(reach, nearest))) continue;
       const long double distance = swept_distance(piece.from, piece.to, piece.body.half_height, t);
@@ -186,7 +188,7 @@ class Verifier::Run {
 
   std::span<const Piece> pieces_;
   Box box_;
-  // Of the present check.
+  // For the current check.
   std::span<const Mesh> meshes_;
   std::span<const TriangleId> first_ids_;
 };
@@ -279,7 +281,7 @@ void Verifier::check(std::span<const Mesh> meshes, TriangleId first,
 }
 
 Verification Verifier::result() const {
-  // The number of steps in runs that are each ascending and follow each other.
+  // The number of distinct steps. Each run's steps ascend, and runs follow each other.
   const auto count_steps = [&](std::vector<std::uint64_t> Run::*steps) {
     std::uint64_t count = 0;
     std::optional<std::uint64_t> last;

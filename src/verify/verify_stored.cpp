@@ -9,9 +9,9 @@
 namespace roam::verification {
 namespace {
 
-/// Metres. Pieces are checked together as long as they stay so near to each other.
+/// Metres. Pieces are checked together while they stay this near to each other.
 constexpr double stretch = 100.0;
-/// Pieces that are in memory together: 1.3 MB.
+/// Pieces in memory at a time: 1.3 MB.
 constexpr std::size_t pieces_together = 16'384;
 
 Box box_of(std::span<const Piece> pieces) {
@@ -23,7 +23,7 @@ Box box_of(std::span<const Piece> pieces) {
   return box;
 }
 
-/// The pieces from `begin` on that stay near to each other. Never part of a step.
+/// The end of the pieces from `begin` that stay near to each other. Never splits a step.
 std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
   Box box;
   std::size_t end = begin;
@@ -37,7 +37,7 @@ std::size_t end_of_stretch(std::span<const Piece> pieces, std::size_t begin) {
   return pieces.size();
 }
 
-/// `go_on` is called now and then.
+/// Calls `go_on` now and then.
 Verification verify_stretch(const Store& store, std::span<const Piece> pieces, const std::function<void()>& go_on) {
   Verifier verifier(pieces);
   std::vector<std::string> unread;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Checking a walk against the triangles of a store, of which only few fit in memory.
+/// Checks a walk against the triangles of a store, of which only few fit in memory.
 
 #include <cstdint>
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace roam::verification {
 
-/// Every piece against every triangle, as stored, as far as that can be read. Takes some 10 MB, however long the way
-/// and however large the store is. `progress` as of verify().
+/// Checks every piece against every triangle, as stored, that can be read. Takes some 10 MB for any way and store.
+/// `progress` as in verify().
 [[nodiscard]] Verification verify(const Store& store, const PieceLog& pieces,
                                   const std::function<bool(std::uint64_t)>& progress = {});
 

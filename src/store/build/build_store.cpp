@@ -30,7 +30,7 @@ void make_folders(const Folder& store) {
   }
 }
 
-/// The notes of all parts for people: what is said of many parts is said once, with the first of them.
+/// The notes of all parts for people. A sentence about several parts appears once, with the first of them.
 class Notes {
  public:
   void add(const std::string& part, const std::vector<std::string>& notes) {
@@ -69,16 +69,15 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.notes = notes.text();
 }
 
-/// Whole sentences only.
+/// Adds a note. Notes are whole sentences.
 void note(StoreBuildReport& report, std::string sentence) {
   if (!sentence.empty()) report.notes.push_back(std::move(sentence));
 }
 
-/// Of the folder that is held, whatever its path leads to by now.
+/// From the folder that is held, even if its path leads elsewhere by now.
 StoreInfo info_of(const Folder& store) { return Store::open(files_of(store), store.string())->info(); }
 
-/// Before anything is planned: what was the root of the store is put right, or out of the way. Returns what was wrong,
-/// for the user.
+/// Repairs the root of the store before planning, or removes it. Returns the damage as a sentence for the user.
 std::string mend_or_remove_root(const Folder& store) {
   const RootMending mending = mend_root(store);
   if (mending.wrong.empty()) return "";
@@ -88,7 +87,8 @@ std::string mend_or_remove_root(const Folder& store) {
   return sentence + "no copy of its manifest was whole, so all of it is built again";
 }
 
-/// A store that is there may have come with the scene: only one with a code of the key is built upon.
+/// An existing store may have come with the scene. With a key, a build continues only a store that has a code of that
+/// key.
 void demand_authentic(const Work& work) {
   if (!work.options.key || !is_file(work.store, current_file)) return;
   const auto there = Store::open(files_of(work.store), work.store.string());
@@ -103,7 +103,7 @@ void demand_authentic(const Work& work) {
   add_code(work.store, there->info().hash, *work.options.key);
 }
 
-/// Nothing when the store is up to date.
+/// Returns no plan if the store is up to date.
 std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
   std::string mended = mend_or_remove_root(work.store);
   const double read_before = report.read_seconds;
@@ -138,23 +138,22 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   return plan;
 }
 
-/// As plan_locked, of the scene as it is.
+/// As plan_locked, without damaged files. Keeps the output if cancelled.
 std::optional<Plan> plan_output(Work& work, OutputFolder& output, StoreBuildReport& report) {
   try {
     return plan_locked(work, {}, report);
   } catch (const Cancelled&) {
-    output.keep();  // the same command again goes on from there
+    output.keep();  // the same command continues from there
     throw;
   }
 }
 
-/// A lower bound of the distance between a place and the triangles of a stretch, squared; by the middles of their
-/// boxes.
+/// A lower bound of the squared distance between a place and the triangles of a stretch, by the middles of their boxes.
 double distance2(const Stretch& stretch, const Vec3& place) {
   double least = std::numeric_limits<double>::infinity();
   for (const CurveCell& cell : stretch.cells) {
     constexpr CurveKey places = (CurveKey{1} << AbsoluteCurve::class_shift) - 1;
-    // A cell of several size classes is one of all places.
+    // A cell of several size classes covers all places.
     const bool all = cell.bits >= AbsoluteCurve::class_shift;
     const CurveKey lower = all ? 0 : cell.key & places, upper = all ? places : cell.last() & places;
     double sum = 0.0;
@@ -172,7 +171,7 @@ double distance2(const Stretch& stretch, const Vec3& place) {
   return least;
 }
 
-/// Builds these shards; syncs one while it builds the next.
+/// Builds these shards. Syncs each one while the next one is built.
 void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers, StoreBuildReport& report) {
   const Timer timer(report.shard_seconds);
   if (const auto& place = work.options.nearest_first) {
@@ -199,7 +198,7 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
     }
     if (publishing.valid()) publishing.get();
   } catch (...) {
-    // What is under way is complete, and stays.
+    // The shard being published is complete, and stays.
     if (publishing.valid()) publishing.wait();
     throw;
   }
@@ -267,7 +266,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   const auto lock = locked(store, options.progress);
   const RootMending root = mend_root(store);
   if (!root.wrong.empty() && !root.mended) {
-    // A repair must give the store that was: how that was read, nothing tells.
+    // A repair must restore the same store, but nothing records how it was built.
     throw Error(
         fmt::format("{0} cannot be repaired: {1}, and no copy of the manifest is whole, so nothing tells how "
                     "it was built; `roam build` with its scene, `-o {0}`, and the --up, --unit, --ignore and "
@@ -280,7 +279,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
   if (options.key && !Store::open(files_of(store), store.string())->is_authentic(*options.key)) {
-    // It gets no code by being repaired, and nothing that its builder left is gone on from.
+    // A repair gives it no code, and does not continue from anything that its builder left.
     as_built.key.reset();
     remove_scratch(store);
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a triangle lies on the Morton curve of all stores.
+/// The position of a triangle on the Morton curve of all stores.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace roam::store {
 
-/// The curve over all that coordinate_limit allows: see CurveKey.
+/// The curve over all coordinates within coordinate_limit: see CurveKey.
 struct AbsoluteCurve {
   using Key = CurveKey;
   static constexpr int axis_bits = 41;
   static constexpr int class_shift = 3 * axis_bits;
-  static constexpr double cell_size = 0x1p-10;    ///< m, side of the smallest cell
+  static constexpr double cell_size = 0x1p-10;     ///< m, side of the smallest cell
   static constexpr double curve_origin = -0x1p30;  ///< m, of the first cell on each axis
-  /// No tile holds more: it is decoded in 200 us so.
+  /// The largest tile: decoding it takes 200 us.
   static constexpr std::uint32_t most_tile_triangles = 8192;
   /// The bits of the first axis.
   static constexpr Key axis_mask = Key{index::SceneCurve::axis_mask} | Key{index::SceneCurve::axis_mask} << 63;
@@ -47,7 +47,7 @@ struct Place {
     const double steps = (0.5 * lower + 0.5 * upper - AbsoluteCurve::curve_origin) / AbsoluteCurve::cell_size;
     key |= AbsoluteCurve::spread(static_cast<std::uint64_t>(steps)) << k;
   }
-  // Rounding to float and the product each lose less than 2^-23 of it; what underflows is less than the sum adds.
+  // Rounding to float and the product each lose less than 2^-23 of the value. The constant exceeds any underflow.
   const float reach = static_cast<float>(0.5 * extent) * (1.0F + 0x1p-21F) + 0x1p-120F;
   return {key | CurveKey{index::size_class(extent)} << AbsoluteCurve::class_shift, reach};
 }

@@ -9,7 +9,7 @@
 namespace roam::store {
 namespace {
 
-/// Cells are refined by so many bits at a time: into 4096 at most.
+/// Cells are refined by this many bits at a time: into 4096 at most.
 constexpr int refine_bits = 12;
 
 int width(CurveKey x) {
@@ -45,7 +45,7 @@ class Divider {
       slice(cell, total, cells);
       return;
     }
-    // Nothing divides above the first bit in which keys differ; below the widest cell one cannot tell.
+    // Keys are equal above their first differing bit, so no border lies there. Bits below the widest cell are unknown.
     int widest = 0;
     for (const PartCell& c : cells) widest = std::max(widest, c.bits);
     const int bit = std::max(width(cells.front().key ^ cells.back().key), widest) - 1;

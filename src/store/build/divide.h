@@ -12,14 +12,14 @@
 namespace roam::store {
 
 struct ShardLimits {
-  /// No shard holds more: what one shard takes in memory is bounded by it. A multiple of AbsoluteCurve::most_tile_triangles.
+  /// The largest shard, which bounds the memory for one shard. A multiple of AbsoluteCurve::most_tile_triangles.
   std::uint64_t shard = 1u << 20;
-  /// Cells of the curve with more triangles than this share no shard with their neighbours, so that what changes in one
-  /// of them moves no border of another's shards.
+  /// Cells of the curve with more triangles than this share no shard with their neighbours. So a change in one of them
+  /// moves no border of another's shards.
   std::uint64_t district = 1u << 22;
 };
 
-/// How many triangles of a part lie in a cell of the curve.
+/// The number of triangles of a part in a cell of the curve.
 struct PartCell {
   CurveKey key = 0;
   std::uint64_t triangles = 0;
@@ -27,22 +27,22 @@ struct PartCell {
   int bits = 0;  ///< as CurveCell
 };
 
-/// A stretch of the curve. Its cells, in order, are those that any cut into tiles has borders at, because the cell
-/// around two of them holds more triangles than a tile.
+/// A range of the curve. Its cells, in order, are those whose borders every cut into tiles has: the cell around two of
+/// them holds more triangles than a tile.
 struct Stretch {
   std::vector<CurveCell> cells;
-  /// Where a single smallest cell holds more triangles than a shard: those from `skip` on, by part and number, belong
-  /// to this one. 0 elsewhere.
+  /// If a single smallest cell holds more triangles than a shard: the triangles from `skip` on, by part and number,
+  /// belong to this stretch. 0 otherwise.
   std::uint64_t skip = 0;
   std::uint64_t triangles = 0;
   std::vector<std::uint32_t> parts;  ///< with triangles here, ascending
 };
 
-/// Counts the triangles of a part in the cells into which `cell` falls when `bits` low bits of the keys are left out.
+/// Counts the triangles of a part in the parts of `cell` that remain when the `bits` low bits of the keys are left out.
 using Refine = std::function<std::vector<PartCell>(std::uint32_t part, const CurveCell& cell, int bits)>;
 
-/// The shards of these cells, which ascend by key; those of one part do not overlap. Depends on where the triangles are
-/// only, not on how finely the cells say it.
+/// Divides these cells into shards. Cells of one part may not overlap. The result depends only on the triangles'
+/// positions, not on the size of the cells.
 [[nodiscard]] std::vector<Stretch> divide(std::vector<PartCell> cells, const Refine& refine,
                                           const ShardLimits& limits = {});
 

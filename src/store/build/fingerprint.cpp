@@ -30,17 +30,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Nanoseconds. A file that is changed twice within what the file system's clock can tell apart (2 s on FAT) has the
-/// same time, but not the same content.
+/// Nanoseconds. Two changes of a file within the resolution of the file system's clock (2 s on FAT) have the same time,
+/// but different content.
 constexpr std::int64_t clock_steps = 3'000'000'000;
-/// Of what is remembered of files: some 100,000 of them. More is forgotten.
+/// Bytes for the remembered data of files, some 100,000 of them. A larger record is ignored.
 constexpr std::uint64_t sources_memory = 128u << 20;
 
-/// Bytes of holes that a file may have, and how many for each byte of it that is on the disk. A hole costs its author
-/// nothing, and whoever hashes it as much as other bytes.
+/// Bytes of holes that a file may have, in total and for each byte on the disk. A hole costs its author nothing, but
+/// hashing it takes as long as hashing data.
 constexpr std::uint64_t most_holes = 16u << 20, holes_per_byte = 16;
 
-/// Opens what is at the end of a path without links; `flags` as of open(2). Not open where a link is in the way by now.
+/// Opens the file at the end of a path without links; `flags` as of open(2). Fails if a link has appeared in the path.
 Descriptor open_without_links(const fs::path& real, int flags) {
   Descriptor at(again([&] { return ::open("/", not_to_read | O_DIRECTORY | O_CLOEXEC); }));
   for (const fs::path& name : real.parent_path().relative_path()) {
@@ -54,7 +54,7 @@ Descriptor open_without_links(const fs::path& real, int flags) {
   }));
 }
 
-/// The state of an open file of a scene. Throws where it is none.
+/// The state of an open file of a scene. Throws if it is not a regular file.
 struct stat state_of(const Descriptor& file, const fs::path& name) {
   struct stat status {};
   if (!file.is_open() || ::fstat(file.number(), &status) != 0) {
@@ -68,7 +68,7 @@ struct stat state_of(const Descriptor& file, const fs::path& name) {
   throw Error(fmt::format("{} was changed while the scene was read; build again when it is finished", name));
 }
 
-/// Hashes a file as its bytes, those of holes without reading them.
+/// Hashes a file's bytes. Holes are hashed without reading them.
 class FileHash {
  public:
   /// `real`: without links.
@@ -83,7 +83,7 @@ class FileHash {
 
   std::string digits() {
     off_t at = 0;
-    // What comes after the size that it had is read, too: then the file is being changed.
+    // Also reads beyond the former size: a file that has grown is being changed.
     for (const off_t size = status_.st_size; at < size;) {
       const off_t data = std::min(size, next(at, SEEK_DATA, size));
       add_hole(static_cast<std::uint64_t>(data - at));
@@ -100,7 +100,7 @@ class FileHash {
     throw Error(fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
   }
 
-  /// Where the next data or the next hole begins. A file system that does not know says that all is data.
+  /// The start of the next data or hole. A file system without support reports data everywhere.
   off_t next(off_t from, int what, off_t size) const {
     if (from >= size) return size;
     const off_t found = ::lseek(descriptor_.number(), from, what);
@@ -170,7 +170,7 @@ std::string text_of(const ImportOptions& options) {
 
 namespace {
 
-/// Takes what text_of writes. Of other texts it takes what looks like it.
+/// Reads the text of text_of. It is lenient; read_as compares the result with the text.
 class OptionsText : public JsonReader {
  public:
   OptionsText() : JsonReader("the options", most) {}
@@ -193,7 +193,7 @@ class OptionsText : public JsonReader {
   std::vector<std::string> ignore, allow;
 
  private:
-  /// Bytes. A pattern of one character takes four in the text.
+  /// Bytes. A pattern of one character takes four bytes in the text.
   static constexpr std::uint64_t most = 32 * longest_options;
 };
 
@@ -217,7 +217,7 @@ void read_as(const std::string& text, ImportOptions& options) {
     if (then.metres == metres_per(unit)) read.unit = unit;
   }
   read.ignore = then.ignore;
-  // Which folders a scene may refer to is the user's word, never a store's.
+  // Only the user decides which folders a scene may refer to, never a store.
   if (known && then.allow != now.allow) {
     throw Error("the store was built with other folders allowed (--allow): repair it with the same");
   }
@@ -255,7 +255,7 @@ Sources::Seen Sources::status(const fs::path& real, Number* number) {
   std::timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
-  // Not the time of modification: anybody may set that back.
+  // Not the time of modification, which any program may set back.
   return {
       static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
@@ -281,7 +281,7 @@ void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path
   }
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     File& file = files[i];
-    // Somebody may change the folder meanwhile: from here on no link is followed.
+    // The folder may change meanwhile, so no link is followed from here on.
     file.real = file.scope->find(file.name);
     if (file.real.empty()) throw Error(fmt::format("cannot read {}: it is no file of the scene any more", file.name));
     file.seen = status(file.real, &file.number);
@@ -294,7 +294,7 @@ void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path
     }
     tick();
   });
-  // A file may have many names, by links of either kind: it is read once.
+  // A file may have many names, by links of either kind. It is read once.
   std::map<Number, std::size_t> first;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto [same, is_new] = first.emplace(files[i].number, i);
@@ -347,7 +347,7 @@ void Sources::save() const {
   if (settled == known_) return;
   Json json = Json::object();
   for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
-  // A path that is no UTF-8 is not found again, and its file read again.
+  // The name of a path that is not UTF-8 is not found again; that file is read again.
   write_coded(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", key_);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_cells_at_once = most_cells;
 constexpr std::size_t few_cells = 256;
-/// Plans of scenes of 10^10 triangles must fit the memory of a small machine: some 100 MB of cells.
+/// Plans of scenes of 10^10 triangles must fit into the memory of a small machine: some 100 MB of cells.
 constexpr std::uint64_t triangles_per_cell = 2048;
 
 void count(std::vector<Cell>& cells, CurveKey key, std::uint64_t triangles) {
@@ -55,8 +55,8 @@ void Histogram::coarsen(std::size_t most) {
 }
 
 void Histogram::finish(PartFile& part) {
-  coarsen(
-      static_cast<std::size_t>(std::clamp<std::uint64_t>(part.triangles / triangles_per_cell, few_cells, most_cells_at_once)));
+  coarsen(static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(part.triangles / triangles_per_cell, few_cells, most_cells_at_once)));
   part.cell_bits = bits_;
   part.cells = std::move(cells_);
 }

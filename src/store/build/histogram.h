@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How many triangles of a part lie in which cells of the curve.
+/// The numbers of triangles of a part in cells of the curve.
 
 #include <span>
 
@@ -9,12 +9,13 @@
 
 namespace roam::store {
 
-/// Depends on the triangles only, not on the runs that they come in. At no time more than some 2^20 cells.
+/// Depends on the triangles only, not on their division into runs. Never has more than some 2^20 cells.
 class Histogram {
  public:
   /// Items ascending by key.
   void add(std::span<const RunItem> items);
-  /// Sets the cells of the part: the finest of which there are no more than one for 2048 triangles, but 256, and 2^18.
+  /// Sets the cells of the part, as fine as possible. The largest number of cells is one for 2048 triangles, but from
+  /// 256 to 2^18.
   void finish(PartFile& part);
 
  private:

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 /// Bytes. A record has a line for each half a million triangles.
 constexpr std::uint64_t record_memory = 64u << 20;
 
-/// Takes the pieces of a part and writes runs; sorts one while the next one fills, where memory allows.
+/// Collects the pieces of a part and writes runs. Sorts one run while the next one fills, if memory allows.
 class Intake {
  public:
   Intake(Work& work, std::string id, bool sorts_beside) : work_(work), id_(std::move(id)), sorts_beside_(sorts_beside) {
@@ -92,7 +92,7 @@ class Intake {
   bool sorts_beside_;
   PartFile part_;
   RunContent filling_;
-  // Of the thread that sorts:
+  // Used by the sorting thread:
   RunContent full_;
   std::vector<PartRecord::Run> runs_;
   Histogram histogram_;
@@ -115,7 +115,7 @@ std::string to_text(const PartRecord& record) {
          "\n";
 }
 
-/// A note of the import that begins with the name of the part, and is the same wherever the scene lies.
+/// A note of the import that begins with the name of the part and is independent of the scene's folder.
 std::string note_of(const ScenePart& part, std::string note) {
   const fs::path whole = fs::absolute(part.path).lexically_normal();
   const fs::path folder = whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
@@ -127,7 +127,7 @@ std::string note_of(const ScenePart& part, std::string note) {
   return part.name + ": " + note;
 }
 
-/// What JSON can hold of a text that comes from a file of unknown encoding.
+/// The text as valid UTF-8, as far as possible, for JSON.
 std::string valid(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
@@ -171,7 +171,7 @@ std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
     }
     record.notes = json.at("notes").get<std::vector<std::string>>();
   } catch (const std::exception&) {
-    return {};  // it is read again
+    return {};  // the part is read again
   }
   for (std::size_t i = 0; i < record.runs.size(); ++i) {
     if (!size_of(store, run_file(id, i))) return {};

@@ -12,25 +12,25 @@
 
 namespace roam::store {
 
-/// What is known of a part.
+/// The known facts of a part.
 struct PartRecord {
   PartInfo info;
-  std::string id;  ///< names its files in the scratch folder; says of which part, and of which state of it
+  std::string id;  ///< names its files in the scratch folder; identifies the part and its state
   struct Run {
     CurveKey first = 0, last = 0;  ///< keys
   };
   std::vector<Run> runs;
-  bool has_runs = false;           ///< they are in the scratch folder
-  std::vector<std::string> notes;  ///< of the import, each begins with the name of the part
+  bool has_runs = false;           ///< the runs are in the scratch folder
+  std::vector<std::string> notes;  ///< of the import; each begins with the name of the part
 };
 
-/// How PartRecord::id follows from the part.
+/// Computes PartRecord::id.
 [[nodiscard]] std::string record_id(const std::string& name, const std::string& fingerprint);
 
-/// The record that read_part left in the scratch folder, with the same key, when all that it tells of is there.
+/// The record that read_part left in the scratch folder with the same key, if all its files are there.
 [[nodiscard]] std::optional<PartRecord> find_record(const Work& work, const std::string& id);
 
-/// Reads the part, as one of so many `readers` at once, publishes its runs, its part file and, last, its record.
+/// Reads the part, as one of `readers` that run at once. Publishes its runs, its part file and, last, its record.
 PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers);
 
 // Keys in JSON: 32 hexadecimal digits.

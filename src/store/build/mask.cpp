@@ -13,8 +13,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The directions that may separate a triangle from a box of half size h, but for the box's own (Akenine-Möller, "Fast
-/// 3D triangle-box overlap testing", 2001).
+/// The axes that may separate a triangle from a box of half size h, except the box's own (Akenine-Möller, "Fast 3D
+/// triangle-box overlap testing", 2001).
 class Separation {
  public:
   Separation(const Triangle& t, const Vec3& h) {
@@ -39,7 +39,7 @@ class Separation {
  private:
   struct Axis {
     Vec3 direction;
-    double lower, upper;  ///< where centres of touching boxes lie along it
+    double lower, upper;  ///< range along it of the centres of touching boxes
   };
 
   void add(const Vec3& d, const Triangle& t, const Vec3& h) {
@@ -56,7 +56,7 @@ class Separation {
 
 Mask::Mask(const Box& box, double margin) : lower_(box.lower) {
   const Vec3 size = box.size();
-  // What is computed below rounds by less than 2^-40 of the coordinates that go into it.
+  // The computations below round by less than 2^-40 of their coordinates.
   const double far = std::max(largest(box.lower), largest(box.upper));
   margin_ = margin + 0x1p-30 * largest(size) + 0x1p-50 * far;
   cell_ = size / double(mask_cells);

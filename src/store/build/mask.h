@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which cells of a tile's box are occupied.
+/// The occupied cells of a tile's box.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace roam::store {
 
-/// TileEntry::mask in the making: marks every cell that a triangle, grown by `margin`, may touch.
+/// Builds TileEntry::mask: marks every cell that a triangle, grown by `margin`, may touch.
 class Mask {
  public:
   /// `margin`: metres.

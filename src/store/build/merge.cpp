@@ -23,10 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How many missing shards an error names.
+/// Missing shards that an error names, at most.
 constexpr std::size_t named = 5;
 
-/// The shards of the plan, each checked: those that were built for it to the last byte.
+/// The shards of the plan, each checked. Newly built ones are checked to the last byte.
 std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   std::map<std::string, ShardInfo> before;
   if (const auto manifest = manifest_in_force(work.store)) {
@@ -73,17 +73,18 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   return shards;
 }
 
-/// Removes a manifest unless a process reads the store by it, which then holds a shared lock on it. It is removed while
-/// it is locked here: who waits for the lock finds it gone, and looks at CURRENT again. Returns whether it was removed.
+/// Removes a manifest, unless a process reads the store by it and therefore holds a shared lock on it. The manifest is
+/// removed while locked here: a process that waits for the lock then finds it gone and reads CURRENT again. Returns
+/// whether it was removed.
 bool remove_unless_read(const Folder& store, const std::string& manifest) {
-  // Network file systems lock against readers only what may be written.
+  // On network file systems, an exclusive lock needs a descriptor open for writing.
   const Descriptor opened = open_file(store, manifest, O_RDWR);
   if (!opened.is_open()) return false;
   const bool read = ::flock(opened.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   return !read && remove_file(store, manifest);
 }
 
-/// Whether a build puts a file of this name into the scratch folder.
+/// Whether a build writes a file of this name into the scratch folder.
 bool is_scratch(std::string_view file) {
   if (file == plan_file) return true;
   const auto is = [&](std::string_view start, std::string_view extension, std::size_t digits) {
@@ -139,7 +140,7 @@ std::string tidy(const Folder& store) {
 }
 
 std::string remove_scratch(const Folder& store) {
-  // The plan first: without it nothing of the rest is taken for a build in progress.
+  // The plan first: without it the rest does not count as a build in progress.
   remove_file(store, plan_file);
   for (const char* folder : {"scratch", "scratch/parts", "scratch/runs", "scratch/shards"}) {
     for (const std::string& file : files_in(store, folder)) {

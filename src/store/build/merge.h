@@ -7,15 +7,15 @@
 
 namespace roam::store {
 
-/// Makes one store of the shards of the plan and puts it in force; then removes what no manifest in force names, and
-/// the scratch folder. The store must be locked. Returns what tidy does.
+/// Makes one store of the shards of the plan and puts it in force. Then removes files that no manifest in force names,
+/// and the scratch folder. The store must be locked. Returns the result of tidy.
 [[nodiscard]] std::string merge(Work& work, const Plan& plan);
 
-/// Removes what no manifest in force names, and the scratch folder. The store must be locked. Returns what
-/// remove_scratch does.
+/// Removes files that no manifest in force names, and the scratch folder. The store must be locked. Returns the result
+/// of remove_scratch.
 [[nodiscard]] std::string tidy(const Folder& store);
 
-/// Removes what builds keep to go on from. Returns a sentence for the user where that cannot be; else nothing.
+/// Removes the files with which a build could continue. On failure returns a sentence for the user, else an empty text.
 std::string remove_scratch(const Folder& store);
 
 }  // namespace roam::store

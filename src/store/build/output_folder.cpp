@@ -17,14 +17,14 @@
 namespace roam::store {
 namespace {
 
-/// Whether a build puts something of this name into the folder of a store.
+/// Whether a build creates something of this name in the folder of a store.
 bool is_ours(const std::string& name) {
   static const std::set<std::string> ours{current_file, lock_file,    "manifests", "packs", "parts",
                                           "scratch",    sources_file, "spare",     "codes"};
   return ours.contains(name) || is_temporary_of_root(name);
 }
 
-/// Whether there is anything that read_part, build_shard or merge has finished.
+/// Whether the folder holds finished results of read_part, build_shard or merge.
 bool holds_results(const Folder& store) {
   const std::vector<std::string> names = names_in(store, "");
   if (std::count(names.begin(), names.end(), current_file) > 0 || is_file(store, plan_file)) return true;
@@ -36,7 +36,8 @@ bool holds_results(const Folder& store) {
   return false;
 }
 
-/// Throws where a folder holds what no build puts there, and is no store. Other programs too call files CURRENT.
+/// Throws if a folder is no store and holds something that no build creates. Other programs also have files named
+/// CURRENT.
 void demand_no_other_things(const Folder& store) {
   if (is_file(store, current_file) && holds_store(store)) return;
   for (const std::string& name : names_in(store, "")) {
@@ -83,12 +84,12 @@ OutputFolder::~OutputFolder() {
     for (const std::string& name : names_in(store_, "")) {
       if (is_ours(name) && !there_.contains(name)) remove_all(store_, name);
     }
-  } catch (const Error&) {  // what cannot be removed stays: what went wrong before is what is told
+  } catch (const Error&) {  // such entries stay: the earlier error matters more
   }
   if (store_.is_in_place()) remove_made_folders();
 }
 
-/// As far as they are empty: others may have put things there. It removes no file and no link.
+/// Removes folders only if they are empty, because others may have put things there. It removes no file and no link.
 void OutputFolder::remove_made_folders() const {
   std::for_each(made_.rbegin(), made_.rend(),
                 [](const MadeFolder& folder) { ::unlinkat(folder.above.number(), folder.name.c_str(), AT_REMOVEDIR); });

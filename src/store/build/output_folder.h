@@ -16,17 +16,17 @@ namespace roam::store {
 /// As in StoreBuildOptions.
 using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 
-/// Locks the store. A builder that was killed while it started a reader leaves a process that holds the lock until it
-/// has become the reader: that is waited for, up to 5 s, and 1 s for any other holder. While it waits it asks
-/// `progress` whether to go on. Throws roam::Error naming the holder, and roam::Cancelled.
+/// Locks the store. Waits for another holder up to 1 s. If the holder's builder was killed while it started a reader,
+/// waits up to 5 s, until that process has become the reader. While waiting it calls `progress`; false ends it. Throws
+/// roam::Error naming the holder, and roam::Cancelled.
 [[nodiscard]] std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress);
 
-/// The folder of a store, made where it is not there, and locked. What builds put there goes again with this, unless
-/// keep() was called, it was there before, or there is something that a later build goes on from.
+/// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after
+/// keep(), if it was there before, or if a later build can continue from it.
 class OutputFolder {
  public:
-  /// Holds `store` open from then on. Throws as `locked` and Folder::held, and where the folder that is held has other
-  /// things in it than a store: before anything is written.
+  /// Keeps `store` open from then on. Throws as `locked` and Folder::held, and if the folder holds other things than a
+  /// store. Nothing has been written then.
   OutputFolder(Folder& store, bool through_link, const BuildProgress& progress);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -37,8 +37,8 @@ class OutputFolder {
   void remove_made_folders() const;
 
   Folder store_;
-  std::vector<MadeFolder> made_;  ///< folders that were not there before, those above the store and its own
-  std::set<std::string> there_;   ///< what was in the store before
+  std::vector<MadeFolder> made_;  ///< created folders: those above the store, and the store's own
+  std::set<std::string> there_;   ///< entries of the store folder at the start
   std::unique_ptr<BuildLock> lock_;
   bool keeps_ = false;
 };

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What a shard's tiles depend on beside its triangles: goes up with every change of what the builder makes of them.
+/// The version of the builder. Must increase with every change of the tiles that it makes of the same triangles.
 constexpr int builder_version = 1;
 
 Json json_of(const Stretch& s) {

@@ -17,7 +17,7 @@ namespace roam::store {
 struct PlannedShard {
   Stretch stretch;
   std::string key;     ///< see key_of
-  bool there = false;  ///< in the store that is in force
+  bool there = false;  ///< in the store in force
 };
 
 struct Plan {
@@ -29,29 +29,29 @@ struct Plan {
   [[nodiscard]] std::vector<std::size_t> to_build() const;
 };
 
-/// Says of what a shard is made: of the format, of what this version of the builder makes of triangles, of how the
-/// scene is read, and of which stretch of which parts.
+/// The key of a shard: a hash of everything that decides its content. That is the format, the version of the builder,
+/// the import options, the stretch, and its parts.
 [[nodiscard]] std::string key_of(const Stretch& stretch, const Plan& plan);
 
-/// The plan in the scratch folder. Throws roam::Error when there is none that can be used, it was made with another
-/// key, or it takes more than half of the memory.
+/// The plan in the scratch folder. Throws roam::Error if there is no usable plan, if it was made with another key, or
+/// if it takes more than half of the memory.
 [[nodiscard]] Plan read_plan(const Work& work);
 void write_plan(const Work& work, const Plan& plan);
 
 /// The manifest in force, if there is a store.
 [[nodiscard]] std::optional<Manifest> manifest_in_force(const Folder& store);
 
-/// The notes of each part of a store, as PartRecord has them.
+/// The notes of each part of a store, as in PartRecord.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);
 
-/// Throws roam::Error when the output cannot be one for this scene.
+/// Throws roam::Error if the output folder cannot be used for this scene.
 void check_output(const StoreBuildOptions& options);
 
-/// Reads what has changed and decides the shards. Nothing when the store is up to date. Files (SHA-256) that are
-/// `damaged` count as missing. The store must be locked.
+/// Reads the changed parts and decides the shards. None if the store is up to date. Files whose SHA-256 is in `damaged`
+/// count as missing. The store must be locked.
 [[nodiscard]] std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report);
 
-/// Whether a shard of the plan was built, with the same key, and waits to be merged.
+/// The shard, if it was built with the same key and waits to be merged.
 [[nodiscard]] std::optional<ShardInfo> built_shard(const Work& work, const std::string& key);
 
 }  // namespace roam::store

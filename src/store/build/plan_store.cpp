@@ -1,4 +1,4 @@
-// The first step of a build: what has changed is read, and the shards are decided.
+// The first step of a build: reads the changed parts and decides the shards.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -67,7 +67,7 @@ class Planner {
   }
 
  private:
-  /// What is known of each part without reading it.
+  /// Collects the known facts of each part without reading it.
   void take_records() {
     std::map<std::string, std::size_t> before;
     std::vector<std::vector<std::string>> notes;
@@ -120,7 +120,7 @@ class Planner {
                        [&](const ShardInfo& shard) { return is_there(shard); });
   }
 
-  /// Reads these parts, several at once where memory allows; false when there are none.
+  /// Reads these parts, several at once if memory allows. Returns false if there are none.
   bool read(const std::vector<std::size_t>& numbers) {
     if (numbers.empty()) return false;
     std::uint64_t bytes = 0;
@@ -150,7 +150,7 @@ class Planner {
       if (failure && (readers == 1 || is_cancelled(failure))) std::rethrow_exception(failure);
     }
     for (std::size_t n = 0; n < numbers.size(); ++n) {
-      if (failures[n]) read_one(numbers[n], 1);  // again, with all the memory that there is
+      if (failures[n]) read_one(numbers[n], 1);  // again, with all of the memory
     }
     report_.parts_read += numbers.size();
     return true;
@@ -171,7 +171,7 @@ class Planner {
     }
   }
 
-  /// Decides the shards, as far as the parts that were read let it: `missing_` are those that must be read first.
+  /// Decides the shards as far as the parts' runs allow. `missing_` gets the parts that must be read first.
   void lay_out() {
     missing_.clear();
     std::vector<PartCell> cells;
@@ -229,21 +229,22 @@ class Planner {
     }
   }
 
-  /// Of a scene. Some 100,000 shards.
+  /// The largest scene: some 100,000 shards.
   static constexpr std::uint64_t most_triangles = 1ull << 38;
-  /// Half of the memory, in a list that grows.
+  /// Half of the memory, for a list that grows by doubling.
   [[nodiscard]] std::size_t most_cells_of_plan() const {
     return static_cast<std::size_t>(work_.options.memory / (6 * sizeof(PartCell)));
   }
 
-  /// Of a scene of which nothing can be made, nothing is kept.
+  /// If a scene cannot become a store, its results are removed.
   void remove_results() const {
     if (in_force_) return;
     remove_scratch(work_.store);
     for (const PartRecord& part : plan_.parts) remove_file(work_.store, part_file(part.info.file));
   }
 
-  /// See Refine. Counts in the runs of the part; a part without runs is noted down and counted as if in one place.
+  /// See Refine. Counts in the runs of the part. A part without runs goes into `missing_`, and counts as one triangle
+  /// in one cell.
   std::vector<PartCell> refine(std::uint32_t part, const CurveCell& cell, int bits) {
     const PartRecord& record = plan_.parts[part];
     if (!record.has_runs) {
@@ -272,7 +273,7 @@ class Planner {
     return out;
   }
 
-  /// The parts that must be read before the shards can be built, or decided.
+  /// The parts that must be read before the shards can be decided or built.
   [[nodiscard]] std::vector<std::size_t> needed() const {
     std::set<std::size_t> parts(missing_.begin(), missing_.end());
     for (const PlannedShard& shard : plan_.shards) {

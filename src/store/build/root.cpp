@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Manifests that are what they were when they were written, the newest first.
+/// Manifests that match their hash, the newest first.
 std::vector<std::string> whole_manifests(const Folder& store) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
@@ -29,7 +29,7 @@ std::vector<std::string> whole_manifests(const Folder& store) {
   return files;
 }
 
-/// Whether there is, or was, a root at all. A build that was never published has none.
+/// Whether there is, or was, a root. A build that was never published has none.
 bool has_root(const Folder& store) {
   try {
     if (!is_file(store, current_file)) refuse_to_open(store);
@@ -81,7 +81,7 @@ RootMending mend_root(const Folder& store) {
     } catch (const NewerFormat&) {
       throw;
     } catch (const Error&) {
-      continue;  // whole, and of no use
+      continue;  // undamaged, but unusable
     }
     publish(store, *manifest);
     mending.mended = true;

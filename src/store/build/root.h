@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The root of a store, CURRENT and the manifest that it names: kept once more, and mended where it is damaged.
+/// The root of a store: CURRENT and the manifest that it names. Keeps a copy, and repairs the root if it is damaged.
 
 #include <filesystem>
 #include <string>
@@ -9,19 +9,18 @@
 
 namespace roam::store {
 
-/// Writes the manifest once more, as spare/<SHA-256>.json, where that is not there or damaged. Returns the hash.
+/// Writes a copy of the manifest, as spare/<SHA-256>.json, if it is missing or damaged. Returns the hash.
 std::string keep_spare(const Folder& store, const Manifest& manifest);
 
-/// What mend_root found.
+/// Result of mend_root.
 struct RootMending {
-  std::string wrong;  ///< "CURRENT: it is not there"; empty when all is well
-  bool mended =
-      false;  ///< what was wrong is no more; else there is no whole copy of any manifest, and all is as it was
+  std::string wrong;    ///< "CURRENT: it is not there"; empty when all is well
+  bool mended = false;  ///< if `wrong`: the root is repaired; else no manifest has a whole copy, and nothing changed
 };
 
-/// Where CURRENT or the manifest cannot be used, puts that manifest in force again of which there is a whole copy. The
-/// store must be locked. Throws roam::Error for a store of a newer format, for a CURRENT that another program made, and
-/// where a file cannot be read or written.
+/// If CURRENT or the manifest cannot be used, puts a manifest with an undamaged copy in force again. The store must be
+/// locked. Throws roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be
+/// read or written.
 [[nodiscard]] RootMending mend_root(const Folder& store);
 
 }  // namespace roam::store

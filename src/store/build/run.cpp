@@ -18,10 +18,10 @@ namespace roam::store {
 namespace {
 
 constexpr char magic_number[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
-/// Blocks that are encoded, in parallel, before they are written.
+/// Blocks encoded in parallel before they are written.
 constexpr std::size_t blocks_at_once = 32;
 
-/// What a block begins with. Then follow the vertices, 3 corners of 16 bits and a number of 32 bits of each triangle.
+/// The head of a block. The vertices follow, then three 16-bit corners of each triangle, then a 32-bit number of each.
 struct BlockHeader {
   std::uint32_t triangles;
   std::uint32_t vertices : 31;
@@ -33,7 +33,7 @@ std::size_t block_bytes(const BlockHeader& header) {
   const std::size_t vertex = 3 * (header.floats != 0 ? sizeof(float) : sizeof(double));
   return sizeof header + header.vertices * vertex + header.triangles * std::size_t{3 * 2 + 4};
 }
-/// Of a block of triangles that share no vertex.
+/// The size of a full block whose triangles share no vertex.
 constexpr std::size_t most_block_bytes = sizeof(BlockHeader) + block_triangles * std::size_t{3 * 24 + 3 * 2 + 4};
 
 bool all_floats(std::span<const Vec3> vertices) {
@@ -45,7 +45,7 @@ bool all_floats(std::span<const Vec3> vertices) {
   return true;
 }
 
-/// Finds the place of a vertex in the table of a block.
+/// Assigns each vertex an index in the block's table.
 class LocalVertices {
  public:
   void clear() {
@@ -119,7 +119,7 @@ struct RunReader::Footer {
   std::uint64_t index_hash;
   std::uint64_t blocks;
   std::uint64_t zero;
-  std::uint64_t hash;  ///< of all before
+  std::uint64_t hash;  ///< of all members before it
 };
 
 std::vector<RunItem> sort_run(const RunContent& run) {

@@ -2,9 +2,9 @@
 /// \file
 /// Runs: up to 2^19 triangles of a part, sorted along the curve, in a file of the scratch folder.
 ///
-/// A run is a sequence of blocks of about a thousand neighbours on the curve, each with its vertices, and an index that
-/// says where on the curve each block begins. So whoever wants a range of the curve reads just that range of each run.
-/// The format is private to one build: scratch of another version is not read.
+/// A run is a sequence of blocks of about a thousand neighbours on the curve, each with its vertices. An index gives
+/// the first key of each block, so a range of the curve can be read without the rest. The format is private to one
+/// build; scratch of another version is not read.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace roam::store {
 inline constexpr std::uint32_t run_triangles = 1u << 19;
 inline constexpr std::uint32_t block_triangles = 1024;
 
-/// Triangles in the order in which they came.
+/// Triangles in their original order.
 struct RunContent {
   std::uint64_t first = 0;  ///< number, in the part, of the first one
   std::vector<Vec3> vertices;
@@ -39,7 +39,7 @@ struct RunItem {
   std::uint32_t triangle;
 };
 
-/// By key, then in the order in which they came. On all threads of the arena that it is called in.
+/// Items by key, then in their original order. Uses all threads of the calling arena.
 [[nodiscard]] std::vector<RunItem> sort_run(const RunContent& run);
 
 /// Publishes the file of a store. `items`: of sort_run.
@@ -53,8 +53,8 @@ struct RunBlock {
   std::vector<std::byte> bytes;  ///< the same
 };
 
-/// A run that is open for reading, by any number of threads. Throws roam::Error for files that are not as they were
-/// written, with what to do.
+/// A run, open for reading by any number of threads. Throws roam::Error for files that have changed since they were
+/// written, with advice.
 class RunReader {
  public:
   RunReader(const Folder& store, const std::string& name);

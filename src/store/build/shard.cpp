@@ -32,7 +32,7 @@ struct TileRun {
   std::uint32_t begin, end;  ///< of ShardTriangles::items
 };
 
-/// The least box of doubles around the source triangles and the stored ones.
+/// The smallest box in doubles that contains the source triangles and the stored ones.
 Box reach_of(const Box& bounds, double error) {
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -52,7 +52,7 @@ class ShardBuilder {
     cut(shard.stretch);
   }
 
-  /// Of the tiles in order.
+  /// The tiles in order.
   std::vector<TileResult> run() {
     std::vector<std::vector<TileResult>> results(tiles_.size());
     tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
@@ -77,7 +77,7 @@ class ShardBuilder {
     return Cutter(source.items, Reach{}, AbsoluteCurve::cell_size, plan.lossless);
   }
 
-  /// Each cell of the stretch by itself, each size class in it by itself.
+  /// Cuts each cell of the stretch separately, and each size class in it.
   void cut(const Stretch& stretch) {
     const auto items = source_.items;
     const auto after = [&](std::uint32_t begin, CurveKey last) {
@@ -98,7 +98,7 @@ class ShardBuilder {
     }
   }
 
-  /// Builds the tile, or several, where one would take too much memory.
+  /// Builds the tile, or several if one would take too much memory.
   void build(const TileRun& run, std::vector<TileResult>& out) const {
     const auto items = source_.items.subspan(run.begin, run.end - run.begin);
     std::vector<Triangle> triangles(items.size());
@@ -172,7 +172,7 @@ class ShardBuilder {
   std::vector<TileRun> tiles_;
 };
 
-/// Writes the pages over the tiles, in order, behind them.
+/// Appends the pages over the tiles, in order.
 void write_pages(PackWriter& pack, std::span<const TileEntry> entries, ShardInfo& info) {
   for (std::size_t first = 0; first < entries.size(); first += page_tiles) {
     const auto tiles = entries.subspan(first, std::min<std::size_t>(page_tiles, entries.size() - first));

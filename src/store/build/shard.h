@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Makes the pack of one shard.
+/// Builds the pack of one shard.
 
 #include <functional>
 
@@ -9,8 +9,8 @@
 
 namespace roam::store {
 
-/// Builds the shard and writes its pack but for what `publish` does: syncing the pack and the file that says that the
-/// shard is there. `publish` may be called by another thread, while the next shard is built.
+/// Builds the shard and writes its pack. The returned function publishes it: it syncs the pack and writes the shard's
+/// file. Another thread may call it while the next shard is built.
 [[nodiscard]] std::function<void()> make_shard(Work& work, const Plan& plan, const PlannedShard& shard);
 
 }  // namespace roam::store

@@ -17,7 +17,7 @@
 namespace roam::store {
 namespace {
 
-/// The blocks of all runs that may hold a triangle of the stretch: of each run a range, in the order of the scene.
+/// The blocks that may hold triangles of the stretch: a range of each run, in the order of the scene.
 class Blocks {
  public:
   Blocks(Work& work, const Plan& plan, const Stretch& stretch)
@@ -36,7 +36,7 @@ class Blocks {
   [[nodiscard]] bool holds(CurveKey key) const { return key >= first_ && key <= last_; }
   [[nodiscard]] std::size_t runs() const { return runs_.size(); }
 
-  /// Calls f(number of the run, range of its blocks) for each run, from many threads.
+  /// Calls f(index of the run, run, range of its blocks) for each run, from many threads.
   template <class F>
   void for_each_run(F&& f) const {
     tbb::parallel_for(std::size_t{0}, runs_.size(), [&](std::size_t i) {
@@ -44,13 +44,13 @@ class Blocks {
       f(i, run, run.blocks(first_, last_));
     });
   }
-  /// Calls f(block, part, number of the run, number of the block in the run's range), from many threads.
+  /// Calls f(block, part, index of the run, index of the block in the run's range), from many threads.
   template <class F>
   void for_each(F&& f) const {
     for_each_run([&](std::size_t i, const RunReader& run, const RunReader::Range& range) {
       tbb::parallel_for(range.begin, range.end, [&](std::size_t b) {
         work_.tick();
-        static thread_local RunBlock block;  // its memory is used again
+        static thread_local RunBlock block;  // keeps its memory for the next block
         run.read(b, block);
         f(block, runs_[i].part, i, b - range.begin);
       });
@@ -69,7 +69,7 @@ class Blocks {
   std::vector<RunOf> runs_;
 };
 
-/// In a smallest cell that fills several shards: how many of its triangles come before each block, by part and number.
+/// For a smallest cell that fills several shards: the number of its triangles before each block, by part and number.
 class Ranks {
  public:
   explicit Ranks(const Blocks& blocks) : before_(blocks.runs()) {
@@ -113,7 +113,7 @@ ShardTriangles read_shard(Work& work, const Plan& plan, const Stretch& stretch) 
     for (std::size_t i = 0; i < block.triangles.size(); ++i) {
       const Place place = place_of(block.triangles[i]);
       if (!blocks.holds(place.key)) continue;
-      // Wraps below `skip`, to more than any count.
+      // Below `skip` the difference wraps around to a value larger than any count.
       if (ranks && rank++ - stretch.skip >= stretch.triangles) continue;
       chosen.push_back({static_cast<std::uint32_t>(i), place});
     }

@@ -31,12 +31,12 @@ struct ShardTriangles {
         all_items(std::make_unique_for_overwrite<ShardItem[]>(count)),
         items(all_items.get(), count) {}
 
-  // Not touched before many threads fill them.
+  // Left uninitialized, so that the threads that fill them touch them first.
   std::unique_ptr<Triangle[]> triangles;  ///< in no order
   std::unique_ptr<Source[]> sources;
   std::unique_ptr<ShardItem[]> all_items;
-  /// Along the curve; in one cell of it by what the triangles are, so that their order in the scene makes no
-  /// difference to the tiles, then by where they come from.
+  /// Sorted along the curve. In one cell they are sorted by their coordinates, so that the tiles do not depend on the
+  /// order of the scene, then by source.
   std::span<ShardItem> items;
 };
 

@@ -9,17 +9,17 @@ namespace roam::store {
 namespace {
 
 constexpr std::uint64_t kMiB = 1u << 20;
-/// The program itself, its libraries and what an allocator keeps of what was given back.
+/// The program itself, its libraries, and freed memory that the allocator keeps.
 constexpr std::uint64_t program_bytes = 48 * kMiB;
-/// A run at worst, when no triangle shares a vertex, and what sorts it.
+/// A run in the worst case, when no triangle shares a vertex, and the memory for sorting it.
 constexpr std::uint64_t run_bytes = 64 * kMiB;
-/// A shard: triangles, where they come from, their keys; and its tiles.
+/// A shard: its triangles, their sources and keys, and its tiles.
 constexpr std::uint64_t shard_bytes = 136 * kMiB;
-/// A tile that is being built.
+/// A tile under construction.
 constexpr std::uint64_t tile_bytes_at_work = 8 * kMiB;
-/// What a reader should have where several read.
+/// The memory of a reader if several read at once.
 constexpr std::uint64_t reader_bytes = 160 * kMiB;
-/// Where sorting beside reading begins.
+/// The least memory for sorting while reading.
 constexpr std::uint64_t plenty = 512 * kMiB;
 
 constexpr auto period = std::chrono::milliseconds(100);

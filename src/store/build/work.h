@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What all steps of a build share: its options, its threads, and how far it is.
+/// The common state of all steps of a build: options, threads and progress.
 
 #include <tbb/task_arena.h>
 
@@ -14,7 +14,7 @@
 
 namespace roam::store {
 
-/// Adds the seconds of its life.
+/// Adds its lifetime to `seconds`.
 class Timer {
  public:
   explicit Timer(double& seconds) : seconds_(seconds) {}
@@ -35,17 +35,18 @@ class Work {
   explicit Work(const StoreBuildOptions& options);
 
   const StoreBuildOptions& options;
-  Folder store;  ///< held by whoever builds
+  Folder store;  ///< held while building
   tbb::task_arena arena;
 
-  /// How many parts of so many may be read at once.
+  /// How many of `parts` may be read at once.
   [[nodiscard]] int readers(std::size_t parts) const;
-  /// Of the memory, what each of so many imports and its reader may take.
+  /// The memory for each of `readers` imports with its reader process.
   [[nodiscard]] std::uint64_t reader_memory(int readers) const;
-  /// Whether one run may be sorted while the next one is filled.
+  /// Whether a run may be sorted while the next one is filled.
   [[nodiscard]] bool sorts_beside_reading(int readers) const;
 
-  // Progress. Any thread may tell; the caller's "no" is thrown as roam::Cancelled in one of those that do.
+  // Progress. Any thread may report it. If the caller's function returns false, one of these calls throws
+  // roam::Cancelled.
   void begin(Step step, std::uint64_t bytes_total, std::uint64_t triangles_total);
   void add_bytes(std::uint64_t count) { bytes_ += count; }
   void add_triangles(std::uint64_t count) { triangles_ += count; }

@@ -14,11 +14,11 @@ namespace roam::training {
 
 namespace {
 
-/// A room's neck is less than so much of the room's own clearance.
+/// A room's neck is narrower than this share of the room's own clearance.
 constexpr double neck_share = 0.8;
-/// Places wider than its neck that a room has at least: fewer are a niche.
+/// Places wider than its neck that a room needs; a group with fewer is a niche.
 constexpr std::uint32_t least_places = 4;
-/// m2: where the middle of a body can be in a room, at least; a room of 1 m2 has 0.8.
+/// m2: the least area of the places in a room; a room of 1 m2 has 0.8.
 constexpr double least_area = 0.5;
 
 double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -53,14 +53,15 @@ PlaceGraph place_graph(const Survey& survey, const ways::Measure& measure, const
     std::sort(graph.beside[a].begin(), graph.beside[a].end());
   }
   if (graph.edges.empty()) graph.spacing = 0.0;
-  // A thin wall with an opening lies between two lattice lines: both ends of an edge through it are wider than it is.
+  // A thin wall with an opening may lie between two lattice lines. Then both ends of an edge have more clearance than
+  // the opening.
   const float narrower = std::nextafter(static_cast<float>(radius), 0.0F);
   tbb::parallel_for(std::size_t{0}, graph.edges.size(), [&](std::size_t i) {
     PlaceEdge& edge = graph.edges[i];
     const Vec3& from = graph.where[edge.a];
     const Vec3& to = graph.where[edge.b];
     if (edge.clearance < radius) return;
-    // Clearance changes by no more than one goes.
+    // Clearance changes by at most the distance moved.
     const double ends = double(graph.clearance[edge.a]) + double(graph.clearance[edge.b]);
     if (ends - glm::length(to - from) >= 2.0 * radius) return;
     if (!goes_straight(survey, measure, from, to, radius)) edge.clearance = std::min(edge.clearance, narrower);
@@ -70,11 +71,11 @@ PlaceGraph place_graph(const Survey& survey, const ways::Measure& measure, const
 
 namespace {
 
-/// Places that hang together above some clearance.
+/// Places connected above some clearance.
 struct Pool {
   float widest = 0.0F;
   std::uint32_t places = 1;
-  bool rooms = false;  ///< holds rooms that came apart: stays one
+  bool rooms = false;  ///< contains rooms that are already separate, so it stays a room
 };
 
 class Flood {
@@ -102,7 +103,8 @@ class Flood {
     pools_[connected_.find(a)] = both;
   }
 
-  /// Gives basins of fewer than `least` places to the neighbour with the widest neck; edges come widest first.
+  /// Joins basins of fewer than `least` places with the neighbour behind the widest neck. The edges must be sorted
+  /// widest first.
   void fill_small(std::span<const PlaceEdge> edges, double least) {
     std::vector<std::uint32_t> places(room_.size(), 0);
     for (std::uint32_t i = 0; i < room_.size(); ++i) ++places[room_.find(i)];
@@ -118,7 +120,7 @@ class Flood {
     std::vector<std::uint32_t> number(room_.size());
     std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < room_.size(); ++i) {
-      // A set's name is its least number, which has been passed.
+      // A set's name is its least member, which is already numbered.
       const std::uint32_t set = room_.find(i);
       number[i] = set == i ? next++ : number[set];
     }
@@ -126,7 +128,7 @@ class Flood {
   }
 
  private:
-  /// Whether a pool is a room that is to stay apart from what it meets at a clearance of `neck`.
+  /// Whether a pool is a room that stays separate from another pool at a clearance of `neck`.
   [[nodiscard]] bool is_room(const Pool& pool, double neck) const {
     if (pool.rooms) return neck < radius_;
     if (neck >= radius_ || pool.places < least_places) return false;
@@ -135,7 +137,7 @@ class Flood {
 
   double radius_;
   DisjointSets connected_, room_;
-  std::vector<Pool> pools_;  ///< of each set of connected_, by its name
+  std::vector<Pool> pools_;  ///< of each set of connected_, by the set's name
 };
 
 }  // namespace

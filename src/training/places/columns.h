@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places of components, found by where they are.
+/// Places of components, found by position.
 
 #include <cmath>
 #include <cstddef>
@@ -30,8 +30,8 @@ class Columns {
     kept_.push_back({{place.z, owner}, slot.last});
     slot = {column, static_cast<std::uint32_t>(kept_.size() - 1)};
   }
-  /// Whether `accept` says so of an entry, newest first, in the column of `place`, or one up to `around` columns beside
-  /// it.
+  /// Whether `accept` returns true for an entry in the column of `place` or up to `around` columns beside it. Newest
+  /// entries first.
   template <class Accept>
   [[nodiscard]] bool any(const Vec3& place, int around, const Accept& accept) const {
     const std::int64_t x = index(place.x), y = index(place.y);
@@ -46,18 +46,18 @@ class Columns {
 
  private:
   [[nodiscard]] std::int64_t index(double x) const { return static_cast<std::int64_t>(std::floor(x / cell_)); }
-  /// Coordinates of up to 1e9 m fit: no two columns share a key.
+  /// Coordinates up to 1e9 m give distinct keys.
   [[nodiscard]] static std::uint64_t key(std::int64_t i, std::int64_t j) {
     return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xFFFFFFFFULL);
   }
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   struct Kept {
     Entry entry;
-    std::uint32_t before;  ///< in the same column; none
+    std::uint32_t before;  ///< the previous entry of the column; none
   };
   struct Slot {
     std::uint64_t column = 0;
-    std::uint32_t last = none;  ///< of its entries; none: the slot is free
+    std::uint32_t last = none;  ///< index of its newest entry; none: the slot is free
   };
 
   /// The slot of a column, or the free one where it would be.

@@ -19,31 +19,33 @@ namespace roam::training {
 
 namespace {
 
-/// m: a sample is not looked at where a place so near, in this column and level, has been reached.
+/// m: a sample is skipped if a place this near, in its column and in height, has been reached.
 constexpr double reached_column = 0.3;
-/// The samples that are looked at together: few at first, for most lie in what the first ones reach.
+/// Samples per batch: few at first, because the first ones reach most of the others.
 constexpr std::size_t first_batch = 16, last_batch = 4096;
-/// Of the work, as it is told: to look at the samples. What they found and is large is grown whole afterwards.
+/// Share of the progress for examining samples. Large components found that way are grown afterwards.
 constexpr double samples_share = 0.5;
-/// How many times as many places there may be of all components together as of one.
+/// Limit of the places of all components, as a multiple of the limit for one.
 constexpr std::uint64_t all_factor = 2;
-/// Of what is closed so many places at first: one that is huge is not to leave nothing for the others.
+/// Places in the first look at a closed component, so that a huge one does not use up the budget.
 constexpr std::uint64_t first_look = 30'000;
-/// Of open ground so many places are looked at in any case.
+/// Open ground may always have this many places.
 constexpr std::uint64_t least_open = 200'000;
-/// Fewer places that are closed are only what lies under something in an open scene.
+/// Closed components with fewer places in total do not limit open ground: in an open scene they only lie under
+/// something.
 constexpr std::uint64_t least_closed = 1'000;
-/// Of what began closed so many of the newest places are asked, after so many, and then each time it has grown so much:
-/// when most see the sky twice running, it is open ground.
+/// A component that began closed is open ground if most of its newest places see the sky in two checks running. The
+/// first check is after `first_asked` places, the next ones each time it has grown by `asked_growth`.
 constexpr std::size_t newest = 16;
 constexpr std::uint64_t first_asked = 512;
 constexpr double asked_growth = 1.25;
-/// How often one is asked whether to go on without any new place, or for so many new ones: usual are four times as
-/// many. Where something is known to be grown on anyway, what meets it need not go on at all.
+/// A look at a closed component ends after this many calls of its callback without a new place, plus one call for each
+/// `places_a_turn` new places. Usually a call brings four times as many. The look has then met a tree of an earlier
+/// look. If a look was cut, the first number is 0, because the large component is grown later anyway.
 constexpr std::uint64_t most_turns = 16, places_a_turn = 64;
 
-/// What a sample sees, in the order in which components are grown. What is closed comes first: it is soon grown whole,
-/// while what is open to the sky may go on for kilometres. What sees backs comes last, and often need not be grown.
+/// Surroundings of a sample, in the order in which components are grown. Closed ones come first: they are soon
+/// complete, while open ones may extend for kilometres. Samples that see backs come last, and often need not be grown.
 enum class Sight : std::uint8_t { closed, open, backs };
 
 class Search {
@@ -61,7 +63,8 @@ class Search {
     if (measure_.mode == Mode::walk)
       most_expected_ = std::min(cells_of_floors(), static_cast<double>(most_places_ * all_factor));
     std::size_t batch = first_batch;
-    // What is huge and closed would else be begun again and again, until nothing is left for the rest.
+    // Without the limit on places, huge closed components would be begun again and again until nothing is left for the
+    // rest.
     while (done_ < samples.size() && tree_.size() < most_places_ && asked_to_go_on()) {
       const std::size_t end = std::min(samples.size(), done_ + batch);
       for (const Start& start : starts({samples.data() + done_, samples.data() + end})) {
@@ -75,8 +78,8 @@ class Search {
       share_done_ = samples_share * static_cast<double>(done_) / static_cast<double>(samples.size());
       batch = std::min(2 * batch, last_batch);
     }
-    // What is large is grown on, in the order in which it was met: where the scene is detailed comes first. Then what
-    // came out into the open. They take over all other trees that they meet; components() joins what they leave.
+    // Grow large components on in the order of discovery, which puts detailed parts of the scene first. Then those that
+    // came out into the open. They take over all trees that they meet; components() joins the remains.
     std::size_t grown = 0;
     const auto one_more = [&] {
       const std::size_t all = large_.size() + came_out_.size() + open_.size() + backs_.size();
@@ -103,7 +106,7 @@ class Search {
   }
 
  private:
-  /// A place where a body can be and that nothing has reached.
+  /// A place with room for the body that no tree has reached.
   struct Start {
     Vec3 place{0.0};
     Sight sight = Sight::closed;
@@ -116,7 +119,7 @@ class Search {
     return !ended_;
   }
 
-  /// Of the work, by the places that there are already: at most one for each cell of the floors is expected.
+  /// Progress as estimated from the places so far. At most one place is expected for each cell of the floors.
   [[nodiscard]] double share_reached() const {
     if (!(most_expected_ > 0.0)) return 0.0;
     return samples_share * std::min(1.0, static_cast<double>(tree_.size()) / most_expected_);
@@ -152,7 +155,7 @@ class Search {
 
   void grow_from(const Start& start) {
     if (is_reached(start.place)) return;
-    // What is open to the sky and was not grown whole goes on under the other open samples.
+    // If open ground was cut short, the other open samples lie on its rest.
     if (start.open && open_was_cut_) return;
     const auto seed = tree_.seed(start.place);
     if (!seed || tree_.root(*seed) != ways::no_node) return;
@@ -160,7 +163,7 @@ class Search {
     grow(*seed, sight, sight == Sight::open ? most_open() : sight == Sight::closed ? first_look : most_places_);
   }
 
-  /// By at most `most_new` places.
+  /// Adds at most `most_new` places.
   void grow(ways::NodeId root, Sight sight, std::uint64_t most_new) {
     const std::size_t before = tree_.size();
     const std::uint64_t most_of_all = most_places_ * all_factor;
@@ -176,7 +179,7 @@ class Search {
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
       out = open_running == 2;
-      // It makes no new places where it has met a tree that was looked at before.
+      // A look that adds no places has met a tree that was examined before.
       const bool is_idle = is_look && turns++ > idle_turns + (places - before) / places_a_turn;
       return !out && !is_idle && places < most && asked_to_go_on();
     });
@@ -190,7 +193,7 @@ class Search {
     if (whole && sight == Sight::closed) closed_places_ += places_of(root);
   }
 
-  /// What was reached since it was last asked, new or seen earlier.
+  /// Notes the places reached since the last call, whether new or seen earlier.
   void note_reached() {
     for (std::size_t id = was_reached_.size(); id < tree_.size(); ++id) seen_.push_back(static_cast<ways::NodeId>(id));
     was_reached_.resize(tree_.size(), false);
@@ -220,21 +223,21 @@ class Search {
     return 2 * open > asked.size();
   }
 
-  /// Beside what is closed the open ground around is not worth more than that.
+  /// The limit for open ground: not more places than the closed components have.
   [[nodiscard]] std::uint64_t most_open() const {
     if (closed_places_ < least_closed || most_places_ <= least_open) return most_places_;
     return std::clamp(closed_places_, least_open, most_places_);
   }
 
-  /// Windings may be the wrong way round: then what sees backs is the scene. It is not where what is closed and sees
-  /// fronts is a good part of all floors: see judge().
+  /// Windings may be reversed; then the samples that see backs are the scene. Not if closed components that see fronts
+  /// cover a good part of all floors: see judge().
   [[nodiscard]] bool backs_may_be_the_scene() const {
     if (closed_places_ == 0) return true;
     const auto closed = static_cast<double>(closed_places_);
     return closed * reversed_ratio < cells_of_floors() - closed;
   }
 
-  /// How many cells of the lattice all floors cover, seen from above.
+  /// The number of lattice cells that all floors cover, seen from above.
   [[nodiscard]] double cells_of_floors() const {
     double area = 0.0;
     for (const TriangleId id : survey_.floor_triangles()) {
@@ -244,8 +247,8 @@ class Search {
     return area / (tree_.spacing() * tree_.spacing());
   }
 
-  /// Nobody is carried over a gap to whose bottom he walks: what hangs together only so comes apart. By id: which of
-  /// the places that hang in no tree now hung in a whole one.
+  /// Closes places over gaps whose bottom is reached on foot: no body is carried over those, so parts connected only by
+  /// them separate. Returns, by id, which places belonged to a whole tree before, if their tree was taken apart.
   [[nodiscard]] std::vector<bool> close_steps_down() {
     std::vector<bool> was_whole(tree_.size(), false);
     const std::vector<ways::NodeId> closed = tree_.over_steps_down(was_reached_);
@@ -259,7 +262,7 @@ class Search {
     return was_whole;
   }
 
-  /// Every place that was reached is in one of them.
+  /// The components of all reached places.
   [[nodiscard]] std::vector<Component> components() {
     std::vector<Component> found;
     std::unordered_map<ways::NodeId, std::size_t> number;
@@ -274,7 +277,7 @@ class Search {
     const std::vector<bool> was_whole = close_steps_down();
     for (const ways::NodeId root : whole_)
       if (tree_.root(root) == root) add(root, true);
-    // Of trees that were cut, one may have taken places from the middle of another.
+    // A tree that was cut may have lost places from its middle to another one.
     for (std::size_t id = 0; id < tree_.size(); ++id) {
       const auto node = static_cast<ways::NodeId>(id);
       if (!was_reached_[id] || number.contains(tree_.root(node))) continue;
@@ -291,8 +294,8 @@ class Search {
     return found;
   }
 
-  /// What could not be grown whole is no part of the scene that people come for where some other part has more of the
-  /// floors' triangles: the ground under a dam, beside its gallery.
+  /// Marks components that were not grown whole as unfinished if a whole one has more of the floors' triangles.
+  /// Example: the ground under a dam, beside its gallery.
   void mark_waste(std::vector<Component>& found) const {
     const auto is_whole = [](const Component& c) { return c.whole; };
     if (std::all_of(found.begin(), found.end(), is_whole) || std::none_of(found.begin(), found.end(), is_whole)) return;
@@ -311,18 +314,18 @@ class Search {
   std::uint64_t most_places_;
   const std::function<bool(double)>& goes_on_;
   Columns reached_{reached_column};
-  std::vector<bool> was_reached_;       ///< by id: in whichever tree
+  std::vector<bool> was_reached_;       ///< by id: in any tree
   std::vector<ways::NodeId> seen_;      ///< not reached yet, ascending
-  std::vector<ways::NodeId> whole_;     ///< roots of trees that nothing is beside
-  std::vector<Start> open_, backs_;     ///< samples that wait
-  std::vector<ways::NodeId> large_;     ///< roots of what is closed and was looked at, not grown whole
-  std::vector<ways::NodeId> came_out_;  ///< roots of what began closed and goes on in the open
-  std::uint64_t closed_places_ = 0;     ///< that were reached from closed samples
+  std::vector<ways::NodeId> whole_;     ///< roots of trees that cannot grow further
+  std::vector<Start> open_, backs_;     ///< samples that are grown later
+  std::vector<ways::NodeId> large_;     ///< roots of closed components that were begun, not grown whole
+  std::vector<ways::NodeId> came_out_;  ///< roots of components that began closed and continue in the open
+  std::uint64_t closed_places_ = 0;     ///< reached from closed samples
   std::size_t done_ = 0;
   double share_done_ = 0.0;     ///< of all the work
   double most_expected_ = 0.0;  ///< places; 0: not known
   bool open_was_cut_ = false;
-  bool look_was_cut_ = false;  ///< something closed is larger than what is looked at first
+  bool look_was_cut_ = false;  ///< a closed component is larger than a first look
   bool ended_ = false;
 };
 
@@ -336,7 +339,7 @@ std::vector<Component> find_components(const Survey& survey, const ways::Measure
   tbb::parallel_invoke([&] { trusted = windings_can_be_trusted(survey); },
                        [&] { samples = sample_places(survey, measure.mode, seed); });
   std::vector<Component> found = Search(survey, measure, tree, trusted, most_places, goes_on).run(samples);
-  // What is unfinished judges nothing: it may be anything, and larger than all the rest.
+  // Unfinished components take no part in the judgement: they may be larger than all the rest.
   const auto unfinished = std::stable_partition(found.begin(), found.end(),
                                                 [](const Component& c) { return c.verdict != Verdict::unfinished; });
   std::vector<Component> rest(std::make_move_iterator(unfinished), std::make_move_iterator(found.end()));

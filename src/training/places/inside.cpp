@@ -30,29 +30,30 @@ const char* to_string(Verdict verdict) {
 
 namespace {
 
-/// Places of a component that are asked, at most.
+/// Places of a component that are examined, at most.
 constexpr std::size_t asked = 64;
-/// Of the places of a component, or the directions that lead out of it: more than so many decide.
+/// More than this share of a component's places, or of the directions out of it, decides.
 constexpr double majority = 0.5;
-/// Windings are trusted where so many of the shared edges run both ways.
+/// Windings are trusted if at least this share of the shared edges runs both ways.
 constexpr double trusted_share = 0.9;
-/// Places of which a body can make no way: a component of fewer is none that is meant to be walked in.
+/// A component with fewer places is too small for a path: no part of the scene to walk in.
 constexpr std::size_t least_places = 8;
-/// m: what is no wider is a ledge, from which one falls on one side though there may be nothing at all on the other.
+/// m: a component no wider is a ledge if a body falls from one side of it, even if nothing at all lies on the other
+/// side.
 constexpr double ledge_width = 2.5;
-/// What is open to the sky beside something closed is a roof, or a niche outside, when it has not so much of its
-/// places.
+/// A component open to the sky needs this share of a closed one's places beside it. Otherwise it is a roof, or a niche
+/// outside.
 constexpr double least_open_share = 0.1;
-/// Flying: of the triangles that one sees that is open to the sky, what is closed must see so many to be the scene.
+/// Flying: closed components must see this share of the triangles that an open one sees, or they are not the scene.
 constexpr double least_seen_share = 0.1;
-/// What is closed counts as a room beside the largest part from so much of its places on, where windings do not tell.
+/// Without trusted windings, a closed component is a room if it has at least this share of the largest one's places.
 constexpr double least_closed_share = 0.25;
-/// m: the columns in which places are looked up.
+/// m: side of the columns for looking up places.
 constexpr double column = 0.5;
-/// m: what is lower is no room, where windings tell the inside of a solid from a room; and where they do not.
+/// m: the least height of a room, with windings that distinguish rooms from solids, and without.
 constexpr double low_room = 1.0;
 constexpr double sure_room = 1.5;
-/// m: how far beyond its last place a component is followed to where one falls from it.
+/// m: step beyond a component's last place to test for a fall.
 constexpr double stride = 0.4;
 
 class Judge {
@@ -80,8 +81,8 @@ class Judge {
       keep_what_may_be_rooms();
     sort_out_small();
     if (measure_.mode == Mode::fly) sort_out_hollows();
-    // Something is what the scene is for: with nothing left, that with the most places.
-    // But who fits on top of rooms alone is nowhere inside.
+    // Some part of a scene is its inside: if none is left, the component with most places. Exception: a body that fits
+    // only on top of low rooms is nowhere inside.
     const auto has = [&](Verdict verdict) {
       return std::any_of(components_.begin(), components_.end(),
                          [&](const Component& c) { return c.verdict == verdict; });
@@ -114,7 +115,7 @@ class Judge {
   [[nodiscard]] bool is_on_top(std::uint32_t i) {
     const bool open = components_[i].open_share > majority;
     if (measure_.mode != Mode::walk) {
-      // Who flies is over everything when outside: what is closed is the scene, where it is a good part of it.
+      // Outside, a flying body is over everything. So closed components are the scene if they see a good part of it.
       return open && closed_sees_ >= least_seen_share * static_cast<double>(seen_[i]);
     }
     return (open && (is_lid(i) || is_over_more(i))) || is_ledge(i);
@@ -126,7 +127,7 @@ class Judge {
       if (components_[i].open_share <= majority) closed_sees_ = std::max(closed_sees_, static_cast<double>(seen_[i]));
   }
 
-  /// In the open what is closed and sees little is within something solid, or under it.
+  /// In an open scene, a closed component that sees little lies within or under something solid.
   void sort_out_hollows() {
     double most = 0.0;
     for (std::size_t i = 0; i < components_.size(); ++i)
@@ -137,7 +138,7 @@ class Judge {
         components_[i].verdict = Verdict::smaller;
   }
 
-  /// Most places lie straight over another component: a roof, or the ground on top of a shallow tunnel.
+  /// Whether most places lie straight above another component: a roof, or the ground over a shallow tunnel.
   [[nodiscard]] bool is_lid(std::uint32_t i) const {
     const std::vector<ways::NodeId> chosen = some(components_[i]);
     std::size_t over = 0;
@@ -148,8 +149,8 @@ class Judge {
     return static_cast<double>(over) > majority * static_cast<double>(chosen.size());
   }
 
-  /// What is closed and lies straight under some of its places has more of the floors' triangles: the roof of a house
-  /// that is larger than the rooms.
+  /// Whether the closed components straight below its places have more of the floors' triangles, as under a roof that
+  /// is larger than the rooms of its house.
   [[nodiscard]] bool is_over_more(std::uint32_t i) {
     std::vector<bool> below(components_.size(), false);
     for (const ways::NodeId id : some(components_[i])) {
@@ -167,7 +168,7 @@ class Judge {
     return details > details_[i];
   }
 
-  /// Most places are open to the sky and lie straight over a room in which a lower body could be.
+  /// Whether most places are open to the sky and lie straight above a room that a lower body fits into.
   [[nodiscard]] bool is_over_low_rooms(const Component& c) const {
     if (measure_.mode != Mode::walk || c.open_share <= majority) return false;
     const std::vector<ways::NodeId> chosen = some(c);
@@ -193,7 +194,7 @@ class Judge {
         top_is_front = is_front;
       } else {
         const double high = *ceiling - down.point.z;
-        // The bottom of solid ground is seen from its back there; so is a floor where all is wound the wrong way round.
+        // The bottom of solid ground is seen from its back there. So is a floor in a scene with reversed windings.
         const bool is_floor = !trusted_ || is_front || !top_is_front;
         if (is_floor && high >= (trusted_ ? low_room : sure_room) && high < measure_.height) return true;
       }
@@ -203,11 +204,12 @@ class Judge {
     return false;
   }
 
-  /// Most ways out of it fall into a larger component: the top of a wall, a wardrobe, a roof.
+  /// Whether most ways out fall into a larger component: the top of a wall, a wardrobe, a roof.
   [[nodiscard]] bool is_ledge(std::uint32_t i) const {
     if (i == 0) return false;  // nothing is larger
     std::size_t ways_out = 0, falls = 0, voids = 0, looked_at = 0;
-    // Few places of a wide component are at its rim: all of a small one, and more of a large one, are asked.
+    // Few places of a wide component lie at its rim. So all places of a small component are examined, and a sample of a
+    // large one.
     const std::vector<ways::NodeId>& nodes = components_[i].nodes;
     const std::size_t stride_of_nodes = 1 + nodes.size() / (asked * asked);
     for (std::size_t n = 0; n < nodes.size(); n += stride_of_nodes) {
@@ -245,7 +247,7 @@ class Judge {
     return out;
   }
 
-  /// What one who goes on over the rim comes to.
+  /// The ground beyond a component's rim.
   enum class Beyond : std::uint8_t { other, larger, nothing };
   [[nodiscard]] Beyond beyond_rim(const ways::Node& node, const Vec3& direction, std::uint32_t i) const {
     const Vec3 eye = eye_over(measure_, node);
@@ -266,7 +268,7 @@ class Judge {
     return c.verdict == Verdict::on_top || c.verdict == Verdict::over_low_rooms;
   }
 
-  /// Windings say which side is out, and how much of the scene looks at which side says whether they say it right.
+  /// Marks components that see backs. If far more places see backs than fronts, the windings are reversed.
   void sort_out_backs() {
     double fronts = 0.0, backs = 0.0;
     for (const Component& c : components_) {
@@ -278,7 +280,7 @@ class Judge {
       if (!is_over_something(c) && (c.back_share > majority) != reversed) c.verdict = Verdict::backs;
   }
 
-  /// Scraps, and what is open to the sky and small beside what is not.
+  /// Marks scraps, and small components open to the sky beside larger closed ones.
   void sort_out_small() {
     std::size_t closed = 0;
     for (const Component& c : components_)
@@ -291,8 +293,8 @@ class Judge {
     }
   }
 
-  /// Where windings tell nothing, what is closed and not much smaller than the rest is a room, and not the inside of a
-  /// wardrobe; of what is open to the sky only the largest is the scene.
+  /// Without trusted windings, a closed component not much smaller than the rest is a room, unlike the inside of a
+  /// wardrobe. Only the largest component open to the sky is part of the scene.
   void keep_what_may_be_rooms() {
     std::size_t most = 0;
     for (Component& c : components_) {
@@ -309,9 +311,9 @@ class Judge {
   const ways::WidestTree& tree_;
   std::vector<Component>& components_;
   bool trusted_ = false;
-  std::vector<std::size_t> seen_;     ///< flying: surfaces, of each component
-  std::vector<std::size_t> details_;  ///< of each component, where they were asked for
-  double closed_sees_ = 0.0;          ///< the most of what is closed
+  std::vector<std::size_t> seen_;     ///< flying: triangles seen, of each component
+  std::vector<std::size_t> details_;  ///< of each component; empty until needed
+  double closed_sees_ = 0.0;          ///< the most that a closed component sees
   Columns columns_{column};
 };
 

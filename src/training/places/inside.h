@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What of a scene is meant to be walked in, told from what lies on top of it, behind it and within its walls.
+/// The parts of a scene to walk in, judged by surfaces above, behind and around them.
 
 #include <span>
 #include <vector>
@@ -9,42 +9,43 @@
 
 namespace roam::training {
 
-/// What rays from a place in all directions meet.
+/// Summary of rays from a place in all directions.
 struct Surroundings {
-  bool backs = false;  ///< most that meet something meet the back of a triangle
-  bool open = false;   ///< most of those upwards meet nothing
+  bool backs = false;  ///< most rays that hit anything hit the back of a triangle
+  bool open = false;   ///< most upward rays hit nothing
 };
 [[nodiscard]] Surroundings look_around(const Survey& survey, const Vec3& eye);
 
-/// Where a body looks from: the middle of what is free over a place.
+/// The eye of a body at a place: the middle of the free height above it.
 [[nodiscard]] Vec3 eye_over(const ways::Measure& measure, const ways::Node& node);
 
-/// The share of shared edges along which the two triangles run opposite ways, as those of a surface with a front and a
-/// back do. Edges of more than two triangles count as wrong, triangles that are there twice, the same way round, as
-/// one. 0 where less than half of all edges are shared: then nothing is known.
+/// The share of shared edges whose two triangles run along them in opposite directions, as in a surface with a front
+/// and a back. Edges of more than two triangles count as wrong; duplicate triangles with the same winding count as one.
+/// 0 if less than half of all edges are shared: then nothing is known.
 [[nodiscard]] double winding_share(const Survey& survey);
 
-/// Whether nearly all of them do.
+/// Whether winding_share() is at least 0.9.
 [[nodiscard]] bool windings_can_be_trusted(const Survey& survey);
 
-/// What looks at fronts is the outside of a scene that is wound the wrong way round, or lies within its walls, when it
-/// has not one place to so many that look at backs. The streets of a city have more to what is within its blocks.
+/// Windings are reversed if the places that look at backs are more than this many times those that look at fronts. Then
+/// the fronts face outside, or into the walls. In a city the streets have a larger share of the places than that.
 inline constexpr double reversed_ratio = 2.0;
 
-/// So few places that a body can make no way.
+/// Whether a component has too few places for a path.
 [[nodiscard]] bool is_scrap(const Component& component);
 
-/// How many of some triangles of the scene each component sees from beside them: one is what a scene is for when it
-/// sees much of it.
+/// For each component, the number of sampled triangles of the scene that it sees from nearby. A component that sees
+/// much of the scene is an important part of it.
 [[nodiscard]] std::vector<std::size_t> surfaces_seen(const Survey& survey, const ways::WidestTree& tree,
                                                      std::span<const Component> components);
 
-/// How many of some triangles of the floors are under the places of each component: where a scene is detailed is what
-/// people come for.
+/// For each component, the number of sampled floor triangles under its places. Detailed parts of a scene are the
+/// important ones.
 [[nodiscard]] std::vector<std::size_t> floor_details(const Survey& survey, const ways::WidestTree& tree,
                                                      std::span<const Component> components);
 
-/// Sets shares and verdicts of components, most places first, whose nodes are known. `trusted`: windings can be.
+/// Sets the shares and verdicts of components. They must be sorted by size, largest first, with known nodes. `trusted`:
+/// whether windings can be trusted.
 void judge(const Survey& survey, const ways::Measure& measure, const ways::WidestTree& tree, bool trusted,
            std::vector<Component>& components);
 

@@ -6,9 +6,9 @@
 namespace roam::training {
 namespace {
 
-/// m: the columns in which places are looked up, and how much higher or lower a place may be than a triangle.
+/// m: side of the columns for looking up places, and the largest difference in height between a place and a triangle.
 constexpr double column = 0.3;
-/// Triangles that are looked at, about.
+/// The number of examined triangles, about.
 constexpr std::size_t triangles_asked = 10'000;
 
 }  // namespace

@@ -11,13 +11,13 @@ namespace roam::training {
 
 namespace {
 
-/// Triangles that are asked, at most: spread over the scene's order.
+/// Triangles that are examined, at most, spread evenly over their order.
 constexpr std::uint64_t triangles_asked = 4096;
-/// m: the cells in which places are looked up. What is in sight and in the cells around has the triangle before it.
+/// m: side of the cells for looking up places. A place sees a triangle if it is in sight and in the cells around it.
 constexpr double cell = 0.5;
-/// m: so far before a triangle it is seen from.
+/// m: sight lines start this far in front of a triangle.
 constexpr double before = 0.02;
-/// Places of one component in one cell that are tried.
+/// Places of one component tried in one cell.
 constexpr int places_tried = 8;
 
 using CellKey = std::array<std::int64_t, 3>;
@@ -28,7 +28,7 @@ CellKey cell_of(const Vec3& p) {
   return key;
 }
 
-/// A place, where it can be found by its cell.
+/// A place, sorted by its cell.
 struct Entry {
   CellKey key;
   std::uint32_t owner;

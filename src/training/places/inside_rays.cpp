@@ -11,9 +11,9 @@ namespace roam::training {
 namespace {
 
 constexpr int rays = 48;
-/// z of a ray that counts as upwards: within 60 degrees of straight up.
+/// Least z of a ray that counts as upwards: within 60 degrees of straight up.
 constexpr double upwards = 0.5;
-/// m: longer rays are not asked for.
+/// m: the longest ray.
 constexpr double longest_ray = 1e5;
 
 /// Directions spread evenly over the sphere: a Fibonacci lattice (Gonzalez, "Measurement of areas on a sphere using

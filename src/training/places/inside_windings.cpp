@@ -15,7 +15,7 @@ namespace roam::training {
 
 namespace {
 
-/// About so many edges are looked at: chosen by where they are, so that all triangles of an edge are.
+/// The number of examined edges, about. Edges are sampled by position, so that all triangles of an edge are included.
 constexpr std::uint64_t edges_looked_at = 1'000'000;
 
 using Key = std::array<double, 6>;  ///< both ends of an edge, the lesser first
@@ -46,7 +46,7 @@ std::uint64_t hash(const Key& edge) {
   return h;
 }
 
-/// Those of some triangles of a mesh.
+/// The sampled sides of some triangles of a mesh.
 std::vector<Side> sides(const Mesh& mesh, std::size_t begin, std::size_t end, std::uint64_t one_in) {
   std::vector<Side> all;
   for (std::size_t i = begin; i < end; ++i) {

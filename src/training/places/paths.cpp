@@ -15,7 +15,7 @@ namespace {
 
 /// Paths of a simple scene, as in the paper.
 constexpr std::size_t usual_paths = 5;
-/// m: as far as an end is moved to where it is wider.
+/// m: how far an end may move to a wider place.
 constexpr double end_reach = 2.0;
 
 constexpr std::uint32_t no_room = ~std::uint32_t(0);
@@ -47,14 +47,15 @@ class Plan {
   [[nodiscard]] std::size_t index(ways::NodeId id) const { return index_[id]; }
   [[nodiscard]] bool is_here(ways::NodeId id) const { return index_[id] != nowhere; }
 
-  /// Which rooms the tree's ways go from straight to which.
+  /// For each room, the rooms that the tree's ways lead to directly.
   [[nodiscard]] std::vector<std::set<std::uint32_t>> links() const {
     std::vector<std::set<std::uint32_t>> links(rooms_.rooms.size());
     std::vector<std::vector<ways::NodeId>> children(component_.nodes.size());
     for (const ways::NodeId id : component_.nodes)
       if (tree_.parent(id) != ways::no_node && is_here(tree_.parent(id)))
         children[index(tree_.parent(id))].push_back(id);
-    // From the root outwards, with the last room that was met. Ways that begin in a neck meet their first one apart.
+    // Goes from the root outwards with the last room passed. Ways that begin in a neck take their first room from
+    // `first`.
     std::uint32_t first = no_room;
     std::vector<std::pair<ways::NodeId, std::uint32_t>> stack{{component_.root, no_room}};
     while (!stack.empty()) {
@@ -76,7 +77,7 @@ class Plan {
     return links;
   }
 
-  /// The rooms that have one link, in the order in which one meets them who always keeps to one hand.
+  /// The rooms with one link, in the order of a walk that always keeps to one hand.
   [[nodiscard]] static std::vector<std::uint32_t> leaves(const std::vector<std::set<std::uint32_t>>& links) {
     std::vector<std::uint32_t> order;
     std::vector<char> seen(links.size(), 0);
@@ -95,7 +96,8 @@ class Plan {
     return order;
   }
 
-  /// Joins each dead end with the one half way round: as any link cuts the round in two, some path crosses it.
+  /// Joins each dead end with the one half way around. Any link divides the round into two parts, so some path crosses
+  /// it.
   void cross_every_room(std::size_t count) {
     const std::vector<std::uint32_t> round = leaves(links());
     if (round.size() < 2) return;
@@ -106,14 +108,14 @@ class Plan {
     }
   }
 
-  /// A place of a room, at the widest place near it.
+  /// The widest place near a random place of a room.
   [[nodiscard]] ways::NodeId drawn_from(std::uint32_t room) {
     const std::vector<ways::NodeId>& nodes = rooms_.rooms[room].nodes;
     if (nodes.empty()) return rooms_.rooms[room].widest;
     return widest_near(nodes[draw_.below(nodes.size())]);
   }
 
-  /// The widest place of the same room within end_reach along the lattice; of equals the nearest.
+  /// The widest place of the same room within end_reach along the lattice; the nearest among equals.
   [[nodiscard]] ways::NodeId widest_near(ways::NodeId start) const {
     struct Step {
       double distance = 0.0;
@@ -140,16 +142,16 @@ class Plan {
     return widest;
   }
 
-  /// The room that a way begins in, or first comes to.
+  /// The first room on a way.
   [[nodiscard]] std::uint32_t first_room(const std::vector<ways::NodeId>& way) const {
     for (const ways::NodeId id : way)
       if (room_of_[index(id)] != no_room) return room_of_[index(id)];
     return no_room;
   }
 
-  /// `from`, or another place of its room where the way is narrowest before it has left that: what decides is the way
-  /// between rooms, not the corner that an end was drawn in. Towards another room the widest place of the room; within
-  /// one room as far along the way as it goes on widening.
+  /// `from`, or another place of its room if the way is narrowest inside that room: the way between rooms is to decide,
+  /// not the corner where an end was drawn. If the way leaves the room, that place is the room's widest. Otherwise it
+  /// lies along the way, as far as the way keeps widening.
   [[nodiscard]] ways::NodeId out_of_corner(ways::NodeId from, ways::NodeId to) const {
     std::vector<ways::NodeId> way = tree_.way(from, to);
     const std::uint32_t room = first_room(way);
@@ -162,8 +164,8 @@ class Plan {
     return narrower_(*within, *beyond) ? rooms_.rooms[room].widest : from;
   }
 
-  /// Where a way begins when it leaves out how it widens at first: as long as it is narrowest within end_reach of its
-  /// beginning, and wider by more than the lattice errs within as much again.
+  /// The beginning of a way without the part where it widens. Moves on while the narrowest place lies within end_reach
+  /// and a place wider by more than the lattice's error follows within that distance.
   [[nodiscard]] ways::NodeId widening(const std::vector<ways::NodeId>& way) const {
     constexpr float wider = 1.1F;
     auto begin = way.begin();
@@ -189,7 +191,7 @@ class Plan {
     visited_.insert(to);
   }
 
-  /// The place that most steps lead to from all ends so far.
+  /// The place with the most steps from all ends so far.
   [[nodiscard]] ways::NodeId farthest() const {
     std::vector<char> seen(component_.nodes.size(), 0);
     std::vector<std::size_t> round;
@@ -207,7 +209,8 @@ class Plan {
     return component_.nodes[round.back()];
   }
 
-  /// From the place that is farthest from all ends so far to the one that is then. The first begins where it is drawn.
+  /// Adds a path from the place farthest from all ends so far to the place farthest after that. The first path begins
+  /// at a random place.
   bool add_far_path() {
     const ways::NodeId from =
         widest_near(visited_.empty() ? component_.nodes[draw_.below(component_.nodes.size())] : farthest());
@@ -218,7 +221,7 @@ class Plan {
     return visited_.size() > before + (from == to ? 1 : 0) && from != to;
   }
 
-  /// Rooms that no way has crossed get a path of their own.
+  /// Gives each room that no way has crossed a path of its own.
   void visit_what_is_left() {
     if (rooms_.rooms.size() < 2) return;
     std::vector<char> crossed(rooms_.rooms.size(), 0);
@@ -244,7 +247,7 @@ class Plan {
   const Component& component_;
   const Rooms& rooms_;
   Draw draw_;
-  std::vector<std::uint32_t> index_;    ///< in the component, of each node of the tree; nowhere
+  std::vector<std::uint32_t> index_;    ///< index in the component of each node of the tree; nowhere
   std::vector<std::uint32_t> room_of_;  ///< of each node of the component; no_room in necks
   std::vector<Ends> ends_;
   std::set<ways::NodeId> visited_;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where in a scene a body can be, what belongs together, and where paths should lead.
+/// The places of a scene where a body can be, the components and rooms that they form, and the ends of paths.
 
 #include <cstdint>
 #include <functional>
@@ -13,84 +13,84 @@
 
 namespace roam::training {
 
-/// What a component is taken for; docs/training.md, "What is left out", has the rules.
+/// Classification of a component; docs/training.md, "What is left out", has the rules.
 enum class Verdict : std::uint8_t {
-  inside,          ///< a part of the scene that is meant to be walked in
-  backs,           ///< looks at the backs of triangles: outside of what is walked in, or within rock
-  over_low_rooms,  ///< on top of what the body is too tall for
-  on_top,          ///< of something: open to the sky over another component, or one falls from it into a larger one
-  smaller,     ///< than another and open to the sky as it is, where windings cannot tell; or a scrap of a few places
-  unfinished,  ///< not looked at whole, and without as much detail as another part: open country
+  inside,          ///< a part of the scene to walk in
+  backs,           ///< looks at the backs of triangles: outside the walkable part, or within rock
+  over_low_rooms,  ///< on top of rooms that are too low for the body
+  on_top,          ///< open to the sky over another component, or bodies fall from it into a larger one
+  smaller,         ///< smaller than another one, if windings are not trusted; or a scrap of a few places
+  unfinished,      ///< not explored whole, and less detailed than another part: open country
 };
 
 /// "inside", "backs", "over low rooms", "on top", "smaller" or "unfinished".
 [[nodiscard]] const char* to_string(Verdict verdict);
 
-/// Places that hang together for a body of `narrowest`.
+/// Places connected for a body of `narrowest`.
 struct Component {
   ways::NodeId root = ways::no_node;
   std::vector<ways::NodeId> nodes;  ///< ascending
-  double back_share = 0.0;          ///< of places from which most rays that hit something hit the backs of triangles
-  double open_share = 0.0;          ///< of places from which most rays upwards meet nothing
+  double back_share = 0.0;          ///< of places where most rays that hit anything hit the backs of triangles
+  double open_share = 0.0;          ///< of places where most upward rays hit nothing
   bool whole = true;                ///< false: ended early, by `most_places` or `goes_on`; it may go on, or join others
   bool inside = true;               ///< verdict == Verdict::inside
   Verdict verdict = Verdict::inside;
 };
 
-/// All components of the scene: sampled on its floors by area and by triangle (flying: in its box too), each grown
-/// whole in `tree`, most places first, unfinished ones last. Each place that was reached is in one of them. At least
-/// one is inside, where there is any but on top of rooms that are too low for the body. What only sees the backs of
-/// triangles is left out where it is plain that the windings are right. `most_places`: no component is grown beyond so
-/// many places, what is open to the sky not beyond as many as there are of what is closed, and all together not beyond
-/// twice as many. `goes_on` is asked now and then with about how much of the work is done, in [0, 1]; false ends it
-/// with what was found.
+/// All components of the scene: sampled on its floors by area and by triangle (when flying, in its box too). Each is
+/// grown whole in `tree`. Largest first, unfinished ones last. Each reached place is in one component. At least one is
+/// inside, unless all are on top of rooms too low for the body. Components that see only backs of triangles are left
+/// out if the windings are clearly right.
+///
+/// `most_places` limits each component. Open ground may not have more places than the closed components, and all
+/// components together not more than twice the limit. Calls `goes_on` now and then with about the fraction of work
+/// done; false ends the search with the components found.
 [[nodiscard]] std::vector<Component> find_components(const Survey& survey, const ways::Measure& measure,
                                                      ways::WidestTree& tree, std::uint64_t seed,
                                                      const std::function<bool(double)>& goes_on = {},
                                                      std::uint64_t most_places = 500'000);
 
-/// Asks for the rooms of a component without naming a radius: see find_rooms.
+/// As `radius` of find_rooms: no particular radius.
 inline constexpr double any_radius = std::numeric_limits<double>::infinity();
 
 /// A part of a component in which a body moves freely.
 struct Room {
-  std::vector<ways::NodeId> nodes;      ///< ascending; each place of a component is in one room or one neck
+  std::vector<ways::NodeId> nodes;      ///< ascending; each place of a component is in one room or in one neck
   ways::NodeId widest = ways::no_node;  ///< its place of most clearance
 };
-/// What joins rooms and only a smaller body passes.
+/// A passage between rooms that only a smaller body passes.
 struct Neck {
   std::vector<ways::NodeId> nodes;   ///< ascending, not empty
-  std::vector<std::uint32_t> rooms;  ///< that it touches, ascending, at least two
+  std::vector<std::uint32_t> rooms;  ///< the rooms that it touches, ascending, at least two
   double radius = 0.0;               ///< of the widest way through it between two of them, at lattice precision
 };
 struct Rooms {
   std::vector<Room> rooms;  ///< most places first
   std::vector<Neck> necks;  ///< widest first
-  /// Rooms from which necks lead to one other room only.
+  /// The number of rooms whose necks lead to one other room only.
   [[nodiscard]] std::size_t dead_ends() const;
 };
 
 /// The rooms of a component for a body of `radius`, and the necks between them. Connected places of clearance >=
-/// `radius` are a room, whatever is narrow within; and so is what lies behind a neck of less than 0.8 of its own
-/// clearance, even where all of it is less than `radius`. With `any_radius` only the second rule counts: rooms are
-/// what comes apart when a body grows, at whatever radius that is.
+/// `radius` form a room, even with narrow places inside. So do places behind a neck of less than 0.8 of their own
+/// clearance, even if all of them are narrower than `radius`. With `any_radius` only the second rule applies: rooms are
+/// the parts that separate as a body grows, at any radius.
 ///
-/// A neck is where the basins of two rooms meet, with all of the passage to both sides that is farther than `radius`,
-/// in sight, from where a body of `radius` can be (morphological opening: Serra, "Image Analysis and Mathematical
-/// Morphology", 1982). Necks between the same rooms that lie within a body's width of each other are one.
+/// A neck is where the basins of two rooms meet. It includes the passage on both sides as far as it is more than
+/// `radius`, in sight, from places for a body of `radius` (morphological opening: Serra, "Image Analysis and
+/// Mathematical Morphology", 1982). Necks between the same rooms that lie within a body's width of each other are one.
 [[nodiscard]] Rooms find_rooms(const Survey& survey, const ways::Measure& measure, const ways::WidestTree& tree,
                                const Component& component, double radius = any_radius);
 
-/// Pairs of places between which paths are planned, joined by the tree's own way.
+/// The ends of a path, which follows the tree's own way between them.
 struct Ends {
   ways::NodeId from = ways::no_node, to = ways::no_node;
 };
 
-/// Draws `count` pairs (0: 5, or the dead ends where there are more), by `seed`: every room lies on the way between
-/// two of them, as far as so many pairs can do that, and so does each neck that is the widest between its rooms. Each
-/// end is at the widest place of its room within 2 m, or elsewhere in it where the way would else be narrowest before
-/// it has left the room, or at its end. What is left over goes where no path has been yet. Empty when the component has
-/// but one place.
+/// Draws `count` pairs by `seed`. 0: 5 pairs, or as many as there are dead ends if that is more. As far as that number
+/// allows, every room lies on a way, and so does each neck that is the widest between its rooms. Each end is at the
+/// widest place of its room within 2 m. It lies elsewhere in the room if the way would be narrowest at that end or
+/// before it leaves the room. Further pairs lead where no path has been yet. Empty if the component has only one place.
 [[nodiscard]] std::vector<Ends> draw_paths(const ways::WidestTree& tree, const Component& component, const Rooms& rooms,
                                            int count, std::uint64_t seed);
 

@@ -16,7 +16,7 @@ std::string why(const Passage& passage) {
   return fmt::format("{} {:.2f} m wide", passage.opening ? to_string(passage.opening->kind) : "passage", width);
 }
 
-/// Where the middle of a body of `radius` may be that stands at, or touches, one of the places.
+/// The space for the middle of a body of `radius` that stands at one of the places or touches it.
 Box box_around(const ways::Measure& measure, const ways::WidestTree& tree, const std::vector<ways::NodeId>& nodes,
                double radius) {
   Box box;

@@ -15,9 +15,9 @@ namespace roam::training {
 
 namespace {
 
-/// In spacings: as far as a place may be from the nearest one of a lattice that lies beside the place meant.
+/// Spacings: the largest distance of a place from the nearest lattice point, for a lattice that is not aligned with it.
 constexpr double lattice_slack = 0.75;
-/// m: necks between the same rooms are one when they are nearer, where no radius is named.
+/// m: with any_radius, necks between the same rooms are one if they are nearer.
 constexpr double near_without_radius = 0.5;
 
 class Partition {
@@ -48,7 +48,7 @@ class Partition {
       if (room_[edge.a] != room_[edge.b]) in_neck_[edge.a] = in_neck_[edge.b] = 1;
   }
 
-  /// Places farther than radius_, in sight, from any where a body of radius_ can be, in basins that have such places.
+  /// Marks places more than radius_, in sight, from any place for a body of radius_, in basins that have such places.
   void find_narrows() {
     std::vector<char> has_wide(room_.size(), 0);
     for (Place p = 0; p < room_.size(); ++p)
@@ -61,8 +61,8 @@ class Partition {
 
   [[nodiscard]] bool is_wide(Place p) const { return double(graph_.clearance[p]) >= radius_; }
 
-  /// For each place a wide one at most `reach` away, in sight: the fronts of all wide places go from place to place and
-  /// take along where they came from. `none`: there is none.
+  /// For each place, a wide one at most `reach` away and in sight; `none` if there is none. Fronts spread from all wide
+  /// places over their neighbours and remember their origin.
   [[nodiscard]] std::vector<Place> nearest_wide(double reach) const {
     struct Front {
       double distance = 0.0;
@@ -100,7 +100,8 @@ class Partition {
     return goes_straight(survey_, measure_, graph_.where[from], graph_.where[to], measure_.narrowest);
   }
 
-  /// A passage that two or more rooms meet in. What meets one room only is a corner of it, and goes back to it.
+  /// A neck is a passage where two or more rooms meet. A passage that touches only one room is a corner of it and
+  /// returns to it.
   void make_necks(Rooms& result) {
     DisjointSets passages(room_.size());
     for (const PlaceEdge& edge : graph_.edges)
@@ -139,7 +140,7 @@ class Partition {
     double radius = 0.0;
   };
 
-  /// The widest place of a room is never one of a neck.
+  /// Takes each room's widest place out of its neck.
   void keep_rooms_from_vanishing(std::map<std::uint32_t, Found>& necks) {
     widest_.assign(room_.size(), none);
     for (Place p = 0; p < room_.size(); ++p) {
@@ -160,7 +161,7 @@ class Partition {
     return box;
   }
 
-  /// Necks between the same rooms that lie near each other are one.
+  /// Joins necks between the same rooms that lie near each other.
   [[nodiscard]] std::vector<Found> merged(const std::map<std::uint32_t, Found>& found) const {
     std::vector<Found> necks;
     for (const auto& [name, neck] : found)
@@ -187,7 +188,7 @@ class Partition {
     return necks;
   }
 
-  /// Rooms by size, and the numbers in necks with them.
+  /// Sorts the rooms by size, and updates their numbers in the necks.
   void make_rooms(Rooms& result) const {
     const std::uint32_t count = room_.empty() ? 0 : 1 + *std::max_element(room_.begin(), room_.end());
     std::vector<Room> rooms(count);

@@ -14,20 +14,20 @@ namespace roam::training {
 
 namespace {
 
-/// About so many samples are drawn by area, and so many by triangle.
+/// The number of samples by area and by triangle, about.
 constexpr double samples_by_area = 20'000.0;
 constexpr std::uint64_t samples_by_triangle = 10'000;
-/// m. Floors are not sampled more closely: what fits into a cell of this size is no room.
+/// m. Floors are not sampled more densely: a cell of this size holds no room.
 constexpr double smallest_cell = 0.5;
-/// m above the floor: where a flying body begins.
+/// m above the floor: the start of a flying body.
 constexpr double lift = 0.5;
 
-/// A point, and the number that says when it is its turn.
+/// A point with its position in a random order.
 struct Sample {
   std::uint64_t turn = 0;
   Vec3 place{0.0};
 };
-/// The halves of all turns: samples by triangle come before those by area and by volume.
+/// Each kind of sample uses half of the numbers: samples by triangle come before those by area and by volume.
 constexpr std::uint64_t first_half(std::uint64_t turn) { return turn >> 1; }
 constexpr std::uint64_t second_half(std::uint64_t turn) { return turn | (std::uint64_t(1) << 63); }
 
@@ -35,18 +35,18 @@ double area(const Triangle& t) { return 0.5 * glm::length(glm::cross(t[1] - t[0]
 
 bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// The corners in an order that does not depend on the file's.
+/// The corners in an order that is independent of the file's.
 Triangle ordered(Triangle t) {
   std::sort(t.begin(), t.end(), before);
   return t;
 }
 
-/// Twice the area of the projection on the floor plan, positive counter-clockwise.
+/// Twice the area of the projection on the plan, positive if counter-clockwise.
 double plan_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Puts a sample on `t` over each point of the lattice of `cell` (m, from `origin`) that lies under it.
+/// Puts a sample on `t` above each point of the lattice of `cell` (m, from `origin`) below it.
 void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uint64_t seed, std::vector<Sample>& out) {
   const double whole = plan_area(t[0], t[1], t[2]);
   if (whole == 0.0) return;

@@ -9,9 +9,9 @@
 namespace roam::ways {
 namespace {
 
-/// Times `widest`: farther than this from the box of all triangles and both ends nobody flies.
+/// Times `widest`: the cubes end this far outside a box of all triangles and both ends.
 constexpr double outside_reach = 2.0;
-/// m: nothing is looked for farther from the middle of a cube.
+/// m: queries from a cube's middle reach no farther.
 constexpr double farthest_look = 0.5 * Space::reach_limit;
 
 float rounded_down(double value) {
@@ -27,7 +27,7 @@ float rounded_up(double value) {
 
 FlyCells::FlyCells(const Survey& survey, const Measure& measure, double spacing, const Vec3& from, const Vec3& to)
     : survey_(survey), measure_(measure), within_(survey.world().bounds()) {
-  // Outside a box that holds all triangles and both ends no way leads anywhere that does not lead along its sides.
+  // A way outside the box of all triangles and both ends gains nothing over one along the box's sides.
   within_.include(from);
   within_.include(to);
   within_ = within_.grown(outside_reach * measure.widest);
@@ -47,7 +47,7 @@ Vec3 FlyCells::middle(const Cell& cell) const {
 Vec3 FlyCells::centre(CellId id) const { return middle(cells_[id]); }
 double FlyCells::half_diagonal(CellId id) const { return 0.5 * std::sqrt(3.0) * side(id); }
 
-/// From a point to the corner of a cube that is farthest from it.
+/// The distance from a point to the cube's farthest corner.
 double FlyCells::farthest(const Cell& cell, const Vec3& from) const {
   const double half = 0.5 * unit_ * static_cast<double>(std::int32_t{1} << (deepest - cell.depth));
   return glm::length(glm::abs(middle(cell) - from) + Vec3(half));
@@ -62,7 +62,7 @@ FlyCells::Cell FlyCells::measured(std::int32_t x, std::int32_t y, std::int32_t z
   const double side = unit_ * static_cast<double>(std::int32_t{1} << (deepest - depth));
   const Vec3 place = middle(cell);
   const Vec3 beyond = glm::max(within_.lower - place, place - within_.upper);
-  if (std::max({beyond.x, beyond.y, beyond.z}) > 0.5 * side) return cell;  // where nobody flies: free for nobody
+  if (std::max({beyond.x, beyond.y, beyond.z}) > 0.5 * side) return cell;  // outside the searched air
   const double reach = std::min(measure_.widest + std::sqrt(3.0) * side, farthest_look);
   const Clearance near = survey_.world().clearance({0.0, 0.0}, place, reach);
   cell.free = rounded_down(std::max(0.0, near.distance));
@@ -119,7 +119,7 @@ void FlyCells::tighten(CellId id) {
   const Vec3 off = place - points[0];
   const double length = glm::length(off);
   if (!(length > 0.0)) return;
-  // What is on the other side, and what is nearest to the middle between the two.
+  // Adds the nearest surface on the opposite side, and the surfaces nearest to the middle between the two.
   const Impact across = world.ray(place, (2.0 * reach / length) * off);
   if (across.hit) {
     points[count++] = across.point;
@@ -127,7 +127,7 @@ void FlyCells::tighten(CellId id) {
     constexpr double beyond = 0.25;
     if (look(between)) look(between + beyond * (points[1] - between));
   }
-  // Of two points the nearer one is at most as far as the mean of the squares says.
+  // The nearer of two points is at most as far away as the root mean square of both distances.
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       const Vec3 between = 0.5 * (points[a] + points[b]);
@@ -149,7 +149,7 @@ void FlyCells::on_face(CellId id, int axis, bool upper, const Cell& of, const st
   const std::int32_t half = size_of(id) / 2;
   const CellId parts = cells_[id].parts;
   for (int part = 0; part < 8; ++part) {
-    // Beside an upper face lie the lower parts.
+    // The upper face of the given cube touches lower parts, and the lower face upper parts.
     if (((part >> axis) & 1) == (upper ? 1 : 0)) continue;
     const Cell& p = cells_[parts + static_cast<CellId>(part)];
     const auto overlaps = [&](std::int32_t a, std::int32_t b) { return a < b + size && b < a + half; };
@@ -169,7 +169,7 @@ void FlyCells::beside(CellId id, const std::function<bool(CellId)>& is_fine, con
       std::int32_t& along = at[static_cast<std::size_t>(axis)];
       along += upper ? size : -size;
       if (along < 0 || along >= whole) continue;
-      // The smallest cube there that is at least as large.
+      // The smallest cube there that is at least as large as the given one.
       CellId there = 0;
       while (is_split(there) && size_of(there) > size) there = part_at(there, at[0], at[1], at[2]);
       on_face(there, axis, upper, of, is_fine, found);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The air of a scene in cubes: large in the open, split where something is near and where it is looked at closely.
+/// The air of a scene in cubes: large in the open, small near surfaces and where a search needs detail.
 
 #include <cstdint>
 #include <functional>
@@ -13,15 +13,15 @@ namespace roam::ways {
 using CellId = std::uint32_t;
 inline constexpr CellId no_cell = ~CellId(0);
 
-/// An octree over the scene's box and what flies around it. A cube is split by asking how far its eight parts' middles
-/// are from everything; what has been asked is kept. Not safe to use from several threads.
+/// An octree over the scene's box and the air around it. Splitting a cube queries the clearance at the middles of its
+/// eight parts and stores it. Not safe to use from several threads.
 class FlyCells {
  public:
-  /// Of ways from one place to another; `survey` must outlive it. Sides are `spacing` times powers of two.
+  /// For ways between two places; `survey` must outlive it. Sides are `spacing` times powers of two.
   FlyCells(const Survey& survey, const Measure& measure, double spacing, const Vec3& from, const Vec3& to);
 
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
-  /// The cube that a place lies in, of those that are not split; no_cell where nobody flies.
+  /// The leaf cube that contains a place; no_cell outside the searched air.
   [[nodiscard]] CellId at(const Vec3& place) const;
   [[nodiscard]] Vec3 centre(CellId id) const;
   [[nodiscard]] double side(CellId id) const { return unit_ * size_of(id); }
@@ -30,21 +30,21 @@ class FlyCells {
   /// Too small to be split.
   [[nodiscard]] bool is_smallest(CellId id) const { return cells_[id].depth == deepest; }
 
-  /// m, certified: how far the middle of a cube is from everything.
+  /// m, certified: the clearance at the middle of a cube.
   [[nodiscard]] double free(CellId id) const { return cells_[id].free; }
-  /// m, certified: no place of the cube is farther from everything.
+  /// m, certified: no place of the cube has a larger clearance.
   [[nodiscard]] double most(CellId id) const { return cells_[id].most; }
-  /// All of a cube is at least that far from everything.
+  /// All of a cube has at least this clearance.
   [[nodiscard]] bool is_open(CellId id, double radius) const { return free(id) - half_diagonal(id) >= radius; }
 
   void split(CellId id);
-  /// Makes `most` of a cube less where something is near on two sides.
+  /// Lowers `most` of a cube that has surfaces on two sides.
   void tighten(CellId id);
 
-  /// Calls `found` with each cube beside a cube that shares a part of a face with it and that `is_fine` does not want
-  /// split: those that it does are split first.
+  /// Calls `found` with each cube that shares a part of a face with the given one. Splits those for which `is_fine` is
+  /// false first.
   void beside(CellId id, const std::function<bool(CellId)>& is_fine, const std::function<void(CellId)>& found);
-  /// The middle of what two cubes side by side share.
+  /// The middle of the face part that two neighbouring cubes share.
   [[nodiscard]] Vec3 portal(CellId a, CellId b) const;
 
  private:
@@ -56,7 +56,7 @@ class FlyCells {
     bool tight = false;
   };
 
-  /// Of a cube that is split, the part that a place (in units) lies in.
+  /// The part of a split cube that contains a place (in units).
   [[nodiscard]] CellId part_at(CellId id, std::int32_t x, std::int32_t y, std::int32_t z) const;
   [[nodiscard]] std::int32_t size_of(CellId id) const { return std::int32_t{1} << (deepest - cells_[id].depth); }
   [[nodiscard]] Cell measured(std::int32_t x, std::int32_t y, std::int32_t z, int depth) const;
@@ -65,7 +65,7 @@ class FlyCells {
   void on_face(CellId id, int axis, bool upper, const Cell& of, const std::function<bool(CellId)>& is_fine,
                const std::function<void(CellId)>& found);
 
-  static constexpr int deepest = 28;  ///< times that the whole may be halved
+  static constexpr int deepest = 28;  ///< halvings of the whole box at most
 
   const Survey& survey_;
   const Measure measure_;

@@ -9,22 +9,23 @@
 namespace roam::ways {
 namespace {
 
-/// Cubes followed before anybody is asked whether to go on.
+/// Cubes followed between two calls of `goes_on`.
 constexpr std::uint64_t between_questions = 256;
-/// Of the side of the largest cube that never reaches through a wall without thickness, the radius: such a cube's
-/// farthest corner is sqrt(1 + 1/4 + 1/4) sides from a wall that its middle is half a side from.
+/// Sides. For a radius at least this large, no cube reaches through a wall without thickness. If its middle is half a
+/// side from the wall, its farthest corner is sqrt(1 + 1/4 + 1/4) sides from the nearest point of the wall.
 constexpr double through_wall = 1.25;
-/// Of the radius, the side of cubes near what it may touch: a door a third wider is met by a row of them.
+/// Radii: the side of cubes near surfaces that the sphere may touch. A row of such cubes fits into a door a third wider
+/// than the sphere.
 constexpr double side_share = 1.0 / 1.5;
-/// Of the spacing: cubes are as small for small radii.
+/// Spacings: the side of cubes for small radii.
 constexpr double finest_share = 0.5;
-/// m: cubes are split to no less along a way that is unsure.
+/// m: cubes along an unsure way are not split below this side.
 constexpr double least_side = 2e-3;
-/// Ways keep off the walls by as many radii where that costs little.
+/// Radii. Ways keep this far from walls if that costs little.
 constexpr double roomy = 1.5;
-/// A cube that may be closed costs as much as so many that are free.
+/// The cost of a cube that may be closed, relative to a free cube.
 constexpr double unsure_cost = 8.0;
-/// m: the middles of cubes that are farther apart are not near each other, and nor are those of cubes as large.
+/// m: pairs of middles farther apart are not near each other.
 constexpr double near = 2.0;
 constexpr double largest_near = 1.0;
 
@@ -38,11 +39,11 @@ double distance_between(const Box& a, const Box& b) {
   return glm::length(glm::max(glm::max(a.lower - b.upper, b.lower - a.upper), Vec3(0.0)));
 }
 
-/// The two nearest of two sets of middles. Both are halved, and halves that are farther apart than a pair that is known
-/// are left out: what is reached on both sides of a wall may be ten thousands.
+/// The two nearest of two sets of middles, found by halving both sets. Halves farther apart than a known pair are
+/// skipped: both sides of a wall may hold ten thousands of cubes.
 class NearestPair {
  public:
-  /// `goes_on` is asked now and then; false ends the search, with no pair.
+  /// Calls `goes_on` now and then; if it returns false, the search ends without a pair.
   explicit NearestPair(std::function<bool()> goes_on) : goes_on_(std::move(goes_on)) {}
 
   void look(std::span<Middle> one, std::span<Middle> other) {
@@ -74,7 +75,7 @@ class NearestPair {
     return box;
   }
 
-  /// Across the longest side of their box. Which are in which half depends on nothing else.
+  /// Halves by the longest side of their box. The halves depend on nothing else.
   static std::pair<std::span<Middle>, std::span<Middle>> halves(std::span<Middle> all, const Box& box) {
     const Vec3 size = box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -124,14 +125,14 @@ FlySearch::FlySearch(const Survey& survey, const Measure& measure, double spacin
 double FlySearch::least_closed() const { return through_wall * finest_share * spacing_; }
 double FlySearch::side_for(double radius) const { return std::max(finest_share * spacing_, side_share * radius); }
 
-/// A cube whose middle is free never reaches through a wall: it may be twice as large.
+/// A cube with a free middle never reaches through a wall, so it may be twice as large.
 bool FlySearch::is_fine(CellId cell) const {
   const double limit = cells_.free(cell) >= radius_ ? 2.0 * side_limit_ : side_limit_;
   return cells_.side(cell) <= limit || cells_.most(cell) < radius_ || cells_.is_open(cell, radius_) ||
          cells_.is_smallest(cell);
 }
 
-/// Whether the centre of the sphere may be in a cube, as this search takes it.
+/// Whether a cube may hold the sphere's centre, under the assumptions of this search.
 bool FlySearch::may_hold(CellId cell) {
   if (cells_.free(cell) >= radius_) return true;
   if (certain_ || cells_.most(cell) < radius_) return false;
@@ -150,7 +151,7 @@ bool FlySearch::goes(const Vec3& from, double free, const Vec3& to) const {
   return !survey_.world().sweep({radius_, 0.0}, from, to - from).hit;
 }
 
-/// Whether the sphere goes from the middle of a cube to that of one beside it: by what they share.
+/// Whether the sphere goes from the middle of a cube to that of its neighbour, through the face that they share.
 bool FlySearch::links(CellId a, CellId b) const {
   const Vec3 one = cells_.centre(a), other = cells_.centre(b), between = cells_.portal(a, b);
   const double free = cells_.free(a), there = cells_.free(b);
@@ -173,7 +174,7 @@ void FlySearch::reach(Side& side, CellId cell, CellId before, double cost) {
   std::push_heap(side.open.begin(), side.open.end(), Open::later);
 }
 
-/// The cubes about both ends, as fine as this search has them. False: one end lies where nobody flies.
+/// Starts a search: splits the cubes at both ends as finely as it needs. False if an end lies outside the searched air.
 bool FlySearch::begin(double radius, bool certain) {
   radius_ = radius;
   certain_ = certain;
@@ -203,7 +204,7 @@ bool FlySearch::begin(double radius, bool certain) {
         reach(side, id, no_cell, glm::distance(side.end, cells_.centre(id)));
     }
   }
-  // The ends may lie in one cube, or in two side by side.
+  // The ends may lie in one cube, or in two neighbouring ones.
   for (const Open& open : sides_[0].open) {
     if (reached(sides_[1], open.cell)) met_ = open.cell;
   }
@@ -249,7 +250,7 @@ Flight FlySearch::run() {
   }
 }
 
-/// The cubes from the start to the goal by where the sides met.
+/// The cubes from the start to the goal, through the cube where both sides met.
 std::vector<CellId> FlySearch::met_cells() const {
   std::vector<CellId> cells;
   for (CellId id = met_; id != no_cell; id = sides_[0].visits[id].before) cells.push_back(id);
@@ -268,8 +269,8 @@ void FlySearch::set_way(const std::vector<CellId>& cells) {
   way_.push_back(sides_[1].end);
 }
 
-/// Splits those cubes of a way that are not known to be free, and their like beside them. False: none can be split, or
-/// the way is free as it is.
+/// Splits the cubes of a way that are not known to be free, and neighbours of the same kind. Returns false if none can
+/// be split or if the way is free already.
 bool FlySearch::split_unsure(const std::vector<CellId>& cells) {
   std::vector<CellId> unsure;
   for (std::size_t i = 0; i < cells.size(); ++i) {

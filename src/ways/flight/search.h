@@ -14,42 +14,42 @@ namespace roam::ways {
 /// How a search for one radius ended.
 enum class Flight : std::uint8_t {
   found,     ///< a way: certified
-  none,      ///< there is no way: certified, by a search that trusts nothing but what it knows to be closed
-  not_seen,  ///< a search that trusts only what it knows to be free found none
-  unsure,    ///< ways are left that could be neither flown nor closed
-  ended,     ///< by `goes_on`
+  none,      ///< no way exists: certified by a search through every cube that is not known to be closed
+  not_seen,  ///< a search through cubes known to be free found no way
+  unsure,    ///< some ways could neither be flown nor closed
+  ended,     ///< `goes_on` returned false
 };
 
-/// The searches between two places. The nearer to the goal, and the wider a way is, the earlier it is followed (A*:
-/// Hart, Nilsson and Raphael, 1968), from both ends in turn until they meet or all that is in reach of one is known: so
-/// a yes costs about what lies along the way, and a no what lies around the end with less around it.
+/// Searches between two places. Prefers cubes near the goal and wide ways (A*: Hart, Nilsson and Raphael, 1968). Runs
+/// from both ends in turn, until they meet or one end's reach is exhausted. So finding a way costs about the cubes
+/// along it, and finding none costs the reach of the smaller side.
 class FlySearch {
  public:
-  /// `goes_on` is asked now and then with the number of cubes; false ends the search.
+  /// Calls `goes_on` now and then with the number of cubes; false ends the search.
   FlySearch(const Survey& survey, const Measure& measure, double spacing, const Vec3& from, const Vec3& to,
             std::function<bool(std::uint64_t)> goes_on);
 
-  /// Whether a sphere of `radius` gets through cubes that may hold its centre, split along the ways that are met `most`
-  /// times at most. none: nobody of this radius or a larger one does.
+  /// Whether a sphere of `radius` gets through cubes that may hold its centre. Splits cubes along the ways that it
+  /// finds, `most` times at most. `none` holds for all larger spheres too.
   Flight look(double radius, int most);
-  /// The same through cubes that are known to be free: what is narrower than they are is overlooked.
+  /// The same through cubes that are known to be free. It overlooks passages narrower than these cubes.
   Flight look_where_free(double radius);
-  /// Of the last search that found one: through places that the sphere goes straight between.
+  /// The way of the last search that found one: places between which the sphere goes straight.
   [[nodiscard]] const std::vector<Vec3>& way() const { return way_; }
 
-  /// The least radius of which `look` can say that there is no way: cubes as large as the spacing reach through thin
-  /// walls for smaller ones.
+  /// The least radius for which `look` can return `none`. For smaller ones, cubes as large as the spacing reach through
+  /// thin walls.
   [[nodiscard]] double least_closed() const;
-  /// m: the side that cubes are split to for a radius, near what it may touch.
+  /// m: the side of cubes near surfaces that a sphere of `radius` may touch.
   [[nodiscard]] double side_for(double radius) const;
-  /// Cubes that were looked at.
+  /// The number of cubes so far.
   [[nodiscard]] std::uint64_t places() const { return cells_.size(); }
-  /// Where what the last search reached from the start comes nearest to what it reached from the goal: both are grown
-  /// to about the same number of cubes first. None where they are far apart.
+  /// The nearest pair of places that the last search reached from the start and from the goal. First grows both sides
+  /// to about the same number of cubes. None if the sides are far apart.
   [[nodiscard]] std::optional<std::array<Vec3, 2>> nearest_approach();
 
  private:
-  /// What is known of a cube in the search from one of the ends.
+  /// State of a cube in the search from one end.
   struct Visit {
     std::uint32_t search = 0;  ///< the number of the search that reached it
     bool done = false;
@@ -58,9 +58,9 @@ class FlySearch {
   };
   struct Open {
     double key = 0.0;
-    std::uint64_t number = 0;  ///< of equals the first that was found
+    std::uint64_t number = 0;  ///< order of discovery, among equal keys
     CellId cell = no_cell;
-    /// Of a heap whose first is followed next.
+    /// Order of a heap whose first element is followed next.
     static bool later(const Open& a, const Open& b) { return a.key != b.key ? a.key > b.key : a.number > b.number; }
   };
   struct Side {
@@ -96,7 +96,7 @@ class FlySearch {
   bool certain_ = false;
   std::uint32_t search_ = 0;
   std::uint64_t pushed_ = 0;
-  CellId met_ = no_cell;  ///< where the sides meet
+  CellId met_ = no_cell;  ///< the cube where the sides met
 };
 
 }  // namespace roam::ways

@@ -13,20 +13,20 @@
 namespace roam::ways {
 namespace {
 
-/// From one radius that is looked for to the next smaller one.
+/// The ratio between one tried radius and the next smaller one.
 constexpr double next_radius = 0.75;
-/// Of what fits at the ends, where they decide: there the way leads off a wall.
+/// The first tried radius, as a share of the smaller clearance at the ends, where a way leads off a wall.
 constexpr double beside_ends = 0.95;
-/// m: a way wider by no more than this is not looked for.
+/// m: the least gain in radius worth a search.
 constexpr double wider = 4e-3;
-/// By how much more is looked for next, where it cannot be said that there is none as wide.
+/// The growth of that gain after an unsure search.
 constexpr double coarser = 4.0;
-/// How often cubes are split along a way that is unsure: while the first way is looked for, and while a wider one is.
+/// How often cubes along an unsure way are split, for the first way and for wider ones.
 constexpr int first_splits = 6;
 constexpr int more_splits = 150;
-/// Wider ways that are taken one after the other, at most.
+/// Wider ways taken one after the other, at most.
 constexpr int most_improvements = 24;
-/// m: of a clearance.
+/// m: rounding of a clearance.
 constexpr double rounding = 1e-4;
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ class WidestFlight {
     return passage;
   }
 
-  /// Ways wider than one that is known, as long as there are any.
+  /// Widens a known way as long as wider ones are found.
   Passage improved(Passage best) {
     for (int turn = 0; turn < most_improvements && best.limited && !ended_; ++turn) {
       double more = wider;
@@ -98,12 +98,12 @@ class WidestFlight {
     return !ended_;
   }
 
-  /// The way that was found, as wide as it goes.
+  /// The way that was found, made as wide as possible.
   Passage taken(double radius) {
     const std::vector<Vec3>& way = search_.way();
     Passage passage = refine(survey_, measure_, std::max(options_.spacing, search_.side_for(radius)), way);
     if (passage.found && passage.radius >= radius) return passage;
-    // What it was found for is certified as it is.
+    // Refinement lost width, but the way itself is certified for `radius`.
     passage = Passage{};
     Stations stations;
     double least = unknown;
@@ -125,7 +125,7 @@ class WidestFlight {
     return passage;
   }
 
-  /// Where there is no way: what parts the two ends.
+  /// If there is no way: the gap between the two ends.
   void break_off(Passage& passage) {
     const auto pair = search_.nearest_approach();
     if (!pair) return;

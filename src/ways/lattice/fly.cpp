@@ -9,12 +9,12 @@ namespace roam::ways {
 namespace {
 
 constexpr int directions = 26;
-/// Spacings: a place that is asked for is taken to one of the lattice at most so far away.
+/// Spacings. A given place is moved to a lattice point at most this far away.
 constexpr double seed_reach = 1.5;
-/// Times `widest`: farther than this from all triangles nobody flies.
+/// Times `widest`: the lattice ends this far outside the box of all triangles.
 constexpr double outside_reach = 2.0;
 
-/// All steps of -1, 0 or 1 along each axis but the one that stays; the opposite of one is that much before the last.
+/// All steps of -1, 0 or 1 along each axis, except (0, 0, 0). The opposite of step `i` is step `directions - 1 - i`.
 constexpr std::array<LatticePoint, directions> make_steps() {
   std::array<LatticePoint, directions> steps{};
   std::size_t n = 0;
@@ -38,11 +38,11 @@ Box near_scene(const Survey& survey, const Measure& measure, const Box& within) 
   return box;
 }
 
-/// What a place of the lattice knows of itself, beside its Node: sets of directions, a bit each.
+/// State of a lattice point beside its Node: sets of directions, one bit each.
 struct Cell {
   LatticePoint at;
-  std::uint32_t settled = 0;  ///< that were looked at
-  std::uint32_t linked = 0;   ///< in which there is a neighbour
+  std::uint32_t settled = 0;  ///< directions already examined
+  std::uint32_t linked = 0;   ///< directions with a neighbour
 };
 
 class FlyLattice final : public LatticeGraph {
@@ -90,7 +90,8 @@ NodeId FlyLattice::find_or_make(const LatticePoint& at) {
   return id;
 }
 
-/// Whether a sphere of `narrowest` gets from one free place to another: within two that overlap, or by a sweep.
+/// Whether a sphere of `narrowest` gets from one free place to another: inside two overlapping free spheres, or by a
+/// sweep.
 bool FlyLattice::linked(const Vec3& a, double free_at_a, const Node& b) const {
   if (free_at_a == 0.0 || b.clearance == 0.0F) return false;
   if (free_at_a + b.clearance - glm::length(b.place - a) >= 2.0 * measure_.narrowest) return true;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The places of a lattice and who is whose neighbour, made where they are asked for. WidestTree grows over it.
+/// The places of a lattice and their neighbours, made on demand. WidestTree grows over it.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,23 +16,23 @@ class LatticeGraph {
   virtual ~LatticeGraph() = default;
 
   [[nodiscard]] virtual std::optional<NodeId> seed(const Vec3& place) = 0;
-  /// All neighbours, which are made and measured if need be.
+  /// All neighbours of a place. Makes and measures those that do not exist yet.
   virtual Neighbours expand(NodeId id) = 0;
-  /// Whether other cores may ask ahead what expand() needs to know; not at first. Changes no answer.
+  /// Allows look_ahead() to compute on other cores what expand() will need. Off at first. Changes no result.
   virtual void let_look_ahead(bool /*may*/) {}
-  /// They may: of a place that will be expanded soon.
+  /// Hint: `id` will be expanded soon. Does nothing unless let_look_ahead(true).
   virtual void look_ahead(NodeId /*id*/) {}
-  /// How many steps they had answered when they were gone.
+  /// The number of steps that were computed ahead of their use.
   [[nodiscard]] virtual std::uint64_t answered_ahead() const { return 0; }
-  /// Whether a body goes from a place to one of its neighbours after all, or they are none any more: asked only of what
-  /// is to be gone, for on foot walkers are sent over gaps.
+  /// Whether a body really goes from a place to one of its neighbours. If not, they stop being neighbours. Call it only
+  /// for steps that will be used: on foot it sends walkers over gaps.
   virtual bool goes(NodeId from, NodeId to) = 0;
-  /// On foot: of a place where a foot is carried over a gap, the next one straight below that stands on floor; no_node
-  /// where there is none, or the place is on floor itself.
+  /// On foot, for a place over a gap: the next place straight below that stands on floor. no_node if there is none, or
+  /// if the place itself stands on floor.
   [[nodiscard]] virtual NodeId floor_under_gap(NodeId /*id*/) const { return no_node; }
-  /// Nobody can be at a place after all: it has no neighbours any more.
+  /// Removes a place: it loses all neighbours, and no body can be there.
   virtual void close(NodeId /*id*/) {}
-  /// Those neighbours that are known.
+  /// The neighbours that are known already.
   [[nodiscard]] virtual Neighbours neighbours(NodeId id) const = 0;
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }

@@ -50,7 +50,8 @@ bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& fro
     const Vec3 from_a(a.x, a.y, height), to_b(b.x, b.y, height);
     return free_way(world, body, a, from_a) && free_way(world, body, from_a, to_b) && free_way(world, body, to_b, b);
   };
-  // Over a kerb at the height of the higher place; and a sphere, which may lift anywhere, under a lintel at the lower.
+  // Crosses at the height of the higher place, as over a kerb. A sphere may lift anywhere, so it may also cross at the
+  // lower height, as under a lintel.
   return goes_at(std::max(a.z, b.z)) || (measure.height == 0.0 && goes_at(std::min(a.z, b.z)));
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Places where a small body can be, on a lattice that is made as it is looked at, and how wide a body may be there.
+/// Places where a small body can be, on a lattice that is made on demand, and how wide a body may be there.
 ///
-/// Walking: columns of a square lattice; a place is the foot on the floor. A neighbour's height is found by dropping a
-/// sphere of `widest` that sees only floor below the knee, so that cracks are carried and both ends of the interval
-/// stay independent. Flying: a cubic lattice; a place is the centre.
+/// Walking: columns of a square lattice; a place is the foot on the floor. A sphere is dropped to find a neighbour's
+/// height. It collides only with floor below the knee, so cracks carry it, and both ends of the interval stay
+/// independent. Flying: a cubic lattice; a place is the centre.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,32 +21,32 @@
 
 namespace roam::ways {
 
-/// What is measured at a place: the body's kind, without its radius.
+/// The kind of body that is measured, without its radius.
 struct Measure {
   Mode mode = Mode::walk;
   double height = 0.0;  ///< 0: sphere
   double step = 0.3;
   double widest = 1.0;
   double narrowest = 0.05;
-  /// m: where a disc of this radius, or 0.2 % less, fits into a gap of the floor, nobody is carried.
+  /// m. A gap of the floor that holds a disc of this radius, or 0.2 % smaller, carries no body.
   double support_max = 1.0;
 };
 
-/// Walking or flying clearance at a place (m), at most measure.widest (or what `height` leaves, see passage.h); 0 where
-/// less than measure.narrowest. Certified: a capsule of that radius less 0.1 mm is free there.
+/// Walking or flying clearance at a place (m), at most measure.widest (or what `height` leaves, see passage.h). 0 if it
+/// is less than measure.narrowest. Certified: a capsule of that radius less 0.1 mm is free there.
 [[nodiscard]] double clearance_at(const Survey& survey, const Measure& measure, const Vec3& place);
 
-/// The floor under (x, y) that a foot at height about `z` would come to: at most `measure.step` up or down, carried
-/// over cracks; none where there is none.
+/// The floor under `near` for a foot at about that height: at most `measure.step` up or down. Cracks carry the foot.
+/// None if there is no such floor.
 [[nodiscard]] std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near);
 
-/// Whether a body of `radius` that is free at two places at most a few spacings apart goes straight from one to the
-/// other, or, on foot, up, across and down as over a kerb: certified by sweeps.
+/// Whether a body of `radius` goes straight between two places where it is free, at most a few spacings apart. On foot
+/// it may also go up, across and down, as over a kerb. Certified by sweeps.
 [[nodiscard]] bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to,
                                  double radius);
 
-/// Of the spacing: how much narrower than it is a place may look on a lattice on foot. Every place is within half a
-/// diagonal of one of the lattice.
+/// Spacings. A walking lattice may underestimate the width at a place by this much. Every place is within half a
+/// diagonal of a lattice point.
 inline constexpr double lattice_error = 0.72;
 
 using NodeId = std::uint32_t;
@@ -64,56 +64,57 @@ using Neighbours = InlineList<NodeId, 26>;
 inline constexpr Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
                                 Vec3(std::numeric_limits<double>::infinity())};
 
-/// What may be asked ahead, on other cores, on foot: more is forgotten. No answer depends on it.
+/// Limits for steps computed ahead on other cores, on foot. If one is exceeded, all requests are forgotten. That
+/// changes no result.
 struct AheadLimits {
-  std::size_t places = 8192;     ///< whose steps are asked about, and that nobody has come to
-  std::size_t points = 1 << 20;  ///< that anybody has asked about: some megabytes
+  std::size_t places = 8192;     ///< with steps in progress or not used yet
+  std::size_t points = 1 << 20;  ///< with steps requested so far; some megabytes
 };
 
-/// A tree over all places reached from the first one: of all ways between two of them, the one in it is a widest.
-/// Grown best first (Prim, with the largest least clearance): see Pollack, "The maximum capacity through a network",
-/// 1960.
+/// A tree over all places reached from its root. Its path between two places is a widest one. Grown best first (Prim's
+/// algorithm, with the largest minimum clearance): see Pollack, "The maximum capacity through a network", 1960.
 class WidestTree {
  public:
-  /// `survey` must outlive the tree. Nothing outside `within` is looked at. The lattice lies so that the first place
-  /// that is asked for is one of it.
+  /// `survey` must outlive the tree. No place lies outside `within`. The first place given to seed() becomes the
+  /// lattice's origin.
   WidestTree(const Survey& survey, const Measure& measure, double spacing, const Box& within = everywhere,
              const AheadLimits& ahead = {});
 
-  /// The place of the lattice at or nearest to `place` (within 1.5 spacings, in sight), made if need be; none where no
-  /// body of `narrowest` can be.
+  /// The lattice place at or nearest to `place` (within 1.5 spacings, in sight), made if need be. None if no body of
+  /// `narrowest` can be there.
   [[nodiscard]] std::optional<NodeId> seed(const Vec3& place);
-  /// Grows from `root` until `until` is reached, or (no_node) until everything in reach is. False: ended by `goes_on`,
-  /// which is asked now and then with the number of places.
+  /// Grows from `root` until `until` is reached; with no_node, until everything in reach is. Calls `goes_on` now and
+  /// then with the number of places. Returns false if `goes_on` ended the growth.
   bool grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on = {});
 
-  /// Makes one tree, from `root`, of those of `among` (by id; all have been reached once) that hang together with it,
-  /// whichever trees they hang in by now: growths that were ended take places from each other. Makes no places.
+  /// Makes one tree, from `root`, of the places of `among` (by id; all have been reached once) that are connected with
+  /// it, whichever trees they belong to now. Growths that were ended early take places from each other. Makes no
+  /// places.
   void join(NodeId root, const std::vector<bool>& among);
 
-  /// On foot: the places of `among` (by id) that hang over a gap of the floor which is none: another place of the same
-  /// tree stands on the floor straight below, so that it is a step down, and carries nobody.
+  /// On foot: the places of `among` (by id) that hang over a step down instead of a gap. Another place of the same tree
+  /// stands on the floor straight below such a place, so the place carries no body.
   [[nodiscard]] std::vector<NodeId> over_steps_down(const std::vector<bool>& among) const;
-  /// Takes places out of the lattice, and all that hung in one tree with them out of that: see join.
+  /// Removes places from the lattice, and clears all trees that contained them: see join.
   void close(std::span<const NodeId> places);
 
-  /// Of its lattice, metres.
+  /// The lattice's spacing, metres.
   [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
-  /// Of how many steps other cores had answered ahead what growing asks.
+  /// The number of steps that other cores computed ahead of the growth.
   [[nodiscard]] std::uint64_t answered_ahead() const;
   [[nodiscard]] const Node& node(NodeId id) const;
-  /// The root of the tree that a node hangs in; no_node where it was seen but not reached.
+  /// The root of the tree that a place belongs to; no_node if no growth has reached it.
   [[nodiscard]] NodeId root(NodeId id) const;
   [[nodiscard]] NodeId parent(NodeId id) const;
-  /// The places from one to the other through the tree; empty when they hang in different trees.
+  /// The places from one to the other through the tree; empty if they belong to different trees.
   [[nodiscard]] std::vector<NodeId> way(NodeId from, NodeId to) const;
-  /// A widest way that enters no place that is `blocked`, if one is wider than `least`: whatever the tree is, and
-  /// without changing it. Makes and measures places that it needs; `goes_on` as in grow, and empty when that ends it.
+  /// A widest way that enters no `blocked` place, if one is wider than `least`. Independent of the tree, which stays as
+  /// it is. Makes and measures the places that it needs. `goes_on` as in grow; empty if that ends the search.
   [[nodiscard]] std::vector<NodeId> way_round(NodeId from, NodeId to, const std::function<bool(const Node&)>& blocked,
                                               double least, const std::function<bool(std::uint64_t)>& goes_on = {});
-  /// The neighbours that a body of `narrowest` can go to straight: all of them where the tree has grown past the place,
-  /// else those that were looked at so far. Who is a neighbour of whom is mutual.
+  /// The neighbours that a body of `narrowest` can go to straight: all of them if the tree has grown past the place,
+  /// else those examined so far. Neighbourhood is mutual.
   [[nodiscard]] Neighbours neighbours(NodeId id) const;
 
  private:

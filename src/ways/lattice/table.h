@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which place lies at a point of the lattice: a hash table with open addressing, at most half full, of squares of 4 by
-/// 4 points. Who asks about the points around a place finds them together.
+/// The place at each lattice point: a hash table with open addressing, at most half full. An entry is a square of 4 by
+/// 4 points, so that neighbouring points lie together in memory.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@ struct LatticePoint {
 
 class LatticeTable {
  public:
-  /// Coordinates within this are told apart.
+  /// Absolute coordinates below this are distinct keys.
   static constexpr std::int32_t limit = 1 << 20;
 
   LatticeTable() : slots_(1024) {}
@@ -40,7 +40,7 @@ class LatticeTable {
   }
 
  private:
-  /// Of points along one side of a square.
+  /// Base-2 logarithm of the points along one side of a square.
   static constexpr int square_bits = 2;
   static constexpr std::uint64_t empty = ~std::uint64_t{0};
 
@@ -56,7 +56,7 @@ class LatticeTable {
     const auto part = [](std::int32_t v, int shift) { return (static_cast<std::uint64_t>(v + limit) & mask) >> shift; };
     return part(p.x, square_bits) | part(p.y, square_bits) << bits | part(p.z, 0) << (2 * bits);
   }
-  /// Which point of its square a point is.
+  /// The index of a point in its square.
   static std::size_t within(const LatticePoint& p) {
     constexpr std::uint32_t last = (1U << square_bits) - 1;
     const auto part = [](std::int32_t v) { return static_cast<std::uint32_t>(v + limit) & last; };
@@ -78,7 +78,7 @@ class LatticeTable {
   }
 
   std::vector<Slot> slots_;
-  std::vector<std::array<NodeId, 1U << (2 * square_bits)>> squares_;  ///< in the order in which they were come to
+  std::vector<std::array<NodeId, 1U << (2 * square_bits)>> squares_;  ///< in order of first use
 };
 
 }  // namespace roam::ways

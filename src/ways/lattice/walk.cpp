@@ -12,22 +12,22 @@ namespace {
 
 constexpr std::uint8_t all_directions = 0xFF;
 
-/// Metres. Feet over one point of the lattice that differ by less are the same place: balls that come down beside
-/// different things rest at slightly different heights.
+/// Metres. Feet over one lattice point whose heights differ by less are one place. Balls dropped beside different
+/// obstacles rest at slightly different heights.
 constexpr double same_height = 0.1;
-/// Spacings: a place that is asked for is taken to one of the lattice at most so far away.
+/// Spacings. A given place is moved to a lattice point at most this far away.
 constexpr double seed_reach = 1.5;
 
-/// What a place of the lattice knows of itself, beside its Node.
+/// State of a place beside its Node.
 struct Column {
   LatticePoint at;
   NodeId next = no_node;              ///< another place over the same point of the lattice, made earlier
-  std::uint8_t settled = 0;           ///< bit set of the directions that were looked at
-  std::uint8_t tried = 0;             ///< likewise, that walkers were sent in and got through
-  bool carried = false;               ///< its foot
-  bool is_scouted = false;            ///< scouts were sent, or had nothing to ask
+  std::uint8_t settled = 0;           ///< bit set of the directions already examined
+  std::uint8_t tried = 0;             ///< bit set of the directions in which a walker got through
+  bool carried = false;               ///< whether the foot is over a gap
+  bool is_scouted = false;            ///< no more scouts are needed
   std::array<NodeId, directions> to;  ///< the neighbour in each direction, or no_node
-  double level = 0.0;                 ///< of its foot
+  double level = 0.0;                 ///< of the foot
 };
 
 class WalkLattice final : public LatticeGraph {
@@ -62,7 +62,7 @@ class WalkLattice final : public LatticeGraph {
   const WalkSteps steps_;
   LatticeTable table_;
   std::vector<Column> columns_;
-  LatticeTable asked_about_;  ///< by storey: who has sent scouts there
+  LatticeTable asked_about_;  ///< by storey: the place that sent scouts there
   std::size_t asked_points_ = 0;
   std::uint64_t answered_ahead_ = 0;
   bool looks_ahead_ = false;
@@ -89,7 +89,7 @@ NodeId WalkLattice::nearest_over(const LatticePoint& at, double level, double to
   return best;
 }
 
-/// Whether a point is one of what is looked at.
+/// Whether a point lies inside the searched box.
 bool WalkLattice::covers(const LatticePoint& at) const {
   const Vec3 to = plan_.point(at);
   return std::max(std::abs(at.x), std::abs(at.y)) < LatticeTable::limit && to.x >= within_.lower.x &&
@@ -111,7 +111,7 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
     is_new = there == no_node;
     if (is_new) there = make(at, *foot, is_answered ? ahead->clearance[direction] : steps_.clearance(foot->place));
   }
-  // Its own way back may already lead to another floor here.
+  // The way back from there may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
   if (nodes_[there].clearance == 0.0F) return no_node;
   const bool is_linked = is_new && is_answered ? ahead->linked[direction] : steps_.linked(here, standing(there));
@@ -120,7 +120,7 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
 
 void WalkLattice::look_ahead(NodeId id) {
   Column& column = columns_[id];
-  // Where nothing limits a body, answers are had sooner than they are sent for.
+  // If nothing limits a body, queries are faster than sending scouts.
   if (column.is_scouted || column.settled == all_directions || nodes_[id].clearance >= steps_.unlimited()) return;
   column.is_scouted = true;
   const Standing here = standing(id);
@@ -129,7 +129,7 @@ void WalkLattice::look_ahead(NodeId id) {
     const unsigned bit = 1U << direction;
     const LatticePoint at = beside(column.at, direction);
     if ((column.settled & bit) != 0 || !covers(at) || nearest_over(at, here.level, measure_.step) != no_node) continue;
-    // Most points are come to from more than one side: who is there first asks.
+    // Most points have neighbours on several sides. The first neighbour sends the scout.
     const auto storey = std::lround(here.level / std::max(measure_.step, same_height)) % LatticeTable::limit;
     const LatticePoint about{at.x, at.y, static_cast<std::int32_t>(storey)};
     if (asked_about_.find(about) != no_node) continue;
@@ -148,7 +148,7 @@ void WalkLattice::look_ahead(NodeId id) {
 
 Neighbours WalkLattice::expand(NodeId id) {
   if (columns_[id].settled == all_directions) return neighbours(id);
-  // A scout begins at the other end of what is to be asked.
+  // A scout works from the last direction to the first.
   if (looks_ahead_) look_ahead(id);
   const auto ahead = scouts_.take(id);
   for (std::size_t direction = 0; direction < directions; ++direction) {
@@ -210,7 +210,7 @@ Neighbours WalkLattice::neighbours(NodeId id) const {
 }
 
 std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
-  constexpr int farthest = 2;  // points of the lattice that are looked at
+  constexpr int farthest = 2;  // lattice points around the given place
   static_assert(farthest >= seed_reach);
   if (nodes_.empty()) plan_.origin = Vec3(place.x, place.y, 0.0);
   const Standing here{place, level_at(survey_, measure_, place), clearance_at(survey_, measure_, place)};

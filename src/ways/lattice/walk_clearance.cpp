@@ -9,25 +9,25 @@
 namespace roam::ways {
 namespace {
 
-/// Metres. A body is asked for with its radius less this, so that what it just touches does not count.
+/// Metres. Queries use the radius less this, so that touching surfaces do not count.
 constexpr double slack = 2e-5;
-/// Metres. Each answer that is not free takes at least this off.
+/// Metres. Each query that finds contact takes at least this off the radius.
 constexpr double least_cut = 1e-5;
-/// Metres. A sphere is lifted by at least this, so that the floor that it stands on does not hold it.
+/// Metres. A sphere is lifted by at least this, so that the floor below it does not limit it.
 constexpr double least_lift = 5e-5;
-/// Queries of one search, at most: most end after three.
+/// Queries of one search at most. Most searches end after three.
 constexpr std::size_t most_cuts = 48;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The height of the knee over the feet. Who climbs nothing still stands on his floor and not in it.
+/// The height of the knee over the feet. With a step of 0 the knee still keeps the body off its own floor.
 double knee(const Measure& measure) {
   constexpr double least = 5e-3;  // m
   return std::max(measure.step, least);
 }
 
-/// The largest radius of a capsule between two fixed heights that leaves a point outside, which lies `aside` of the
-/// axis, `above` the bottom and `below` the top.
+/// The largest radius of a capsule between two fixed heights that does not contain a point. The point lies `aside` of
+/// the axis, `above` the bottom and `below` the top.
 double capsule_limit(double aside, double above, double below) {
   const double end = std::min(above, below);
   if (!(end > 0.0)) return unlimited;
@@ -39,7 +39,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   const Vec3 centre = centre_of(measure, place, {});
   double radius = largest;
   for (std::size_t i = 0; i < most_cuts && radius >= least; ++i) {
-    // Nested bodies: what one that is too large touches bounds all that are free.
+    // Bodies of growing radius contain each other, so a contact of a larger one bounds every free one.
     const Clearance c = survey.world().clearance(body_of(measure, std::max(radius - slack, 0.0)), centre, 0.0);
     if (!c.found) return Stand{radius, 0.0};
     const double limit = capsule_limit(std::hypot(c.point.x - centre.x, c.point.y - centre.y),
@@ -49,17 +49,17 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   return std::nullopt;
 }
 
-/// The largest sphere at one lift, and what holds it: a point so far beside its axis and so high above the place.
+/// The largest sphere at one lift, and the contact that limits it: `aside` from its axis and `height` above the place.
 struct Held {
   double lift = 0.0, radius = 0.0;
   double aside = 0.0, height = 0.0;
-  /// The upward part of the unit vector from that point to the centre; 0: held by nothing.
+  /// The upward part of the unit vector from the contact to the centre; 0 if there is no contact.
   [[nodiscard]] double upward() const {
     return radius > 0.0 && height != 0.0 ? (lift + radius - height) / radius : 0.0;
   }
 };
 
-/// The largest sphere that has a point outside, which lies `above` its lowest point.
+/// The largest sphere that does not contain a point `aside` from its axis and `above` its lowest point.
 double sphere_limit(double aside, double above) { return nested_ball(aside * aside, above); }
 
 /// Spheres over a place.
@@ -68,7 +68,7 @@ class Spheres {
   Spheres(const Survey& survey, const Measure& measure, const Vec3& place, double largest)
       : survey_(survey), measure_(measure), place_(place), largest_(largest) {}
 
-  /// The largest at one lift. Ends as soon as the radius is less than `least`.
+  /// The largest sphere at one lift. Ends as soon as its radius is less than `least`.
   [[nodiscard]] Held lifted(double lift, double least) {
     Held held = bound(lift);
     const double lowest = place_.z + lift;
@@ -76,14 +76,14 @@ class Spheres {
       const Vec3 centre(place_.x, place_.y, lowest + held.radius);
       const Clearance c = survey_.world().clearance(body_of(measure_, std::max(held.radius - slack, 0.0)), centre, 0.0);
       if (!c.found) {
-        // What bounds it from another lift holds it, unless that is a little off.
+        // The contact of another lift limits this sphere, unless that bound was a little too large.
         if (i == 0 && held.radius < largest_) held.radius = sphere_limit(held.aside, held.height - lift);
         return held;
       }
       held.aside = std::hypot(c.point.x - place_.x, c.point.y - place_.y);
       held.height = c.point.z - place_.z;
       met_[count_++ % met_.size()] = held;
-      // Where stored triangles are coarser than the slack, the point itself may be outside.
+      // If stored triangles are coarser than the slack, the contact may lie outside the sphere.
       const double limit = sphere_limit(held.aside, held.height - lift);
       held.radius = std::min(limit, held.radius - (limit < held.radius ? least_cut : std::max(least_cut, -c.distance)));
     }
@@ -92,7 +92,7 @@ class Spheres {
   }
 
  private:
-  /// What was met at other lifts bounds what is free at this one too; a little more than that.
+  /// Contacts of other lifts bound the sphere at this lift too. The bound is rounded up by the error.
   [[nodiscard]] Held bound(double lift) const {
     const double error = slack + 2.0 * survey_.world().largest_error();
     Held held{lift, largest_, 0.0, 0.0};
@@ -112,7 +112,7 @@ class Spheres {
   std::size_t count_ = 0;
 };
 
-/// The lift between two at which what holds the sphere from below at the one and from above at the other hold it alike.
+/// The lift at which two contacts allow the same radius: `below` limits the sphere from below, `above` from above.
 double balanced(const Held& below, const Held& above) {
   double low = below.lift, high = above.lift;
   for (int i = 0; i < 40; ++i) {
@@ -123,11 +123,11 @@ double balanced(const Held& below, const Held& above) {
   return 0.5 * (low + high);
 }
 
-/// A sphere is lifted away from what holds it from below and lowered from what holds it from above. Lifts that are far
-/// apart are tried too, for a wall that ends above or below a sphere looks like any other to one in its middle.
+/// Raises the sphere from contacts below and lowers it from contacts above. Also tries lifts that are far apart: at the
+/// sphere's middle height, a wall that ends above or below it looks endless.
 std::optional<Stand> sphere_at(const Survey& survey, const Measure& measure, const Vec3& place, double largest,
                                double least) {
-  constexpr double level = 0.01;      // an upward part as small: walls, from which no lift leads away
+  constexpr double level = 0.01;      // smaller upward parts mean walls, which no lift avoids
   constexpr double fine_lift = 1e-5;  // m
   constexpr int most_turns = 12;
   const double clear = least_lift + 2.0 * survey.world().largest_error();

@@ -8,25 +8,27 @@
 namespace roam::ways {
 namespace {
 
-/// Metres. The foot is this large a ball: small enough not to ride on what a body passes by, large enough to bridge
-/// the treads of stairs. A body of radius r rests higher on a slope by r (1 / cos - 1), which the knee makes good for.
+/// Metres. The foot is a ball of this radius: small enough not to ride on obstacles that the body passes, large enough
+/// to bridge the treads of stairs. A body of radius r rests higher on a slope by r (1 / cos - 1); the knee allows for
+/// that.
 constexpr double foot_radius = 0.3;
-/// The least ball that is tried beside walls and posts.
+/// Metres. The least ball that is tried beside walls and posts.
 constexpr double least_foot = 0.01;
-/// Metres: what touches while starting, or rises above the step, by less than this does not count.
+/// Metres. Contacts at the start, and rises above the step, do not count below this.
 constexpr double touch = 1e-3;
-/// Metres. Floor that touches the foot so near to the axis, seen from above, is under it: gaps that are hardly wider,
-/// as between the bars of a grate, carry everybody.
+/// Metres. Floor that touches the foot this near to the axis, seen from above, counts as under the axis. Gaps hardly
+/// wider than that, as between the bars of a grate, carry every body.
 constexpr double under_axis = 0.02;
 
-/// Of the largest foot: a gap that so large a disc fits into is taken for one that the foot falls through. Whether it
-/// fits where it hardly does takes a search of all rims around, and every walker that is sent over it asks again.
+/// Share of the largest foot's radius. A disc this large decides whether the foot falls through a gap. Discs that
+/// barely fit would need a search of all rims around, repeated by every walker sent over the gap.
 constexpr double sure_share = 0.998;
 
-/// The foot touches a floor that is hardly steeper nearly under its axis.
+/// On floor no steeper than this, the foot touches almost under its axis.
 constexpr double gentle_cosine = 0.9;
 
-/// The largest ball whose lowest point is fixed and that has a point outside itself which lies `aside` and `above`.
+/// The largest ball with a fixed lowest point that does not contain a point `aside` from its axis and `above` its
+/// lowest point.
 double ball_beside(double aside, double above) { return (aside * aside + above * above) / (2.0 * above); }
 
 double aside(const Vec3& p, double x, double y) { return std::hypot(p.x - x, p.y - y); }
@@ -41,7 +43,7 @@ std::optional<double> floor_under_axis(const Survey& survey, const Measure& meas
   return below.point.z;
 }
 
-/// The floor beside an axis nearest to it, seen from above, among what lies about as high.
+/// The floor nearest to an axis, seen from above, among floors of about the same height.
 Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
   Floor floor;
   floor.slope_degrees = survey.slope_degrees();
@@ -50,12 +52,11 @@ Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
   return survey.floor().floor_clearance({0.0, carrying_band}, axis, reach, floor);
 }
 
-/// Whether the largest foot, as a level disc that lies beyond a place of the floor as seen from there and hardly
-/// farther than it touches it, holds the axis, is free of floor, and has its middle in sight: what free_disc() finds
-/// too, with more work.
+/// Tests one level disc of the largest foot, on the far side of the axis from `floor` and just clear of it. True if the
+/// disc holds the axis, is free of floor, and sees its middle from the axis. free_disc() finds the same with more work.
 bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, double radius, double knee) {
-  constexpr double sight = 0.01;  // m, radius of what looks for walls
-  constexpr double apart = 0.01;  // m: the rims of most drops are not quite straight
+  constexpr double sight = 0.01;  // m, radius of the sphere that looks for walls
+  constexpr double apart = 0.01;  // m; the rims of most drops are not quite straight
   const double beside = aside(floor, axis.x, axis.y);
   if (!(beside > apart && beside < radius)) return false;
   const Vec3 away = Vec3(axis.x - floor.x, axis.y - floor.y, 0.0) * ((radius + apart - beside) / beside);
@@ -63,13 +64,13 @@ bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, d
          !survey.world().sweep({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
 }
 
-/// Whether the gap that an axis is over at the level of a rim is an open drop: no foot is carried there. This is the
-/// walker's own rule for its foot, asked with the largest.
+/// Whether the gap under an axis, at the level of a rim, is an open drop, which carries no foot. This is the walker's
+/// own rule, applied to the largest foot.
 bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y, KnownGaps* gaps) {
   const double radius = sure_share * measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
   const Vec3 axis(x, y, rim.z);
-  // The disc beyond the rim is free in most drops. Else beyond what is nearer, a little higher or lower: beside a
-  // gallery's wall its gutter is, and the axis is in the rock.
+  // In most drops the disc beyond the rim is free. Else the disc beyond the nearest floor is tried, which may be a
+  // little higher or lower: beside a gallery's wall that floor is the gutter, and the axis is inside the rock.
   if (is_free_beyond(survey, axis, rim, radius, knee)) return true;
   const Clearance nearest = floor_beside(survey, axis, radius);
   if (nearest.found && is_free_beyond(survey, axis, nearest.point, radius, knee)) return true;
@@ -91,7 +92,7 @@ std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, do
     const Impact s = survey.floor().sweep({radius, 0.0}, centre, Vec3(0.0, 0.0, -reach));
     if (!s.hit) return std::nullopt;
     const double beside = aside(s.point, x, y);
-    if (s.distance < 0.0) {  // starts in something above the knee
+    if (s.distance < 0.0) {  // starts inside an obstacle above the knee
       const double above = s.point.z - start;
       if (!(above > 0.0)) return std::nullopt;
       radius = std::min(0.7 * radius, 0.95 * ball_beside(beside, above));
@@ -104,7 +105,7 @@ std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, do
     const double lowest = start - s.time * reach;
     const bool is_gentle = s.feature == Feature::face && s.normal.z >= gentle_cosine;
     if (beside <= under_axis || is_gentle) return Foot{Vec3(x, y, lowest), lowest, false};
-    // On a slope, or on a rim: of a kerb, with floor below it, or of a gap, into which the ball has sunk.
+    // The ball touches a slope or a rim. A kerb has floor below its rim; into a gap the ball has sunk.
     if (const auto below = floor_under_axis(survey, measure, x, y, s.point.z, lowest))
       return Foot{Vec3(x, y, lowest), *below, false};
     if (is_open_drop(survey, measure, s.point, x, y, gaps)) return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a body stands at a place of the floor, and where the floor is.
+/// How a body stands at a place of the floor, and the floor's height.
 
 #include <array>
 #include <cstddef>
@@ -20,34 +20,35 @@ struct Stand {
   double lift = 0.0;  ///< spheres only: over bumps, kerbs and slopes, in [0, step]
 };
 
-/// The largest radius that is looked for: measure.widest, or what the height leaves above the knee.
+/// The largest radius to try: measure.widest, or half of the height above the knee if that is less.
 [[nodiscard]] double largest_radius(const Measure& measure);
 
-/// What is swept and asked for: of a sphere, itself; of a capsule, its part above the knee.
+/// The body for queries: the sphere itself, or a capsule's part above the knee.
 [[nodiscard]] Body body_of(const Measure& measure, double radius);
 [[nodiscard]] Vec3 centre_of(const Measure& measure, const Vec3& place, const Stand& stand);
 
-/// The largest body up to `largest` that is free at a place of the floor; none where that is less than `least`.
+/// The largest body up to `largest` that is free at a place of the floor; none if that is less than `least`.
 [[nodiscard]] std::optional<Stand> stand_at(const Survey& survey, const Measure& measure, const Vec3& place,
                                             double largest, double least);
 
-/// Where a foot comes to rest.
+/// A foot at rest.
 struct Foot {
   Vec3 place{0.0};
-  /// Of the floor under the axis, or of the rim that it is carried from (m): what the next step is up or down from. On
-  /// the rim of a kerb the place is between the two floors, and to step up from there would climb more than a step.
+  /// m. The height of the floor under the axis, or of the rim that carries the foot. The next step counts from it. On a
+  /// kerb's rim, `place` lies between the two floors; a step from there would climb too much.
   double level = 0.0;
   bool carried = false;  ///< over a gap of the floor
 };
 
-/// What was found out about gaps of the floor, of one survey and measure: a lattice comes to most from several sides.
-/// Any number of threads.
+/// Known gaps of the floor, for one survey and measure: a lattice meets most of them from several sides. Safe for any
+/// number of threads.
 class KnownGaps {
  public:
-  /// What is known of more is forgotten, some 20 MB.
+  /// Older results are forgotten beyond this number; some 20 MB.
   static constexpr std::size_t most_known = 1 << 18;
 
-  /// Whether a gap is open, by the axis over it at the level of its rim: `look(axis)`, once or oftener.
+  /// Whether a gap is open. The key is the axis over it, at the height of its rim. Calls `look(axis)` for unknown gaps,
+  /// possibly more than once for one gap.
   template <class Look>
   bool is_open(const Vec3& axis, const Look& look) {
     Part& part = parts_[Hash{}(axis) % parts_.size()];
@@ -73,14 +74,14 @@ class KnownGaps {
   std::array<Part, 16> parts_;
 };
 
-/// The floor that a foot comes to that stands at height `level` beside it; see foot_at. Where it hangs on a rim with no
-/// floor below, the gap must be one that the largest foot is carried over.
+/// The floor for a foot that stands at height `level` beside (x, y); see foot_at. If the foot hangs on a rim with no
+/// floor below, the gap must be one that carries the largest foot.
 [[nodiscard]] std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y,
                                               double level, KnownGaps* gaps = nullptr);
-/// The same where there is no floor at all.
+/// The same over a gap without any floor below.
 [[nodiscard]] std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y,
                                                double level, KnownGaps* gaps = nullptr);
-/// The level of a foot that is known to be at a place.
+/// The level of a foot whose place is known.
 [[nodiscard]] double level_at(const Survey& survey, const Measure& measure, const Vec3& place);
 
 }  // namespace roam::ways

@@ -20,7 +20,7 @@ void Scouts::send(NodeId from, const Standing& here, const LatticePoint& at, std
     try {
       answer(*steps);
     } catch (const std::exception&) {
-      // Who comes there asks again, and is told.
+      // expand() repeats these queries itself and sees the error.
     }
   });
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Steps from places of the lattice asked ahead, on other cores, of what the scene answers about them. No answer
-/// depends on whether it was asked ahead: who comes to a place before its scout is back asks for himself.
+/// Steps from lattice places, computed ahead on other cores. No result depends on that: a place expanded before its
+/// scout is done computes its steps itself.
 
 #include <tbb/task_group.h>
 
@@ -15,23 +15,23 @@
 
 namespace roam::ways {
 
-/// Steps from one place, by direction: those that are asked about, and what is answered.
+/// Steps from one place, by direction: the requested ones and their results.
 struct ScoutedSteps {
   Standing here;
   LatticePoint at;
-  std::uint8_t asked = 0;                            ///< bit set
+  std::uint8_t asked = 0;                            ///< bit set of the requested directions
   std::array<std::optional<Foot>, directions> foot;  ///< as WalkSteps::foot_from
   std::array<float, directions> clearance;           ///< there
-  std::array<bool, directions> linked;               ///< to who will stand there
-  std::atomic<std::uint8_t> answered{0};             ///< bit set, of those that may be read
-  std::atomic<bool> done{false};                     ///< nobody needs the others any more
+  std::array<bool, directions> linked;               ///< to the standing there
+  std::atomic<std::uint8_t> answered{0};             ///< bit set of the directions whose results may be read
+  std::atomic<bool> done{false};                     ///< no other results are needed
 
   [[nodiscard]] bool is_answered(std::size_t direction) const {
     return (answered.load(std::memory_order_acquire) >> direction & 1U) != 0;
   }
 };
 
-/// Used by one thread. Worth it only where there are other cores: who sends them sees to that.
+/// Used by one thread. The caller makes sure that there are other cores; without them, scouts only cost time.
 class Scouts {
  public:
   Scouts(const WalkSteps& steps, const LatticePlan& plan) : steps_(steps), plan_(plan) {}
@@ -39,13 +39,13 @@ class Scouts {
   Scouts(const Scouts&) = delete;
   Scouts& operator=(const Scouts&) = delete;
 
-  /// Asks about the steps of a place in `asked`, the last direction first: who is there himself begins with the first.
+  /// Computes the steps of a place in the directions `asked`, the last one first: expand() begins with the first one.
   void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked);
-  /// What is asked about a place, and answered by now or later; it is forgotten here. Null: nothing.
+  /// The request for a place, with its results now or later. Removes it from here. Null if there is none.
   [[nodiscard]] std::shared_ptr<ScoutedSteps> take(NodeId from);
-  /// Nobody needs what is not answered yet.
+  /// Cancels all requests that are not computed yet.
   void forget();
-  /// Of how many places something is asked and not taken.
+  /// The number of requests that were not taken.
   [[nodiscard]] std::size_t out() const { return out_.size(); }
 
  private:

@@ -9,7 +9,7 @@
 namespace roam::ways {
 namespace {
 
-/// Metres: two levels differ by a step when they differ by no more than that and this.
+/// Metres. Added to the step limit when two levels are compared.
 constexpr double level_tolerance = 2e-3;
 
 }  // namespace
@@ -18,7 +18,7 @@ std::optional<Foot> WalkSteps::foot_from(const Standing& from, const Vec3& to) c
   if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level, &gaps_)) return foot;
   const Vec3 half = 0.5 * (from.place + to);
   const auto between = floor_below(survey_, measure_, half.x, half.y, from.level, &gaps_);
-  // From the same level the same foot is found, none.
+  // From the same level, the drop at `to` would fail again.
   if (between && between->level != from.level) {
     if (const auto foot = floor_below(survey_, measure_, to.x, to.y, between->level, &gaps_)) return foot;
   }
@@ -56,7 +56,7 @@ bool WalkSteps::linked(const Standing& a, const Standing& b) const {
 
 bool WalkSteps::walked(const Standing& a, const Standing& b) const {
   constexpr double person = 0.3;  // m
-  constexpr double share = 0.97;  // of what is free
+  constexpr double share = 0.97;  // of the free radius
   if (!a.carried && !b.carried) return true;
   const BodyKind kind{.height = measure_.height, .step = measure_.step, .slope_degrees = survey_.slope_degrees()};
   const std::array<Vec3, 2> way = a.carried ? std::array{b.place, a.place} : std::array{a.place, b.place};

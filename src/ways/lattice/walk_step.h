@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the scene answers about one step from a place of the lattice to the next. Nothing here depends on which places
-/// are known by now, or on who asks first: it may be asked ahead, from any number of threads.
+/// Queries of the scene about one step between neighbouring lattice places. The results do not depend on the places
+/// known so far or on the order of calls. Safe for any number of threads.
 
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct Standing {
   return {foot.place, foot.level, clearance, foot.carried};
 }
 
-/// Of the steps to the points of the lattice around a place, counter-clockwise: the opposite of one is four further.
+/// Steps to the eight lattice points around a place, counter-clockwise. The opposite of a direction is four further.
 inline constexpr std::size_t directions = 8;
 [[nodiscard]] constexpr std::size_t opposite(std::size_t direction) {
   return (direction + directions / 2) % directions;
@@ -36,7 +36,7 @@ inline constexpr std::size_t directions = 8;
   return {at.x + x[direction], at.y + y[direction], at.z};
 }
 
-/// Where the points of a lattice lie.
+/// The position of a lattice's points.
 struct LatticePlan {
   double spacing = 0.0;
   Vec3 origin{0.0};
@@ -48,18 +48,18 @@ class WalkSteps {
   WalkSteps(const Survey& survey, const Measure& measure)
       : survey_(survey), measure_(measure), largest_(largest_radius(measure)) {}
 
-  /// The clearance where nothing limits a body.
+  /// The clearance of a place where nothing limits a body.
   [[nodiscard]] float unlimited() const { return rounded_down(largest_); }
 
-  /// Where a foot comes to that goes from a place to (x, y): straight, else with one step between; over cracks only
-  /// where the knee meets no wall.
+  /// The foot at (x, y) of a step from a place: straight, else with one step between. It crosses cracks only where the
+  /// knee meets no wall.
   [[nodiscard]] std::optional<Foot> foot_from(const Standing& from, const Vec3& to) const;
-  /// As clearance_at, rounded down; 0 where no body of `narrowest` can be.
+  /// As clearance_at, rounded down; 0 if no body of `narrowest` can be there.
   [[nodiscard]] float clearance(const Vec3& place) const;
   /// Whether a body of `narrowest` gets from one free place to another.
   [[nodiscard]] bool linked(const Standing& a, const Standing& b) const;
-  /// Whether a walker gets from one place to another where one of them is over a gap: on the largest foot, for what
-  /// lies in the gap may still be within a step, or the gap go on into an open drop. So one goes there.
+  /// Whether a walker gets from one place to another, one of which is over a gap. It walks on the largest foot: the gap
+  /// may have floor within a step, or continue into an open drop.
   [[nodiscard]] bool walked(const Standing& a, const Standing& b) const;
 
  private:

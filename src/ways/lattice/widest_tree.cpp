@@ -9,14 +9,14 @@
 namespace roam::ways {
 namespace {
 
-/// How many places are looked past before anybody is asked whether to go on.
+/// Places between two calls of `goes_on`.
 constexpr std::size_t places_between_questions = 256;
-/// How many of the steps that come next are looked at ahead: what waits longer is mostly come to from elsewhere.
+/// The number of next steps that are computed ahead. Steps farther back in the heap are mostly reached from elsewhere.
 constexpr std::size_t looked_ahead = 6;
 /// A step out of the tree that may be taken.
 struct Edge {
   float width = 0.0F;        ///< the smaller clearance of its two places
-  std::uint64_t number = 0;  ///< of equals the first that was found: ways stay short where everything is wide
+  std::uint64_t number = 0;  ///< order of discovery, among equals: ways stay short where everything is wide
   NodeId from = no_node, to = no_node;
 };
 struct Narrower {
@@ -32,8 +32,8 @@ bool has_other_cores() { return tbb::global_control::active_value(tbb::global_co
 struct WidestTree::State {
   std::unique_ptr<LatticeGraph> graph;
   std::vector<NodeId> root, parent;  ///< of each place; no_node
-  std::vector<float> offered;        ///< of each place: the widest of `edges` that lead to it; less than 0: none
-  std::vector<NodeId> were_offered;  ///< places that may have one
+  std::vector<float> offered;  ///< for each place the widest of `edges` that lead to it; negative if there is none
+  std::vector<NodeId> were_offered;  ///< places whose `offered` may be set
   std::vector<Edge> edges;           ///< a heap, the widest first
   bool looks_ahead = false;
   NodeId growing = no_node;  ///< the root of the tree that `edges` lead out of
@@ -47,7 +47,7 @@ struct WidestTree::State {
   }
   void offer(NodeId from, NodeId to) {
     if (root[to] == growing) return;
-    // Of those that lead to one place the widest is taken, and of equals the first: the others would only wait.
+    // Each place keeps the widest edge that leads to it, the first one among equals. The others would only wait.
     const float width = std::min(graph->node(from).clearance, graph->node(to).clearance);
     if (width <= offered[to]) return;
     if (offered[to] < 0.0F) were_offered.push_back(to);
@@ -61,12 +61,12 @@ struct WidestTree::State {
     edges.pop_back();
     return edge;
   }
-  /// The first of a heap are about those that come next.
+  /// The first elements of the heap come next or soon.
   void look_ahead() {
     for (std::size_t i = 0; i < std::min(looked_ahead, edges.size()); ++i)
       if (root[edges[i].to] != growing) graph->look_ahead(edges[i].to);
   }
-  /// Where what led to a place does not after all: what else does.
+  /// After a failed step to a place: offers all other steps to it.
   void offer_again(NodeId to) {
     offered[to] = -1.0F;
     for (const NodeId from : graph->neighbours(to))
@@ -86,9 +86,9 @@ struct WidestTree::State {
     for (const NodeId id : were_offered) offered[id] = -1.0F;
     were_offered.clear();
   }
-  /// Makes `edges` those of the tree that `id` hangs in, or a new tree of it. A tree that was left for another one is
-  /// grown again from its root, over places that are known by now: the other may have taken some out of its middle, and
-  /// what hangs on those would hang on itself when they are taken back.
+  /// Makes `edges` the outward edges of the tree of `id`, or starts a new tree there. Returning to a tree grows it
+  /// again from its root over known places: another tree may have taken places out of its middle. When those are taken
+  /// back, places below them would otherwise become their own ancestors.
   void turn_to(NodeId id) {
     cover();
     if (root[id] != no_node && root[id] == growing) return;
@@ -119,7 +119,7 @@ std::optional<NodeId> WidestTree::seed(const Vec3& place) {
 
 bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::uint64_t)>& goes_on) {
   State& s = *state_;
-  // Where all in reach is taken, all that is offered is.
+  // If everything in reach is taken, every offered step will be used.
   s.looks_ahead = until == no_node && has_other_cores();
   s.graph->let_look_ahead(s.looks_ahead);
   s.turn_to(root);
@@ -200,7 +200,7 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
   graph.let_look_ahead(false);
   std::priority_queue<Edge, std::vector<Edge>, Narrower> edges;
   std::vector<NodeId> before(graph.size(), no_node);
-  std::vector<float> offered(graph.size(), -1.0F);  // as State::offered; blocked places are offered more than there is
+  std::vector<float> offered(graph.size(), -1.0F);  // as State::offered; infinite for blocked places
   std::uint64_t pushed = 0, taken = 0;
   const auto offer = [&](NodeId at, NodeId next) {
     const float width = std::min(graph.node(at).clearance, graph.node(next).clearance);

@@ -15,11 +15,11 @@ namespace roam::ways {
 namespace {
 
 /// Metres.
-constexpr double end_reach = 2.0;  ///< how far an end is moved to where a body fits
-constexpr double ring = 0.1;       ///< from one circle of places that are tried to the next
+constexpr double end_reach = 2.0;  ///< an end is moved at most this far to free space
+constexpr double ring = 0.1;       ///< between one circle of tried places and the next
 constexpr int ring_places = 16;
-constexpr double probe = 0.01;      ///< radius of what is let down to the floor
-constexpr double above_feet = 0.1;  ///< feet that are this deep in the floor stand on it
+constexpr double probe = 0.01;      ///< radius of the sphere that is dropped to the floor
+constexpr double above_feet = 0.1;  ///< feet at most this deep in the floor stand on it
 
 std::optional<Vec3> foot_below(const Survey& survey, const Measure& measure, const Vec3& point) {
   if (const auto foot = foot_at(survey, measure, point)) return foot;
@@ -40,14 +40,14 @@ struct Neighbour {
   double apart = std::numeric_limits<double>::infinity();  ///< m
 };
 
-/// The places that hang in one tree, by where they are.
+/// The places of one tree, found by position.
 class Hung {
  public:
   Hung(const WidestTree& tree, NodeId one) : tree_(tree) {
     for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id)
       if (tree.root(id) == tree.root(one)) cells_[cell_of(tree.node(id).place)].push_back(id);
   }
-  /// What is farther than one or two metres off is not looked for.
+  /// The nearest place within one to two metres.
   [[nodiscard]] Neighbour nearest(const Vec3& place) const {
     Neighbour best;
     const auto [x, y, z] = cell_of(place);
@@ -80,7 +80,7 @@ std::optional<Vec3> free_end(const Survey& survey, const Measure& measure, const
   const auto place_at = [&](const Vec3& p) { return walks ? foot_below(survey, measure, p) : std::optional(p); };
   const auto here = place_at(point);
   if (here && fits(survey, measure, *here)) return here;
-  // On foot one looks out at the knee: what is lower is no wall.
+  // On foot, sight lines start at the knee: lower obstacles are no walls.
   Vec3 eye = point;
   if (walks && here) eye.z = std::max(point.z, here->z + measure.step + probe);
   const int layers = walks ? 0 : 1;

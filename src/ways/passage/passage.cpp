@@ -20,9 +20,9 @@ namespace {
 
 using namespace ways;
 
-/// Ways through other openings that are looked for, at most.
+/// Searches for ways through other openings, at most.
 constexpr int most_others = 32;
-/// Metres: less is no difference between two widths.
+/// Metres: widths that differ by less are equal.
 constexpr double same_width = 1e-3;
 /// Metres: a bound as near as this to the radius proves it.
 constexpr double proof = 5e-3;
@@ -62,19 +62,19 @@ Vec3 end_at(const Survey& survey, const Measure& measure, const Vec3& point) {
       measure.narrowest, point.x, point.y, point.z, measure.mode == Mode::walk ? " and floor below" : ""));
 }
 
-/// What all searches for one answer may look at together.
+/// The budget that all searches for one passage share.
 class Budget {
  public:
   explicit Budget(const PassageOptions& options) : options_(options) {}
 
-  /// Whether a search goes on that has looked at so many places.
+  /// Whether a search goes on. `places`: those that it has made so far.
   bool goes_on(std::uint64_t places) {
     places += before_;
     ended_ = ended_ || places >= options_.most_places || (options_.progress && !options_.progress(places));
     return !ended_;
   }
   [[nodiscard]] bool ended() const { return ended_; }
-  /// A search is over. Returns the places of all by now.
+  /// Ends a search. Returns the places of all searches so far.
   std::uint64_t add(std::uint64_t places) { return before_ += places; }
 
  private:
@@ -115,13 +115,13 @@ class Search {
     best.places = budget_.add(tree_.size());
     return best;
   }
-  /// Steep stairs, or a gap below a sill, may be found from one side alone, where the lattice lies badly. Where there
-  /// are walls all along what parts the two ends, neither finds a way.
+  /// If the lattice lies badly, a search may find steep stairs, or a gap below a sill, from one end only. If walls
+  /// separate the ends everywhere, a search from the other end is useless.
   [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_parts_; }
 
  private:
-  /// What fits at the ends bounds every way, and so does what the height leaves. Of a sphere that may lift only what
-  /// fits is certain, not that nothing larger does.
+  /// Clearance at the ends, and the height, bound every way. A sphere that may lift has no such bound: a larger one may
+  /// fit.
   [[nodiscard]] double end_bound() const {
     constexpr double rounding = 1e-4;  // m: of a clearance
     constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -131,8 +131,8 @@ class Search {
     if (ends < limit) return ends + rounding + survey_.world().largest_error();
     return limit < measure_.widest ? limit : unknown;
   }
-  /// Grows from both ends in turn, four times as far each time, until they meet or all that is in reach of one is
-  /// known: an end in a closet is not looked for all over a country. Returns whether they meet.
+  /// Grows from both ends in turn, four times as far each time, until they meet or one end's reach is exhausted. So an
+  /// end in a closet does not cost a search of the whole scene. Returns whether they meet.
   bool grow_together(NodeId a, NodeId b) {
     constexpr std::uint64_t first = 20'000;
     constexpr std::uint64_t factor = 4;
@@ -147,7 +147,7 @@ class Search {
         if (tree_.root(until) == tree_.root(root)) return true;
         if (budget_.ended()) return false;
         if (!whole) continue;
-        // As much of the other side, to say where they come nearest.
+        // Grows the other side as far, to find where the two come nearest.
         (void)grows_whole(until, root);
         return false;
       }
@@ -164,9 +164,9 @@ class Search {
     passage.bound = end_bound();
     return passage;
   }
-  /// Ways round the openings that were found, as long as one may be wider.
+  /// Searches ways around the openings found so far, as long as one may be wider.
   void others(NodeId a, NodeId b, const std::vector<NodeId>& first, Passage& best) {
-    // All ways have these ends.
+    // All ways share these ends, so this bounds their width.
     const double most = std::min(clearance_at(survey_, measure_, from_), clearance_at(survey_, measure_, to_));
     std::vector<Opening> found;
     std::vector<NodeId> before = first;
@@ -175,7 +175,7 @@ class Search {
            best.radius + same_width < most && !budget_.ended() && found.size() < most_others) {
       found.push_back(*last.opening);
       const double around = best.radius + options_.spacing;
-      // Who goes through an opening comes to a place of the lattice this narrow; wider ones beside it stay open.
+      // A way through an opening has a lattice place this narrow there. Wider places beside the opening stay open.
       const double narrow = std::hypot(best.radius, lattice_error * options_.spacing) + same_width;
       const auto blocked = [&](const Node& node) {
         return node.clearance < narrow && std::any_of(found.begin(), found.end(), [&](const Opening& o) {
@@ -228,7 +228,7 @@ Passage found_way(const Survey& survey, const Vec3& from, const Vec3& to, const 
     std::optional<Search> there(std::in_place, survey, options, measure, budget);
     Passage passage = there->run(from, to);
     const bool again = there->may_be_found_from_other_end();
-    there.reset();  // the places of one search at a time
+    there.reset();  // one tree in memory at a time
     if (!again) return passage;
     Passage back = Search(survey, options, measure, budget).run(to, from);
     if (back.found) return reversed(std::move(back));
@@ -238,8 +238,8 @@ Passage found_way(const Survey& survey, const Vec3& from, const Vec3& to, const 
   };
   for (;;) {
     Passage passage = search();
-    // A sphere climbs at most its radius: the largest that gets through with the step that is its own. Less climbs
-    // less, so this comes down to it.
+    // A sphere climbs at most its radius. Repeat with the found radius as step until both agree: a smaller step never
+    // gives a larger radius.
     constexpr double same_step = 1e-4;
     if (!rolls || !passage.found || passage.radius >= measure.step - same_step) return passage;
     measure.step = passage.radius;

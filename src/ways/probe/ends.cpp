@@ -1,4 +1,4 @@
-// Where the ends of a way stand, and where they could.
+// The ends of a way: where bodies stand, and where they could.
 #include "ways/passage/ends.h"
 
 #include <fmt/format.h>
@@ -17,26 +17,26 @@ namespace roam::ways {
 namespace {
 
 /// Metres.
-constexpr double ring = 0.05;         ///< from one circle of places that are tried to the next
-constexpr double in_sight = 3.0;      ///< how far room is looked for in sight
-constexpr double around_floor = 1.5;  ///< how far from a floor's nearest point room is looked for
+constexpr double ring = 0.05;         ///< between one circle of tried places and the next
+constexpr double in_sight = 3.0;      ///< how far to search for room in sight
+constexpr double around_floor = 1.5;  ///< how far to search for room around a floor's nearest point
 constexpr double same_floor = 0.5;    ///< nearer points of floors are tried once
 constexpr int ring_places = 24;
-constexpr std::size_t most_candidates = 100'000;  ///< of them that are kept on the way
+constexpr std::size_t most_candidates = 100'000;  ///< candidates kept during the search
 constexpr std::size_t most_floors = 48;           ///< points of floors that are tried
-constexpr double farthest_off = 100.0;            ///< or the scene's diagonal: who flies begins and ends no farther off
+constexpr double farthest_off = 100.0;            ///< or the scene's diagonal: flying ends lie at most this far outside
 
-/// The floor that a foot near a place comes to; flying, the place.
+/// The foot near a place; when flying, the place itself.
 std::optional<Vec3> placed(const ProbeSearch& search, const Measure& measure, const Vec3& near) {
   return measure.mode == Mode::walk ? foot_at(search.survey, measure, near) : std::optional(near);
 }
 
-/// Where one looks out from: on foot over what is stepped on.
+/// The start of sight lines: on foot at the knee, above the steps.
 Vec3 eye_of(const Measure& measure, const Vec3& place) {
   return place + Vec3(0.0, 0.0, measure.mode == Mode::walk ? measure.step + 0.01 : 0.0);
 }
 
-/// Points of the floors, the nearest first, each far from those before it.
+/// Points of the floors, the nearest first, at least `same_floor` apart.
 std::vector<Vec3> nearest_floors(const Survey& survey, const Vec3& place) {
   struct Candidate {
     double apart;
@@ -64,7 +64,7 @@ std::vector<Vec3> nearest_floors(const Survey& survey, const Vec3& place) {
 
 std::string text_of(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
 
-/// The nearest place where a body of `radius` has room, at most `reach` m away; `seen`: in sight.
+/// The nearest place where a body of `radius` has room, at most `reach` m away. `seen`: it must be in sight.
 std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, double radius, double reach, bool seen) {
   Measure measure = search.measure();
   measure.widest = std::max(radius, 2.0 * measure.narrowest);
@@ -91,7 +91,7 @@ std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, do
   return std::nullopt;
 }
 
-/// Metres from the box of the scene; on foot above it is over it.
+/// Metres from the box of the scene. On foot, a place above the box counts as inside.
 double off_scene(const ProbeSearch& search, const Vec3& place) {
   const Box box = search.survey.world().bounds();
   Vec3 off = glm::max(glm::max(box.lower - place, place - box.upper), Vec3(0.0));
@@ -99,11 +99,11 @@ double off_scene(const ProbeSearch& search, const Vec3& place) {
   return glm::length(off);
 }
 
-/// The nearest place for a body of `radius` from anywhere: on foot one that is no higher, and in sight, if there is
-/// one.
+/// The nearest place for a body of `radius`, at any distance. On foot, places no higher than `asked` and in sight come
+/// first.
 std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& asked, double radius) {
   const Measure measure = search.measure();
-  // From far off a floor is mostly hidden, and to look around each takes long.
+  // Seen from far away, a floor is mostly hidden, and searching around each is slow.
   constexpr int most_from_off = 8;
   const bool is_off = off_scene(search, asked) > 0.0;
   int tried = 0;

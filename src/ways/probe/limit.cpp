@@ -1,4 +1,4 @@
-// What it is that decides: a door, a wall beside an end, a lintel that is too low, a step that is too high.
+// The limit of a body: a door, a wall beside an end, a lintel that is too low, a step that is too high.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,21 +14,21 @@ namespace roam::ways {
 namespace {
 
 /// Metres.
-constexpr double same_clearance = 1e-3;  ///< an end with no more than that beyond the way's decides it
-constexpr double aside = 0.02;           ///< by how much a body is moved to see whether it has room on one side
+constexpr double same_clearance = 1e-3;  ///< an end limits the way if its clearance is at most this much larger
+constexpr double aside = 0.02;           ///< how far a body is moved to test for room on one side
 constexpr double station = 0.01;         ///< between the places of a way where the height is measured
 constexpr double precision = 1e-3;       ///< of a headroom
-constexpr double slack = 5e-4;           ///< that ways are certified to
+constexpr double slack = 5e-4;           ///< ways are certified to this
 constexpr double rounding = 1e-6;        ///< of the floor's height
-constexpr double headroom_beyond = 0.5;  ///< over the body something above it is looked for
-constexpr double rise_reach = 0.6;       ///< to both sides of where a way breaks off, the floor's height is compared
+constexpr double headroom_beyond = 0.5;  ///< how far above the body to search for a lintel
+constexpr double rise_reach = 0.6;       ///< radius around a breaking-off within which floor heights are compared
 constexpr double rise_within = 0.3;      ///< a floor that rises over more than this is a ramp
-/// Part of a move aside that the clearance grows by where only one side is near.
+/// A wall on one side only: moved aside by 1 m, a body gains at least this much clearance.
 constexpr double one_sided = 0.4;
-/// Metres, and part of a normal's length: what a body at a narrowest place has on both sides.
+/// Metres, and part of a normal's length: reach and facing of the walls on both sides of a narrowest place.
 constexpr double side_reach = 0.02;
 constexpr double side_cosine = 0.3;
-/// Steeper than this towards what is nearest, and it is above.
+/// A normal steeper than this belongs to a surface above or below.
 constexpr double upright = 0.7;
 
 Vec3 level(const Vec3& v) {
@@ -37,7 +37,7 @@ Vec3 level(const Vec3& v) {
   return length > 0.0 ? flat / length : Vec3(0.0);
 }
 
-/// Whether a body at an end has more room as soon as it moves off: what is near is on one side.
+/// Whether a body at an end gains room by moving aside: then the wall is on one side only.
 bool has_room_aside(const ProbeSearch& search, const Vec3& place, double clearance) {
   const Measure measure = search.measure();
   constexpr int directions = 16;
@@ -53,7 +53,7 @@ bool has_room_aside(const ProbeSearch& search, const Vec3& place, double clearan
   return false;
 }
 
-/// The end as what decides, if the wall beside it does.
+/// The end as the limit, if the wall beside it is.
 std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& passage, const Vec3& place,
                                     ProbeLimit::Kind kind, double radius) {
   const Measure measure = search.measure();
@@ -84,7 +84,7 @@ std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& pa
   return limit;
 }
 
-/// Whether something stands on both sides of a body at the narrowest place of a way.
+/// Whether a body at the narrowest place of a way has walls on both sides.
 bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& opening) {
   const Measure measure = search.measure();
   const double radius = 0.5 * opening.width;
@@ -101,7 +101,7 @@ bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& ope
   return ahead && behind;
 }
 
-/// Calls f(place, run, along) for places of a way that are `station` apart at most: the leg that each lies on, and its
+/// Calls f(place, run, along) for places of a way at most `station` apart. `run` is the leg with the place, `along` its
 /// distance from the way's start.
 template <class F>
 void for_each_station(const std::vector<Vec3>& way, const F& f) {
@@ -118,8 +118,7 @@ void for_each_station(const std::vector<Vec3>& way, const F& f) {
   }
 }
 
-/// The headroom of a way: the least height of a body of that radius that something above lets through. Looks for it up
-/// to `most`.
+/// The headroom of a way: the greatest height, up to `most`, of a body of that radius that passes under everything.
 ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
   ProbeLimit limit;
   limit.kind = ProbeLimit::Kind::height;
@@ -138,8 +137,7 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
   return limit;
 }
 
-/// How wide a way is where it is lowest, for the bodies of that search: 0 where that is not known, or nothing narrows
-/// it.
+/// The width of a way at its lowest place, for the bodies of that search. 0 if it is unknown or unlimited.
 double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const ProbeLimit& lowest, double radius) {
   const Measure measure = search.measure();
   Station narrowest{lowest.feet, measure.widest, false};
@@ -154,7 +152,7 @@ double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const P
   return widest < measure.widest ? 2.0 * widest : 0.0;
 }
 
-/// The heights of the floors within `rise_reach` of where a way breaks off, ascending.
+/// The heights of the floors within `rise_reach` of a breaking-off, ascending.
 std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) {
   const double above = search.options.height;
   std::vector<double> heights;
@@ -169,7 +167,7 @@ std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) 
   return heights;
 }
 
-/// The place of a way where the floor below it changes its height by as much as `most` within a stride.
+/// The place of a way with the largest change of floor height within a stride, up to `most`.
 ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double most) {
   ProbeLimit limit;
   limit.kind = ProbeLimit::Kind::step;
@@ -189,7 +187,7 @@ ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double mo
       const Vec3 run = floor[k] - floor[i];
       if (std::hypot(run.x, run.y) > rise_within) break;
       if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
-      // The last place before it and the first after it.
+      // The middle between the samples before and after the step.
       limit.size = std::abs(run.z);
       limit.point = floor[k - 1] + 0.5 * (floor[k] - floor[k - 1]);
       limit.point.z = 0.5 * (floor[i].z + floor[k].z);
@@ -207,7 +205,7 @@ Measure ProbeSearch::measure() const {
   Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
                   options.step,      options.widest,
                   options.narrowest, options.support_max};
-  // As the widest way begins; a sphere's step comes down to its radius.
+  // As widest_way() begins; it lowers a sphere's step to its radius.
   if (measure.mode == Mode::walk && measure.height == 0.0) measure.step = std::min(measure.step, measure.widest);
   return measure;
 }
@@ -269,12 +267,13 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
     return true;
   };
   if (!passes(low)) return std::nullopt;
-  // Where the way's own headroom is all there is, one more search says so; else it is halved.
+  // Alternates two tries: a millimetre above the known headroom, which ends the search if it fails, and half the
+  // interval.
   for (bool beyond = true; high - low > precision; beyond = !beyond) {
     const double next = beyond ? low + precision : 0.5 * (low + high);
     if (!passes(next)) high = next;
   }
-  // Where nothing is above the way of the lower body, it is not the height that stops the higher one.
+  // If nothing limits the height above the lower body's way, height is not what stops the taller body.
   if (best->size >= tall + headroom_beyond) return std::nullopt;
   best->size = low;
   best->needed = tall;

@@ -20,13 +20,13 @@ using namespace ways;
 
 namespace {
 
-/// Wider ways than this, metres, or than this many times the body, are not told apart.
+/// Metres, and radii of the body: wider ways are not distinguished.
 constexpr double wide = 1.0;
 constexpr double wide_times = 1.25;
-/// The narrowest ways that are looked for, to name the opening that stops the body: metres, and parts of its radius.
+/// The narrowest ways searched for the opening that stops the body: metres, and parts of its radius.
 constexpr double narrow = 0.05;
 constexpr double narrow_part = 0.5;
-/// Radii. A route has left the scene more than two beyond its box; one beyond it nothing is met.
+/// Radii beyond the scene's box. At one there is no contact; beyond two a route counts as having left the scene.
 constexpr double beside_scene = 1.9;
 
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
@@ -34,15 +34,15 @@ bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius
 /// The nearest place of a box.
 Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lower, box.upper); }
 
-/// A way that is taken to a box wherever it leads beside it; its ends stay. What is straight stays straight, and on the
-/// box's sides a body is as far from all that lies in it as the box is larger.
+/// Moves a way onto a box wherever it runs outside; its ends stay. Straight pieces stay straight. On the box's sides,
+/// the body's distance from the scene is the margin by which the box was grown.
 std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
   std::vector<Vec3> near;
   const auto add = [&](const Vec3& place) {
     if (near.empty() || near.back() != place) near.push_back(place);
   };
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    // Between two crossings of the sides' planes it is taken straight to a straight line.
+    // Between two crossings of the sides' planes, a straight piece maps to a straight piece.
     std::vector<double> crossings{0.0, 1.0};
     const Vec3 along = way[i + 1] - way[i];
     for (int k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
 /// Sends the walker along the way.
 ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const std::vector<Vec3> path = probed_path(survey, question, answer);
-  // Flying, an end may lie over the scene or beside it.
+  // A flying end may lie above or beside the scene.
   Box box;
   for (const Vec3& place : path) box.include(place);
   const Box scene = survey.world().bounds().grown(question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
@@ -70,7 +70,7 @@ ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const Pr
                 path.front());
   const RouteResult result = follow(walker, path, {.scene = scene});
   ProbeWalk walk{result.outcome, result.end, Vec3(0.0)};
-  // Where the ground ended, not how deep it was then.
+  // For a fall, report the place where the ground ended, not the depth reached.
   for (const RouteEvent& e : result.events) {
     if (result.outcome != Outcome::fell || e.event.kind == EventKind::fell) break;
     if (e.event.kind == EventKind::airborne) walk.at = e.event.point;
@@ -83,7 +83,7 @@ bool falls_short(const ProbeLimit& limit) {
   return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
 }
 
-/// What decides for one size of a search.
+/// Finds the limit for one size of a search.
 void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
   const double radius = answer.size.radius;
   answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
@@ -174,13 +174,13 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
                         end, place.x, place.y, place.z));
     }
   }
-  // Bodies that are measured alike, each with its largest and smallest radius.
+  // Bodies that share one search, with their largest and smallest radius.
   struct Group {
     double least = std::numeric_limits<double>::infinity();
     ProbedSize largest{0.0, 0.0};
     std::optional<ProbeSearch> search;
     Vec3 start{0.0}, target{0.0};
-    std::optional<ProbeLimit> low;  ///< an end where none of them can stand upright
+    std::optional<ProbeLimit> low;  ///< an end where no body of the group can stand upright
     Passage passage;
   };
   using Kind = std::pair<double, double>;  // height, or 0 for spheres; step

@@ -8,10 +8,10 @@
 namespace roam::ways {
 namespace {
 
-/// Metres: what comes this near to the body that just fits is one of the sides.
+/// Metres: surfaces this near to the body that just fits are its sides.
 constexpr double side_reach = 2e-3;
 constexpr std::size_t sides_looked_at = 64;
-/// Steeper than this from side to side, and it is the height that decides.
+/// If the direction between the sides is steeper than this, the height is the limit.
 constexpr double lintel_cosine = 0.7;
 
 }  // namespace
@@ -29,7 +29,7 @@ Opening opening_at(const Survey& survey, const Measure& measure, const Vec3& pla
   const double reach = side_reach + survey.world().largest_error();
   const std::size_t count = survey.world().contacts(body_of(measure, radius), centre, Vec3(0.0), reach, sides);
   if (count == 0) return opening;
-  // The two that face each other most; of equals the nearest, which come first.
+  // The two sides that face each other most. Among equals the nearest: contacts come in that order.
   constexpr double rounding = 1e-6;
   double least = 2.0;
   std::size_t one = 0, other = 0;
@@ -42,8 +42,8 @@ Opening opening_at(const Survey& survey, const Measure& measure, const Vec3& pla
       other = k;
     }
   }
-  // Seen from the axis, for along it a side may be touched anywhere. One side alone, as at the end of a way beside a
-  // wall, faces nothing.
+  // The sides as seen from the axis, because a contact may lie anywhere along it. A single side, as at the end of a way
+  // beside a wall, faces nothing.
   const Vec3 to_one = -sides[one].normal, to_other = one == other ? Vec3(0.0) : -sides[other].normal;
   const Vec3 chord = to_other - to_one;
   const Vec3 middle = centre + 0.5 * radius * (to_one + to_other);

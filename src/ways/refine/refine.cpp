@@ -10,13 +10,13 @@
 namespace roam::ways {
 namespace {
 
-/// Each finer lattice about a narrow place is this much finer.
+/// The ratio of one lattice's spacing to the next coarser one's, around a narrow place.
 constexpr double zoom = 0.3;
-/// Spacings that a window goes on beyond what is narrow, so that it begins and ends in wider places.
+/// Spacings that a window extends beyond its narrow places, so that it begins and ends in wide ones.
 constexpr double window_margin = 2.0;
-/// Places of one window, at most: a longer one is polished as it is.
+/// Places of one window, at most. Larger windows are polished without zooming.
 constexpr std::uint64_t most_window_places = 300'000;
-/// Metres: less is no difference between two widths.
+/// Metres: widths that differ by less are equal.
 constexpr double same_width = 1e-6;
 
 double least_free(const Stations& way) {
@@ -25,7 +25,7 @@ double least_free(const Stations& way) {
   return least;
 }
 
-/// The widest way through a finer lattice about the given one; the given one where that finds none as wide.
+/// The widest way through a finer lattice around the given one; the given one if no finer way is as wide.
 Stations zoomed(const Survey& survey, const Measure& measure, const Stations& way, double spacing) {
   const double least = least_free(way);
   Box window;
@@ -47,7 +47,7 @@ Stations zoomed(const Survey& survey, const Measure& measure, const Stations& wa
   return least_free(finer) >= least - same_width ? finer : way;
 }
 
-/// Whom a window about station `i` begins and ends with.
+/// The first and last station of a window.
 struct Run {
   std::size_t begin = 0, end = 0;
 };
@@ -65,12 +65,12 @@ Run run_about(const Stations& way, std::size_t i, double narrow, double margin) 
   return {reach(i, 0, -1), reach(i, way.size() - 1, 1)};
 }
 
-/// The narrowest of the unpolished stations near which the way may be narrower than where it is polished.
+/// The narrowest unpolished station near which the way may be narrower than at its polished stations.
 std::optional<std::size_t> next_narrow(const Stations& way, double limit, double spacing) {
   double least = limit;
   for (const Station& s : way)
     if (s.polished) least = std::min(least, s.free);
-  // Between two places of the lattice may stand a thin door that is this much narrower than they are.
+  // A thin door between two lattice places may be this much narrower than they are.
   const double between = std::hypot(least, lattice_error * spacing);
   std::optional<std::size_t> next;
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -89,11 +89,11 @@ void polish_narrow_places(const Survey& survey, const Measure& measure, double s
                     way.begin() + static_cast<std::ptrdiff_t>(run.end) + 1);
     const double before = least_free(window);
     Stations ridge = polish(survey, measure, zoomed(survey, measure, window, spacing), zoom * spacing);
-    // Narrower by more than a thin door between two places explains: a corner that the ridge does not follow.
+    // The loss is more than a thin door between two places explains: the ridge has missed a corner.
     if (std::hypot(least_free(ridge), lattice_error * spacing) < before) ridge = window;
     for (Station& s : ridge)
       if (&s != &ridge.front() && &s != &ridge.back()) s.polished = true;
-    // The window's first and last place are only done with when the window ends with the way or began there.
+    // The window's first and last stations only count as polished if the way, or the narrow place, ends there.
     const auto first = way.begin() + static_cast<std::ptrdiff_t>(run.begin);
     if (*narrow == run.begin) ridge.front().polished = true;
     if (*narrow == run.end) ridge.back().polished = true;
@@ -113,7 +113,7 @@ Passage refine(const Survey& survey, const Measure& measure, double spacing, std
     if (!way.empty() && place == way.back().place) continue;
     way.push_back({place, clearance_at(survey, measure, place), false});
   }
-  way.front().polished = way.back().polished = true;  // where the way begins and ends is given
+  way.front().polished = way.back().polished = true;  // the way's ends are given
   if (least_free(way) < measure.narrowest) return passage;
   polish_narrow_places(survey, measure, spacing, way);
   const double limit = largest_radius(measure);

@@ -11,9 +11,9 @@
 namespace roam::ways {
 namespace {
 
-/// Metres. Stations of a polished way are as far apart.
+/// Metres between stations of a polished way.
 constexpr double station_spacing = 0.02;
-/// Metres: to which the widest place beside a station, and the narrowest between two, are found.
+/// Metres: precision of the widest place beside a station, and of the narrowest between two.
 constexpr double fine = 1e-5;
 constexpr std::size_t flying_directions = 16;
 
@@ -22,7 +22,7 @@ struct Sideways {
   std::size_t count = 0;
 };
 
-/// On foot to the left and the right; flying all round.
+/// The directions to search: left and right on foot, all around when flying.
 Sideways sideways(const Measure& measure, const Vec3& ahead) {
   const Vec3 up(0.0, 0.0, 1.0);
   Vec3 side = glm::cross(up, ahead);
@@ -66,7 +66,7 @@ Vec3 ahead_at(const Stations& way, std::size_t i) {
   return length > 0.0 ? d / length : Vec3(1.0, 0.0, 0.0);
 }
 
-/// The same way with places as far apart as asked, straight between those that were given.
+/// The same way with places `apart` from each other, on the straight lines between the given ones.
 Stations resampled(const Stations& way, double apart) {
   Stations out{way.front()};
   double left = apart;
@@ -77,19 +77,19 @@ Stations resampled(const Stations& way, double apart) {
     for (; at < length; at += apart) out.push_back({a + d * (at / length), 0.0, false});
     left = at - length;
   }
-  // The last one stays; what is nearer to it than half a step goes.
+  // The last place stays; one nearer to it than half a step is dropped.
   if (out.size() > 1 && glm::length(out.back().place - way.back().place) < 0.5 * apart) out.pop_back();
   out.push_back(way.back());
   return out;
 }
 
-/// Each place to the middle between its neighbours, twice over.
+/// Moves each place towards the middle between its neighbours, twice over.
 void smooth(Stations& way) {
   for (int turn = 0; turn < 2; ++turn) {
     Vec3 before = way.front().place;
     for (std::size_t i = 1; i + 1 < way.size(); ++i) {
       const Vec3 here = way[i].place;
-      const double z = here.z;  // heights jump at kerbs, and feet find the floor from where they are
+      const double z = here.z;  // heights jump at kerbs, and the search for the floor starts at its own height
       way[i].place = 0.25 * before + 0.5 * here + 0.25 * way[i + 1].place;
       way[i].place.z = std::max(z, way[i].place.z);
       before = here;
@@ -97,7 +97,7 @@ void smooth(Stations& way) {
   }
 }
 
-/// All stations to their widest within `reach`; those where nobody fits are left out.
+/// Moves all stations to their widest within `reach`; drops those where no body fits.
 Stations widened(const Survey& survey, const Measure& measure, const Stations& way, double reach) {
   Stations out{way.front()};
   for (std::size_t i = 1; i + 1 < way.size(); ++i) {

@@ -11,19 +11,19 @@
 namespace roam::ways {
 namespace {
 
-/// Metres. On foot a straight piece is tried in steps of this.
+/// Metres. On foot a straight piece is checked in steps of this length.
 constexpr double stride = 0.1;
-/// Metres. A straight piece leaves the floor by at most this, a kerb's height below and above.
+/// Metres. A straight piece is at most this far above or below the floor, as beside a kerb.
 constexpr double floor_tolerance = 0.1;
-/// Metres. What rises by less over a stride than the slope limit, and this, is no step.
+/// Metres. Added to the rise that the slope limit allows over a stride; a larger rise is a step.
 constexpr double uneven = 0.02;
-/// A shorter way may be this much narrower than what it replaces.
+/// A shorter way may be narrower than the part that it replaces, down to this share of its width.
 constexpr double kept_share = 0.9;
-/// Metres. Straight pieces are no longer: each is tried by stepping along all of it.
+/// Metres. The longest straight piece: checking one takes steps along all of it.
 constexpr double longest_piece = 20.0;
 
-/// As passes(), and the floor is within `tolerance` of the straight line. No step is climbed on it: where one is, the
-/// way keeps to the places that a walker has been seen to climb it between.
+/// As passes(), with the floor within `tolerance` of the straight line and no step along it. At steps the way keeps the
+/// lattice places between which a walker climbed them.
 bool passes_on_floor(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to, double radius,
                      double tolerance) {
   if (measure.mode == Mode::fly) return goes_straight(survey, measure, from, to, radius);
@@ -45,7 +45,7 @@ bool passes_on_floor(const Survey& survey, const Measure& measure, const Vec3& f
   return true;
 }
 
-/// The largest radius up to `radius` that goes from one place to the other; 0 where less than `narrowest`.
+/// The largest radius up to `radius` that goes straight between two places; 0 if it is less than `narrowest`.
 double largest_straight(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to, double radius) {
   double free = 0.0, taken = radius;
   while (taken - free > 0.1 * certified_margin(survey)) {
@@ -71,7 +71,7 @@ double mend(const Survey& survey, const Measure& measure, Stations& way, double 
   constexpr int most_halvings = 5;
   double certified = radius;
   Stations mended{way.front()};
-  // Pieces still to be certified, the next on top; with how often each was halved.
+  // Pieces still to be certified, the next one on top; `halvings` counts how often each was halved.
   struct Goal {
     Station station;
     int halvings;
@@ -111,7 +111,7 @@ std::vector<Vec3> straightened(const Survey& survey, const Measure& measure, con
   const double margin = certified_margin(survey);
   std::vector<Vec3> out{way.front().place};
   for (std::size_t i = 0; i + 1 < way.size();) {
-    // Twice as far each time, and then half the step back until it goes.
+    // Doubles the length until a piece fails, then approaches the last length that passes by halving.
     const auto goes = [&](std::size_t j) {
       double least = std::min(way[i].free, way[j].free), length = 0.0;
       for (std::size_t k = i; k < j; ++k) {

@@ -7,7 +7,7 @@
 namespace roam::ways {
 namespace {
 
-/// Metres: what lies so far above the feet or below them is on the same storey.
+/// Metres: points this far above or below the feet are on the same storey.
 constexpr double storey_above = 3.0;
 constexpr double storey_below = 1.0;
 

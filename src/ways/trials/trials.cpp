@@ -10,16 +10,16 @@ namespace roam::ways {
 
 namespace {
 
-/// s. A body on foot looks for ground every half radius of its own accord: longer steps only save reports.
+/// s. A walking body checks for ground every half radius by itself, so long time steps lose nothing.
 constexpr double trial_dt = 1.0 / 30.0;
-/// Steps between two questions whether to go on.
+/// Steps between two calls of `goes_on`.
 constexpr std::uint64_t asked_every = 256;
-/// m. A body that was put so much beside the start did not fit there.
+/// m. If the walker was put this far from the start, it did not fit there.
 constexpr double put_aside = 0.05;
-/// m. What a floor that is not even lets a body stand lower than the way that was planned over it.
+/// m. How much lower than the planned way a body may stand on uneven floor.
 constexpr double uneven = 0.02;
 
-/// A body's centre over a foot: lifted by a part of a step, so that no bump of the floor is in it, where there is room.
+/// A body's centre over a foot. Lifted by part of a step if there is room, to clear the floor's bumps.
 Vec3 start_over(const Survey& survey, const Body& body, const Vec3& foot, double step) {
   constexpr std::array parts{1.0, 0.5, 0.25, 0.1, 0.03, 0.01};
   for (const double part : parts) {
@@ -34,7 +34,7 @@ bool was_put_aside(const RouteResult& result, const Vec3& start) {
   return std::hypot(by.x, by.y) > put_aside && result.steps == 0;
 }
 
-/// The level of the way where a body stopped that was under way to `next`.
+/// The way's height where a body stopped on its way to `next`.
 double level_at(std::span<const Vec3> way, std::size_t next, const Vec3& place) {
   if (next == 0 || next >= way.size()) return way.back().z;
   const Vec3 from = way[next - 1], along = way[next] - from;
@@ -44,7 +44,7 @@ double level_at(std::span<const Vec3> way, std::size_t next, const Vec3& place) 
   return from.z + std::clamp(at, 0.0, 1.0) * along.z;
 }
 
-/// The steps that free motion along a way takes, and two seconds more: each step ends at the next place of the way.
+/// The steps that free motion along a way takes, plus two seconds. A step ends at each place of the way.
 double free_steps(std::span<const Vec3> way, double speed) {
   constexpr double more = 2.0;  // s
   double steps = more / trial_dt;
@@ -83,7 +83,7 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
     for (Vec3& place : centres) place.z += 0.5 * settings.height;
     centres.front() = start_over(survey, body, way.front(), settings.step);
   }
-  // Flying, the way may lead over the scene and beside it.
+  // A flying way may lead above or beside the scene.
   Box box;
   for (const Vec3& place : centres) box.include(place);
   const Box scene = survey.world().bounds().grown(kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);

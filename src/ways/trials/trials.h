@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Trials: a real Walker is sent along a planned way.
+/// Trials: a real Walker follows a planned way.
 
 #include <functional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace roam::ways {
 
-/// What bodies of several sizes have in common.
+/// The common properties of bodies of several sizes.
 struct BodyKind {
   Mode mode = Mode::walk;
   double height = 0.0;  ///< m, on foot; 0: a sphere
@@ -20,21 +20,22 @@ struct BodyKind {
   double speed = 1.4;  ///< m/s
 };
 
-/// The largest radius that a body of this kind can have: half of what is between its knee and the top of its head.
+/// The largest radius of a body of this kind: half the height between its knee and its top.
 [[nodiscard]] double largest_radius(const BodyKind& kind);
 
 /// The settings of such a body. It does not crouch: a lower body is another body.
 [[nodiscard]] WalkerSettings settings_of(const BodyKind& kind, double radius, double support_radius);
 
-/// A trial's patience: it takes at most so many times the steps of free motion along its way, and of two seconds more.
-/// Route ends what gets on by less than a twentieth of its speed; this, what is held up in each of its steps.
+/// A trial ends after this many times the steps that free motion along its way takes, plus two seconds. Route ends a
+/// body that moves slower than a twentieth of its speed; this limit ends one that is slowed in every step.
 inline constexpr double trial_patience = 10.0;
 
-/// Sends a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
-///   - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
-///   - a body that ends more than a step below the way has fallen into what stops it, however shallow: `fell`.
-/// Who is not through when `patience` is at its end is `blocked`. `goes_on` is asked now and then; false ends the
-/// trial, with the outcome so far `held`.
+/// Moves a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
+/// - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
+/// - a body that ends more than a step below the way has fallen into an obstacle, however shallow: `fell`.
+///
+/// A body still under way when `patience` ends is `blocked`. Calls `goes_on` now and then; false ends the trial with
+/// the outcome `held`.
 [[nodiscard]] Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
                             std::span<const Vec3> way, const std::function<bool()>& goes_on = {},
                             double patience = trial_patience);
