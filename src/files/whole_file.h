@@ -29,8 +29,10 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  /// The path until commit(), for what opens files by name.
+  /// The path until commit(). It may lead elsewhere by then: to write, take the descriptor.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_path_ / temporary_; }
+  /// The open file, for a child to write to; -1 after commit().
+  [[nodiscard]] int descriptor() const { return file_.number(); }
   /// Appends.
   void write(std::span<const std::byte> bytes);
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
