@@ -51,6 +51,9 @@ extern "C" int fsync(int fd) {
 extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
   return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
 }
+extern "C" int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  return counted([&] { return static_cast<int>(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags)); });
+}
 extern "C" mode_t umask(mode_t mask) noexcept {
   ++umasks;
   return static_cast<mode_t>(::syscall(SYS_umask, mask));
@@ -59,6 +62,7 @@ extern "C" mode_t umask(mode_t mask) noexcept {
 namespace {
 
 namespace fs = std::filesystem;
+using roam::files::Naming;
 using roam::files::WholeFile;
 using roam::files::write_whole;
 
@@ -162,6 +166,43 @@ TEST(WholeFile, TwoOfOneNameDoNotMix) {
   other.commit();
   EXPECT_EQ(folder.read("a.txt"), "other");
   EXPECT_EQ(files_in(folder), 1U);
+}
+
+TEST(WholeFile, ThatIsNumberedReplacesNothing) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.txt");
+  WholeFile one(file, Naming::numbered), other(file, Naming::numbered);
+  one.write(bytes_of("one"));
+  other.write(bytes_of("other"));
+  // All of this came while they were written.
+  folder.write("a-1.txt", "precious");
+  fs::create_symlink("elsewhere.txt", folder.file("a-2.txt"));
+  for (const char* name : {"a.txt", "a-3.txt"}) fs::create_directory(folder.file(name));
+  EXPECT_EQ(one.commit(), folder.file("a-4.txt"));
+  EXPECT_EQ(other.commit(), folder.file("a-5.txt"));
+  EXPECT_EQ(folder.read("a-1.txt"), "precious");
+  EXPECT_EQ(folder.read("a-4.txt"), "one");
+  EXPECT_EQ(folder.read("a-5.txt"), "other");
+  EXPECT_TRUE(fs::is_symlink(folder.file("a-2.txt")));
+  EXPECT_EQ(files_in(folder), 6U);
+  EXPECT_EQ(write_whole(folder.file("b"), "text", Naming::numbered), folder.file("b-1"));
+}
+
+TEST(WholeFile, IsNumberedWhereAFileHasOneNameOnly) {
+  const TestFolder folder;
+  folder.write("a-1.txt", "precious");
+  // After the write and the file's sync: once the name that is free, once the one that is taken.
+  for (const int call : {4, 3}) {
+    calls = 0;
+    failure = EPERM;
+    failing_call = call;
+    const fs::path file = write_whole(folder.file("a.txt"), "text", Naming::numbered);
+    failing_call = 0;
+    EXPECT_EQ(file, folder.file(call == 4 ? "a-2.txt" : "a-3.txt"));
+    EXPECT_EQ(folder.read(file.filename()), "text");
+  }
+  EXPECT_EQ(folder.read("a-1.txt"), "precious");
+  EXPECT_EQ(files_in(folder), 3U);
 }
 
 TEST(WholeFile, LeavesAloneWhatAProcessOfTheSameNumberLeft) {

@@ -301,6 +301,26 @@ TEST_F(GraphicsCapture, SaysWhatFfmpegSaidLast) {
   EXPECT_NE(words.find("out of luck"), std::string::npos) << words;
 }
 
+TEST_F(GraphicsCapture, AFilmIsNotWrittenWhereALinkInItsPlaceLeads) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  const fs::path letter = folder / "letter.txt", bin = folder / "bin";
+  std::ofstream(letter) << "precious";
+  // As whoever may write to the folder: replaces the film before ffmpeg opens it.
+  fs::create_directories(bin);
+  std::ofstream(bin / "ffmpeg") << "#!/bin/sh\nfor film in " << folder.string() << "/*.unfinished; do ln -sf " << letter
+                                << " \"$film\"; done\nexec " << process::find_program("ffmpeg") << " \"$@\"\n";
+  fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  static_cast<void>(complaint([&] {
+    Video video(folder / "film.mp4", 64, 64, 20);
+    for (int i = 0; i < 5; ++i) video.add(plain_image(64, 64, 50));
+    video.finish();
+  }));
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(fs::file_size(letter), 8u) << "something was written through the link";
+}
+
 TEST_F(GraphicsCapture, AFilmThatCannotBeWrittenIsRefusedAtOnce) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
   const std::string words = complaint([&] { Video(folder / "no" / "such" / "film.mp4", 64, 64, 20); });

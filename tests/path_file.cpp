@@ -1,13 +1,16 @@
 #include "roam/path_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <streambuf>
 
+#include "program.h"
 #include "roam/error.h"
 
 namespace {
@@ -171,6 +174,36 @@ TEST(PathFile, IsSavedSoThatItIsReadBackToTheLastBit) {
   std::string line;
   std::getline(in, line);
   EXPECT_EQ(line, "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45 support 0.65");
+}
+
+/// Several kB.
+std::vector<roam::Vec3> long_way() {
+  std::vector<roam::Vec3> way;
+  for (int i = 0; i < 2000; ++i) way.emplace_back(i, 0.5 * i, 0.25);
+  return way;
+}
+
+TEST(PathFile, IsAsItWasWhenTheDiskIsFull) {
+  const TestFolder folder;
+  const std::string file = folder.write("way.path", "of before");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string said = saving(file, long_way());
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_NE(said.find("way.path: File too large"), std::string::npos) << said;
+  EXPECT_TRUE(folder.read("way.path") == "of before");
+}
+
+TEST(PathFile, IsNotSavedWhereALinkLeads) {
+  const TestFolder folder;
+  folder.write("letter.txt", "precious");
+  std::filesystem::create_symlink("letter.txt", folder.file("way.path"));
+  EXPECT_EQ(saving(folder.file("way.path"), long_way()), "no error");
+  EXPECT_TRUE(folder.read("letter.txt") == "precious");
+  EXPECT_EQ(roam::positions(roam::load_path(folder.file("way.path"))), long_way());
 }
 
 TEST(PathFile, IsNotSavedWhereItCouldNotBeReadOrWritten) {

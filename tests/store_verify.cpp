@@ -1,7 +1,9 @@
 // What verify_store finds where every hash is right and the manifest still does not say what is there.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "store/made.h"
 
@@ -20,6 +22,34 @@ std::vector<StoreDamage> damage_after(const std::function<void(store::Manifest&)
   spoil(manifest);
   store::publish(folder.path(), manifest);
   return verify_store(folder.path()).damage;
+}
+
+/// Makes a store of one square.
+void make_store(const std::filesystem::path& folder) {
+  const Mesh mesh{"", {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  made::Maker(folder, {&mesh, 1}, {}).run();
+}
+
+TEST(MadeFolder, IsOfItsOwn) {
+  const made::Folder one("verify"), other("verify");
+  EXPECT_NE(one.path(), other.path());
+}
+
+TEST(VerifyStore, ReadsTheStoreThatItOpenedWhateverTakesItsPlace) {
+  const made::Folder folder("verify_replaced");
+  const std::filesystem::path place = folder.path() / "s", aside = folder.path() / "aside";
+  make_store(place);
+  bool replaced = false;
+  const StoreVerification found = verify_store(place, [&](std::uint64_t, std::uint64_t) {
+    if (!std::exchange(replaced, true)) {
+      std::filesystem::rename(place, aside);
+      std::filesystem::create_directory(place);
+    }
+    return true;
+  });
+  EXPECT_TRUE(replaced);
+  EXPECT_TRUE(found.whole()) << (found.damage.empty() ? "" : found.damage[0].what + ": " + found.damage[0].why);
+  EXPECT_EQ(found.tiles, 1U);
 }
 
 TEST(VerifyStore, ComparesWhatTheManifestSaysWithWhatIsThere) {

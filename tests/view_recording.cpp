@@ -1,11 +1,15 @@
 // What roam view records: the way, and the body that went it.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <functional>
 
 #include "messages.h"
 #include "program.h"
-#include "scenes/recorded_body.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
+#include "scenes/recorded_body.h"
 #include "view/options.h"
 #include "view/path_recorder.h"
 #include "view/walk_log.h"
@@ -34,6 +38,51 @@ TEST(PathRecorder, WritesAPathThatCanBeWalked) {
   EXPECT_NEAR(path.back().pose->time, 3.5, 1e-3);
   EXPECT_EQ(path[path.size() - 2].position, Vec3(1, 2, 3));
   EXPECT_NEAR(path[path.size() - 2].pose->time, 3.0, 0.05);
+}
+
+/// Records a way of some kB to way.path. What went wrong; empty: nothing.
+std::string recorded(const TestFolder& folder, const std::function<void()>& meanwhile) {
+  return error_of([&] {
+    PathRecorder recorder(folder.file("way.path"), {}, Mode::walk);
+    for (int i = 0; i < 200; ++i) recorder.add(0.1 * i, {0.1 * i, 2.0, 3.0}, {}, Mode::walk);
+    meanwhile();
+    recorder.close();
+  });
+}
+
+TEST(PathRecorder, LeavesWhatWasThereUntilItCloses) {
+  const TestFolder folder;
+  folder.write("way.path", "of before");
+  EXPECT_EQ(recorded(folder, [&] { EXPECT_TRUE(folder.read("way.path") == "of before"); }), "");
+  EXPECT_GT(load_path(folder.file("way.path")).size(), 100U);
+}
+
+TEST(PathRecorder, LeavesWhatWasThereWhenTheDiskIsFull) {
+  const TestFolder folder;
+  folder.write("way.path", "of before");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{1024, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string said = recorded(folder, [] {});
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_TRUE(contains(said, "way.path: File too large")) << said;
+  EXPECT_TRUE(folder.read("way.path") == "of before");
+}
+
+TEST(PathRecorder, WritesNotWhereALinkLeads) {
+  const TestFolder folder;
+  folder.write("letter.txt", "precious");
+  std::filesystem::create_symlink("letter.txt", folder.file("way.path"));
+  EXPECT_EQ(recorded(folder, [] {}), "");
+  EXPECT_TRUE(folder.read("letter.txt") == "precious");
+}
+
+TEST(PathRecorder, KeepsAWayThatAnErrorCutShort) {
+  const TestFolder folder;
+  EXPECT_EQ(recorded(folder, [] { throw Error("the graphics driver has gone"); }), "the graphics driver has gone");
+  EXPECT_GT(load_path(folder.file("way.path")).size(), 100U);
 }
 
 TEST(PathRecorder, SaysWhereItCannotWrite) {
@@ -119,16 +168,6 @@ TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   options.radius.reset();
   options.height = 1.0;
   EXPECT_EQ(make_plan(options, settings, body).walker.eye, 1.0);
-}
-
-TEST(UnusedName, NeverNamesWhatIsThere) {
-  const TestFolder folder;
-  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-1.png"));
-  folder.write("roam-1.png", "");
-  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-2.png"));
-  // What is written through a link that leads nowhere lies wherever the link's author wants.
-  std::filesystem::create_symlink("elsewhere.png", folder.file("roam-2.png"));
-  EXPECT_EQ(unused_name(folder.file(""), "png"), folder.file("roam-3.png"));
 }
 
 TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {

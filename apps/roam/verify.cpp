@@ -10,6 +10,7 @@
 #include "roam/store_build.h"
 #include "scenes/beside_scene.h"
 #include "scenes/user_key.h"
+#include "store/held.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -28,11 +29,11 @@ struct Origin {
   std::string why_not;  ///< a clause
 };
 
-Origin origin_of(const std::filesystem::path& store) {
+Origin origin_of(const store::Folder& folder) {
   const UserKey user = user_key();
   if (!user.key) return {false, "no key of yours can be used: " + user.problem};
   try {
-    if (Store::open(store)->is_authentic(*user.key)) return {true, ""};
+    if (store::open_store(folder)->is_authentic(*user.key)) return {true, ""};
   } catch (const Error&) {  // what is damaged was told
   }
   return {false, "it was not built with your key"};
@@ -78,10 +79,10 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
                      found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
 }
 
-StoreVerification look(const VerifyOptions& options) {
+StoreVerification look(const VerifyOptions& options, const store::Folder& folder) {
   Progress progress("verifying " + options.store.string(), "B");
-  return verify_store(options.store,
-                      [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
+  return store::verify_store(folder,
+                             [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
 }
 
 std::uint64_t repair(const VerifyOptions& options) {
@@ -103,14 +104,15 @@ std::uint64_t repair(const VerifyOptions& options) {
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
-  StoreVerification found = look(options);
+  const store::Folder folder = store::hold_store(options.store);
+  StoreVerification found = look(options, folder);
   std::uint64_t repaired = 0;
   if (!found.whole() && !options.scene.empty()) {
     if (!options.json) print(text_report(options, found, {}));
     repaired = repair(options);
-    found = look(options);
+    found = look(options, folder);
   }
-  const Origin origin = origin_of(options.store);
+  const Origin origin = origin_of(folder);
   if (options.json) {
     print(json_report(options, found, origin, repaired));
   } else {

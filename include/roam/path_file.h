@@ -49,7 +49,8 @@ struct Waypoint {
 /// "# roam: mode walk radius 0.3 height 1.8 eye 1.6 step 0.3 slope 45", and " support 0.7" if there is a support disc.
 [[nodiscard]] std::string body_line(const WalkerSettings& body, Mode mode);
 /// Writes positions of the centre, after body_line() if `body` is given. load_path() reads them back to the last bit.
-/// Throws roam::Error for positions that load_path() would refuse, and if writing fails: the file is incomplete then.
+/// Replaces a file, or a link, only when the new file is complete. Throws roam::Error for positions that load_path()
+/// would refuse, and if writing fails.
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body = nullptr,
                Mode mode = Mode::walk);
 

@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <sstream>
 #include <string_view>
@@ -180,10 +179,7 @@ void save_path(const std::filesystem::path& file, std::span<const Vec3> path, co
     }
     text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("cannot write {}; is its folder yours, and the disk not full?", file.string()));
+  files::write_whole(file, text);
 }
 
 std::vector<Vec3> positions(const std::vector<Waypoint>& path) {

@@ -73,6 +73,16 @@ std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uin
 
 WholeFile::WholeFile(const fs::path& file, unsigned rights)
     : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights) {
+  demand_replaceable();
+}
+
+WholeFile::WholeFile(const fs::path& file, Naming naming)
+    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string()) {
+  naming_ = naming;
+  if (naming == Naming::exact) demand_replaceable();
+}
+
+void WholeFile::demand_replaceable() const {
   // Renaming would replace a device, and fail on a folder after all the work.
   struct stat status {};
   if (::fstatat(folder_.number(), name_.c_str(), &status, 0) != 0) {
@@ -81,7 +91,8 @@ WholeFile::WholeFile(const fs::path& file, unsigned rights)
   }
   if (S_ISDIR(status.st_mode)) fail_to_write(EISDIR);
   if (S_ISREG(status.st_mode)) return;
-  throw FileError(fmt::format("cannot write {}: it is a pipe or a device; name a file", file.string()), ESPIPE);
+  throw FileError(
+      fmt::format("cannot write {}: it is a pipe or a device; name a file", (folder_path_ / name_).string()), ESPIPE);
 }
 
 WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights)
@@ -133,12 +144,47 @@ void WholeFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes)
   }
 }
 
-void WholeFile::commit_as(const std::string& name) {
+void WholeFile::finish_writing() {
   if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);
   // Some network file systems tell of a full disk only now.
   const int closed = ::close(file_.release());
   if (closed != 0 && errno != EINTR) fail_to_write(errno);
+}
+
+bool WholeFile::take(const std::string& name) {
+  if (::linkat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str(), 0) == 0) {
+    ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+    return true;
+  }
+  // Some file systems know no second name of a file.
+  struct stat status {};
+  if (errno == EEXIST || ::fstatat(folder_.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return false;
   if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str()) != 0) fail_to_write(errno);
+  return true;
+}
+
+fs::path WholeFile::commit() {
+  if (naming_ == Naming::exact) {
+    commit_as(name_);
+    return folder_path_ / name_;
+  }
+  finish_writing();
+  const fs::path wanted(name_);
+  std::string name;
+  for (int number = 1; name.empty() || !take(name); ++number) {
+    name = fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+  }
+  settle();
+  return folder_path_ / name;
+}
+
+void WholeFile::commit_as(const std::string& name) {
+  finish_writing();
+  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str()) != 0) fail_to_write(errno);
+  settle();
+}
+
+void WholeFile::settle() {
   temporary_.clear();
   listed_.end();
   sync_folder(folder_.number(), folder_path_);
@@ -155,10 +201,10 @@ bool is_temporary(std::string_view name, const std::function<bool(std::string_vi
   return is_final(name);
 }
 
-void write_whole(const fs::path& file, std::string_view text) {
-  WholeFile out(file);
+fs::path write_whole(const fs::path& file, std::string_view text, Naming naming) {
+  WholeFile out(file, naming);
   out.write(std::as_bytes(std::span(text)));
-  out.commit();
+  return out.commit();
 }
 
 std::string read_whole(const fs::path& file, std::uint64_t limit) {

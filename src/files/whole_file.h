@@ -15,6 +15,11 @@
 
 namespace roam::files {
 
+enum class Naming {
+  exact,     ///< what has the name is replaced
+  numbered,  ///< "a.png" becomes the first of a-1.png, a-2.png, ... that nothing has; nothing is replaced
+};
+
 /// A file in the making, beside its final place. It has the rights of any new file, or less. Unless commit() succeeds
 /// it is removed with this object, and when the program is interrupted. All functions throw FileError, and go on with
 /// interrupted and short writes.
@@ -23,25 +28,33 @@ class WholeFile {
   /// Throws also when the final place holds anything but a file, such as a folder or a device.
   /// `rights`: as of open(2), from which those of umask are taken.
   explicit WholeFile(const std::filesystem::path& file, unsigned rights = usual_rights);
+  WholeFile(const std::filesystem::path& file, Naming naming);
   /// The file `name` in an open folder, whose path is for messages.
   WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name, unsigned rights = usual_rights);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  /// The path until commit(), for what opens files by name.
+  /// The path until commit(). It may lead elsewhere by then: to write, take the descriptor.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_path_ / temporary_; }
+  /// The open file, for a child to write to; -1 after commit().
+  [[nodiscard]] int descriptor() const { return file_.number(); }
   /// Appends.
   void write(std::span<const std::byte> bytes);
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
-  /// Syncs the file, gives it its name and syncs the folder.
-  void commit() { commit_as(name_); }
+  /// Syncs the file, gives it its name and syncs the folder. Returns its path.
+  std::filesystem::path commit();
   /// The same under another name in the same folder.
   void commit_as(const std::string& name);
 
  private:
   /// A name of its own: `name`, the process, a number.
   bool begin(std::uint64_t number);
+  void demand_replaceable() const;
+  void finish_writing();
+  /// Gives the file this name unless something has it.
+  bool take(const std::string& name);
+  void settle();
   [[noreturn]] void fail_to_write(int error) const;
 
   static constexpr unsigned usual_rights = 0666;
@@ -49,6 +62,7 @@ class WholeFile {
   Descriptor folder_;
   std::filesystem::path folder_path_;
   unsigned rights_;
+  Naming naming_ = Naming::exact;
   std::string name_, temporary_;  ///< in the folder
   Descriptor file_;
   Unfinished listed_;
@@ -59,8 +73,9 @@ inline constexpr std::string_view temporary_suffix = ".unfinished";
 /// Whether a WholeFile may have left a temporary file of this name for a file whose name `is_final` accepts.
 [[nodiscard]] bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final);
 
-/// Writes a WholeFile.
-void write_whole(const std::filesystem::path& file, std::string_view text);
+/// Writes a WholeFile. Returns its path.
+std::filesystem::path write_whole(const std::filesystem::path& file, std::string_view text,
+                                  Naming naming = Naming::exact);
 /// Reads a small file. Throws FileError, also for one of more than `limit` bytes, and roam::Error for one that is a
 /// link, a pipe or a device: its folder may come from a stranger.
 [[nodiscard]] std::string read_whole(const std::filesystem::path& file, std::uint64_t limit);

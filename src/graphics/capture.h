@@ -8,14 +8,16 @@
 #include <osg/Image>
 #include <osg/ref_ptr>
 
+#include "files/whole_file.h"
 #include "graphics/frame.h"
 #include "roam/error.h"
 
 namespace roam::graphics {
 
 /// Writes an image in the format of its extension (.png, .jpg, .jpeg). The file gets a temporary name beside `path`
-/// until it is complete. Throws roam::Error with the reason.
-void write_image(const osg::Image& image, const std::filesystem::path& path);
+/// until it is complete. Returns the file's path. Throws roam::Error with the reason.
+std::filesystem::path write_image(const osg::Image& image, const std::filesystem::path& path,
+                                  files::Naming naming = files::Naming::exact);
 
 /// One picture of the next frame. A thread of its own writes the file.
 ///
@@ -26,7 +28,7 @@ class Screenshot {
  public:
   /// Requests the picture, with the head-up display if `with_hud`. Throws roam::Error at once for an extension that it
   /// cannot write.
-  Screenshot(Frame& frame, std::filesystem::path path, bool with_hud);
+  Screenshot(Frame& frame, std::filesystem::path path, bool with_hud, files::Naming naming = files::Naming::exact);
   /// Waits for a file that is being written.
   ~Screenshot();
   /// The moved-from object is done, has nothing to finish and an empty path.
@@ -39,6 +41,7 @@ class Screenshot {
   /// large to be drawn; then there is no file. In threaded viewers viewer.frame() may return before the frame is drawn,
   /// so this waits for it. Throws after 10 s if no frame is drawn.
   void finish();
+  /// The file's path; once it is done, also of one that is numbered.
   [[nodiscard]] const std::filesystem::path& path() const;
 
  private:

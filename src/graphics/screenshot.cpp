@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "files/extension.h"
-#include "files/whole_file.h"
 #include "graphics/capture.h"
 
 namespace roam::graphics {
@@ -27,7 +26,7 @@ void check_extension(const fs::path& path) {
 
 }  // namespace
 
-void write_image(const osg::Image& image, const fs::path& path) {
+fs::path write_image(const osg::Image& image, const fs::path& path, files::Naming naming) {
   check_extension(path);
   const std::string extension = files::lower_extension(path).substr(1);
   osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
@@ -38,12 +37,13 @@ void write_image(const osg::Image& image, const fs::path& path) {
   if (!plugin->writeImage(image, bytes, nullptr).success()) {
     throw Error("cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
   }
-  files::write_whole(path, bytes.str());
+  return files::write_whole(path, bytes.str(), naming);
 }
 
 /// Shared by the caller, the drawing thread and the writing thread.
 struct Screenshot::State {
   fs::path path;
+  files::Naming naming = files::Naming::exact;
   std::mutex mutex;
   std::condition_variable changed;
   osg::ref_ptr<osg::Image> image;
@@ -92,9 +92,9 @@ struct Screenshot::State {
     changed.notify_all();
   }
 
-  [[nodiscard]] std::string why_not_written() const {
+  [[nodiscard]] std::string why_not_written() {
     try {
-      write_image(*image, path);
+      path = write_image(*image, path, naming);
     } catch (const Error& e) {
       return e.what();
     } catch (const std::exception& e) {
@@ -114,9 +114,11 @@ struct Screenshot::State {
   }
 };
 
-Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud) : state_(std::make_shared<State>()) {
+Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud, files::Naming naming)
+    : state_(std::make_shared<State>()) {
   check_extension(path);
   state_->path = std::move(path);
+  state_->naming = naming;
   // The thread does not own the state, because ~Screenshot waits for it. The request does, because its frame may come
   // later.
   state_->writer = std::thread([state = state_.get()] { state->run(); });

@@ -1,4 +1,5 @@
 #include <sys/socket.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,7 +9,6 @@
 #include <mutex>
 #include <osg/Image>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -29,13 +29,16 @@ constexpr int least_side = 16, largest_side = 8192;
 /// For encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
 constexpr std::chrono::seconds ending_patience{120};
 
-std::vector<std::string> arguments(const fs::path& out, int width, int height, int rate) {
+/// Number of the film's descriptor in ffmpeg. By its path another file could be meant by then, or a link.
+constexpr int film_descriptor = 3;
+
+std::vector<std::string> arguments(int width, int height, int rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   // Images begin with their lowest row. Sizes must be even for yuv420p. Players assume BT.709 for large films without a
   // stated colour space, so that is used and stated.
   const std::string filters = "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
-  // With "file:" a name that begins with a dash is no option, and one with a colon no protocol.
-  const std::string name = "file:" + out.string();
+  // A pipe could not be gone back in, which the index at the begin of the file needs.
+  const std::string name = "file:/dev/fd/" + std::to_string(film_descriptor);
   return {"-hide_banner",
           "-loglevel",
           "error",
@@ -121,8 +124,9 @@ class Video::Encoder {
         width_(width),
         height_(height),
         rate_(rate),
-        process_(find_ffmpeg(), arguments(file_.temporary(), width, height, rate),
-                 {.descriptors = {{line_.theirs, STDIN_FILENO}}, .orphan = process::Orphan::lives_on}) {
+        process_(find_ffmpeg(), arguments(width, height, rate),
+                 {.descriptors = {{line_.theirs, STDIN_FILENO}, {file_.descriptor(), film_descriptor}},
+                  .orphan = process::Orphan::lives_on}) {
     line_.close_theirs();
     feeder_ = std::thread([this] { feed(); });
   }
@@ -214,8 +218,9 @@ class Video::Encoder {
   [[noreturn]] void fail() {
     process_.wait(std::chrono::seconds(1));
     const std::string words = process_.last_words();
-    std::error_code none;
-    const bool full = fs::space(file_.temporary(), none).available < full_disk;
+    struct statvfs disk {};
+    const bool full =
+        ::fstatvfs(file_.descriptor(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < full_disk;
     throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words) +
                 (full ? "; the disk is full: make room there or choose another place" : ""));
   }

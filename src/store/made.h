@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <span>
@@ -22,13 +23,13 @@
 
 namespace made {
 
-/// A folder that goes with the test.
+/// A folder that goes with the test. Nobody can make it first, or a link in its place.
 class Folder {
  public:
-  explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("roam_" + name + "_" + std::to_string(::getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+  explicit Folder(const std::string& name) {
+    std::string path = (std::filesystem::temp_directory_path() / ("roam_" + name + "_XXXXXX")).string();
+    if (::mkdtemp(path.data()) == nullptr) throw roam::Error("cannot make the folder " + path);
+    path_ = path;
   }
   ~Folder() { std::filesystem::remove_all(path_); }
   Folder(const Folder&) = delete;

@@ -8,6 +8,7 @@
 #include "math/floating_point.h"
 #include "store/authentic.h"
 #include "store/files.h"
+#include "store/held.h"
 #include "store/recent.h"
 #include "store/tile_reader.h"
 
@@ -18,15 +19,19 @@ Store::State::~State() = default;
 Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Store::~Store() = default;
 
-std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, std::uint64_t memory) {
-  if (!is_store(folder)) store::refuse_to_open(folder);
+std::shared_ptr<const Store> store::open_store(const Folder& folder, std::uint64_t memory) {
+  if (!is_file(folder, current_file)) refuse_to_open(folder);
   try {
-    return open(store::files_of(folder), folder.string(), memory);
-  } catch (const store::RootDamage& damage) {
+    return Store::open(files_of(folder), folder.string(), memory);
+  } catch (const RootDamage& damage) {
     // Other programs also have files called CURRENT.
-    if (store::holds_store(folder) || damage.what_is_damaged != store::current_file) throw;
+    if (holds_store(folder) || damage.what_is_damaged != current_file) throw;
     throw Error(fmt::format("{} is no store: its file CURRENT is none of a store", folder.string()));
   }
+}
+
+std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, std::uint64_t memory) {
+  return store::open_store(folder, memory);
 }
 
 std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name,

@@ -8,6 +8,7 @@
 
 #include "math/parallel_floating_point.h"
 #include "store/files.h"
+#include "store/held.h"
 #include "store/part_bytes.h"
 #include "store/tile_reader.h"
 
@@ -17,8 +18,8 @@ namespace {
 
 class Verifier {
  public:
-  Verifier(const std::filesystem::path& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
-      : folder_(folder), store_(Store::open(folder)), state_(store_->state()), progress_(progress) {}
+  Verifier(const Folder& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
+      : folder_(folder), store_(open_store(folder)), state_(store_->state()), progress_(progress) {}
 
   StoreVerification run() {
     check_files();
@@ -194,8 +195,8 @@ class Verifier {
     }
   }
 
-  std::filesystem::path folder_;
-  std::shared_ptr<const Store> store_;
+  const Folder folder_;
+  const std::shared_ptr<const Store> store_;
   const Store::State& state_;
   const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;
   std::mutex mutex_;
@@ -207,21 +208,33 @@ class Verifier {
 };
 
 }  // namespace
+
+Folder hold_store(const std::filesystem::path& folder) {
+  try {
+    return Folder::held(folder, true);
+  } catch (const FileError&) {
+    refuse_to_open(folder);
+  }
+}
+
+StoreVerification verify_store(const Folder& folder,
+                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  StoreVerification nothing;
+  try {
+    return in_default_floating_point([&] { return Verifier(folder, progress).run(); });
+  } catch (const NotComplete&) {
+    nothing.complete = false;
+  } catch (const RootDamage& damage) {
+    nothing.damage.push_back({damage.what_is_damaged, damage.why, Box{}});
+  }
+  return nothing;
+}
+
 }  // namespace store
 
 StoreVerification verify_store(const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  try {
-    return in_default_floating_point([&] { return store::Verifier(folder, progress).run(); });
-  } catch (const store::NotComplete&) {
-    StoreVerification nothing;
-    nothing.complete = false;
-    return nothing;
-  } catch (const store::RootDamage& damage) {
-    StoreVerification nothing;
-    nothing.damage.push_back({damage.what_is_damaged, damage.why, Box{}});
-    return nothing;
-  }
+  return store::verify_store(store::hold_store(folder), progress);
 }
 
 }  // namespace roam

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <span>
+#include <string>
+
 #include "roam/error.h"
 #include "scenes/recorded_body.h"
 
@@ -12,16 +15,22 @@ constexpr double period = 0.1;  // s: what a person does in less is not a way of
 
 }  // namespace
 
-PathRecorder::PathRecorder(std::filesystem::path file, const WalkerSettings& body, Mode mode)
-    : file_(std::move(file)), out_(file_), mode_(mode) {
-  out_ << "# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n"
-       << body_line(body, mode) << '\n'
-       << std::flush;
-  if (!out_) throw Error(file_.string() + ": cannot be written; is its folder yours, and the disk not full?");
+PathRecorder::PathRecorder(const std::filesystem::path& file, const WalkerSettings& body, Mode mode,
+                           files::Naming naming)
+    : out_(file, naming), mode_(mode) {
+  write("# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n" + body_line(body, mode) +
+        "\n");
+}
+
+PathRecorder::~PathRecorder() {
+  try {
+    if (!closed_) close();
+  } catch (const Error&) {  // the error that cut it short is the one to be told
+  }
 }
 
 void PathRecorder::add(double time, const Vec3& position, const std::array<double, 4>& rotation, Mode mode) {
-  if (mode != mode_) out_ << mode_line(mode) << '\n';
+  if (mode != mode_) write(mode_line(mode) + "\n");
   mode_ = mode;
   if (empty_) begin_ = time;
   const Line line{time, position, rotation};
@@ -42,26 +51,25 @@ void PathRecorder::add(double time, const Vec3& position, const std::array<doubl
 void PathRecorder::write(const Line& line) {
   const Vec3& p = line.position;
   const auto& q = line.rotation;
-  out_ << fmt::format("{:.3f} {} {} {} {:.9g} {:.9g} {:.9g} {:.9g}\n", line.time - begin_, p.x, p.y, p.z, q[0], q[1],
-                      q[2], q[3])
-       << std::flush;
+  write(fmt::format("{:.3f} {} {} {} {:.9g} {:.9g} {:.9g} {:.9g}\n", line.time - begin_, p.x, p.y, p.z, q[0], q[1],
+                    q[2], q[3]));
   written_ = line;
   empty_ = false;
 }
 
-void PathRecorder::close() {
-  if (!empty_ && last_.time > written_.time) write(last_);
-  out_.close();
-  if (!out_) throw Error(file_.string() + ": not everything could be written; is the disk full?");
+void PathRecorder::write(std::string_view text) {
+  try {
+    if (!failure_) out_.write(std::as_bytes(std::span(text)));
+  } catch (const Error&) {
+    failure_ = std::current_exception();
+  }
 }
 
-std::filesystem::path unused_name(const std::filesystem::path& folder, const std::string& extension) {
-  for (int number = 1;; ++number) {
-    std::filesystem::path file = folder / fmt::format("roam-{}.{}", number, extension);
-    std::error_code none;
-    // A link that leads nowhere would be written through.
-    if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return file;
-  }
+std::filesystem::path PathRecorder::close() {
+  closed_ = true;
+  if (!empty_ && last_.time > written_.time) write(last_);
+  if (failure_) std::rethrow_exception(failure_);
+  return out_.commit();
 }
 
 }  // namespace roam::app

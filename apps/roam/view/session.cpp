@@ -251,8 +251,7 @@ ViewReport Session::finish() {
   ViewReport told = report();
   stage_->finish();
   if (recorder_) {
-    recorder_->close();
-    told.written.push_back(recorder_->file().string());
+    told.written.push_back(recorder_->close().string());
     recorder_.reset();
   }
   log_.finish();

@@ -232,7 +232,7 @@ void Session::update_status(bool at_once) {
   s.building.reset();
   if (builder_) s.building = builder_->state();
   s.store_key = store_offered_ && !pager_ ? key_of("store") : std::string();
-  if (recorder_) s.recording = fmt::format("{}, {:.0f} s", recorder_->file().filename().string(), recorder_->seconds());
+  if (recorder_) s.recording = fmt::format("{:.0f} s", recorder_->seconds());
   if (placed_) {
     const Walker& walker = *roamer_->walker();
     s.mode = roamer_->mode();

@@ -89,7 +89,7 @@ void Session::run(Command command) {
         toggle_recording();
         break;
       case Command::picture:
-        stage_->take_picture(unused_name(".", "png"));
+        stage_->take_picture("roam.png");
         break;
       case Command::bookmark:
         add_bookmark();
@@ -145,11 +145,10 @@ void Session::written(const std::filesystem::path& file) {
 
 void Session::toggle_recording() {
   if (recorder_) {
-    recorder_->close();
-    written(recorder_->file());
+    written(recorder_->close());
     recorder_.reset();
   } else if (placed_) {
-    recorder_.emplace(unused_name(".", "path"), roamer_->settings(), roamer_->mode());
+    recorder_.emplace("roam.path", roamer_->settings(), roamer_->mode(), files::Naming::numbered);
   }
 }
 

@@ -114,7 +114,9 @@ void Stage::toggle_fullscreen() {
 
 void Stage::start_film(const std::filesystem::path& path) { film_.emplace(*frame_, path); }
 
-void Stage::take_picture(const std::filesystem::path& path) { pictures_.emplace_back(*frame_, path, true); }
+void Stage::take_picture(const std::filesystem::path& path) {
+  pictures_.emplace_back(*frame_, path, true, files::Naming::numbered);
+}
 
 std::vector<Picture> Stage::poll_pictures() {
   std::vector<Picture> told;

@@ -51,7 +51,7 @@ class Stage {
   /// Starts a film. Throws roam::Error when it can not be made.
   void start_film(const std::filesystem::path& path);
   [[nodiscard]] const std::optional<Film>& film() const { return film_; }
-  /// Takes a picture of the next frame; `poll_pictures` tells when it is written.
+  /// Takes a picture of the next frame, to a numbered file; `poll_pictures` tells when it is written.
   void take_picture(const std::filesystem::path& path);
   /// The pictures that are done since last asked.
   [[nodiscard]] std::vector<Picture> poll_pictures();
