@@ -3,7 +3,6 @@
 
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <set>
 #include <thread>
 
 #include "roam/error.h"
@@ -228,19 +227,6 @@ TEST(Session, RecordsTheWayThatWasWalked) {
   const ProgramResult smaller = run_program(
       ROAM_PROGRAM, {"walk", d.folder.file("scene.obj"), "--path", d.folder.file("roam-1.path"), "--radius", "0.2"});
   EXPECT_TRUE(contains(smaller.err, "recorded by another body: radius 0.3 m, height 1.8 m")) << smaller.err;
-}
-
-TEST(Session, WritesEachPictureToAFileOfItsOwn) {
-  Driven d(room_obj(), {10, 0, 0.95, 0});
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(d.folder.file(""));
-  for (int i = 0; i < 2; ++i) d.session->run(app::Command::picture);
-  EXPECT_TRUE(d.until([&] { return contains(d.hud(), "roam-2.png"); })) << d.hud();
-  const app::ViewReport report = d.session->finish();
-  std::filesystem::current_path(before);
-  const std::set<std::string> written(report.written.begin(), report.written.end());
-  EXPECT_TRUE(written == (std::set<std::string>{"./roam-1.png", "./roam-2.png"}));
-  for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(d.folder.file(file))) << file;
 }
 
 TEST(Session, SwitchesToTheCamerasOfOsgviewerAndBack) {

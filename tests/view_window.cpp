@@ -174,6 +174,18 @@ TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
   EXPECT_EQ(report["written"][0], "./roam-1.png");
 }
 
+TEST(ViewWindow, WritesEachPictureToAFileOfItsOwn) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("key p key p");
+  for (const char* name : {"roam-1.png", "roam-2.png"}) {
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file(name)); })) << name;
+    EXPECT_EQ(Shot(w.folder.file(name)).width(), 320);
+  }
+  const nlohmann::json report = w.end();
+  const std::set<std::string> written = report["written"];
+  EXPECT_EQ(written, (std::set<std::string>{"./roam-1.png", "./roam-2.png"}));
+}
+
 TEST(ViewWindow, FillsTheScreenAndLeavesIt) {
   Window w({"--at", "2,0,0.95,0"});
   const auto size_after = [&](const char* key, const char* picture) {
