@@ -10,7 +10,7 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "paper_scene.h"
@@ -239,7 +239,7 @@ void add_scale(CLI::App& program, app::Run& run) {
   app::add_triangles(*verb, "--least", options->least, "Of the smallest");
   verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(app::positive());
   verb->add_option("--pager", options->pager_mib, "MiB of each pager")
       ->capture_default_str()
       ->check(app::from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));

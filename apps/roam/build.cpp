@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
@@ -266,7 +267,7 @@ void add_build(CLI::App& program, Run& run) {
   verb->get_option("--memory")->description("Memory to keep within, the reader's too (default: 1G; at least 256M)");
   CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed and decide the shards");
   CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
-                           ->check(CLI::NonNegativeNumber)
+                           ->check(from_to<std::uint64_t>(0, 1'000'000'000))
                            ->type_name("I");
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
   plan->excludes(shard)->excludes(merge);

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* description = "roam: walk and fly through any 3D scene without ever passing through a wall.";
 
 constexpr const char* help =
-    "\n`roam VERB --help` explains a verb, with examples.\n\n"
+    "\n`roam help VERB` explains a verb, with examples.\n\n"
     "Results go to standard output, progress and notes to standard error.\n"
     "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 the answer is no.\n"
     "Ctrl-C ends every verb in good order (1), or after 0.8 s at once (130).\n\n"
@@ -43,7 +43,7 @@ std::string version() {
 int main(int argc, char** argv) {
   CLI::App program{description, "roam"};
   program.footer(help);
-  program.set_version_flag("--version", version);
+  program.set_version_flag("-v,--version", version);
   program.require_subcommand(1);
   roam::app::Run chosen;
   roam::app::add_view(program, chosen);

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "roam/generate.h"
@@ -85,7 +86,7 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
   verb.add_option("-o,--output", options->output, "File to write: .ply, .obj or .stl")->required()->type_name("FILE");
   verb.add_option("--triangles", options->triangles,
                   fmt::format("About how many, e.g. 500k or 20M (default: {})", short_count(double(triangles))))
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}}))
+      ->transform(counted())
       ->type_name("N");
   verb.add_option("--seed", options->seed, "Same seed, same bits (default: 1)")->type_name("S");
   verb.add_option("--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)")

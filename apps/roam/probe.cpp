@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "draw/draw.h"
 #include "files/whole_file.h"
 #include "probe/picture.h"
@@ -221,13 +221,13 @@ void add_probe(CLI::App& program, Run& run) {
   };
   place("--from", o.from, "Where it starts");
   place("--to", o.to, "Where it is to get");
-  verb->add_option("--radius", o.radius, "Of the body, in metres")->check(positive)->type_name("R");
+  verb->add_option("--radius", o.radius, "Of the body, in metres")->check(positive())->type_name("R");
   verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")
-      ->check(positive)
+      ->check(positive())
       ->type_name("H");
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(CLI::IsMember({"walk", "fly"}))
+      ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
   verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
@@ -237,7 +237,7 @@ void add_probe(CLI::App& program, Run& run) {
       ->type_name("DEG");
   verb->add_option("--support-radius", o.support_radius,
                    "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
-      ->check(positive)
+      ->check(positive())
       ->type_name("RS");
   verb->add_option("--spacing", o.spacing,
                    "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "

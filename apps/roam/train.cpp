@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "draw/picture.h"
 #include "roam/error.h"
 #include "scenes/surveyed.h"
@@ -32,16 +32,6 @@ struct TrainVerbOptions {
   bool no_profile = false;
   bool json = false;
 };
-
-/// A whole number from `least` to `most`.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  return {[=](std::string& text) {
-            std::int64_t value = 0;
-            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return within ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-          },
-          ""};
-}
 
 /// Training in the stages that it names, on standard error. Stages take what they take in each scene: no time left
 /// follows from the share that is done.
@@ -164,10 +154,10 @@ void add_train(CLI::App& program, Run& run) {
   TrainVerbOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
   verb->add_option("--paths", o.train.paths, "To plan (default: 5, or one for each dead end where there are more)")
-      ->check(whole_number(1, 10'000))
+      ->check(from_to<std::int64_t>(1, 10'000))
       ->type_name("N");
   verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")
-      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
+      ->check(from_to<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("S");
   verb->add_option("--radius-min", o.train.radius_min,
                    "In metres: what lets less through decides nothing and gets no region (default: 0.15)")
@@ -184,10 +174,10 @@ void add_train(CLI::App& program, Run& run) {
       ->check(from_to(0.1, 100.0))
       ->type_name("H");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(CLI::IsMember({"walk", "fly"}))
+      ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
   verb->add_option("--method", o.method, "interval: from the scene; paper: by trials (default: interval)")
-      ->check(CLI::IsMember({"interval", "paper"}))
+      ->check(one_of({"interval", "paper"}))
       ->type_name("METHOD");
   verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
       ->check(from_to(0.0, 100.0))

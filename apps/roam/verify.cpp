@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
@@ -144,7 +145,7 @@ void add_verify(CLI::App& program, Run& run) {
   verb->add_option("--repair", o.scene, "The scene that the store was made of: build what is damaged again")
       ->type_name("SCENE...");
   verb->add_option("--threads", o.threads, "Threads to build with (default: all cores)")
-      ->check(CLI::Range(1, 4096))
+      ->check(thread_count())
       ->type_name("N");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return verify_or_repair(*options); }; });

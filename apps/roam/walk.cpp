@@ -197,6 +197,7 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
 }
 
 ExitStatus walk(WalkOptions options) {
+  check_way(options);
   if (!options.against.scenes.empty()) {
     // Of a store, they can only mean the scene that it is checked against.
     SceneOptions& scene = options.scene;

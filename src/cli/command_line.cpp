@@ -2,43 +2,54 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
-#include <sstream>
 
 #include "cli/interrupt.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/usage.h"
 #include "roam/error.h"
 
 namespace roam::app {
 namespace {
 
-/// What CLI11 found wrong, and where to look it up.
-std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-  std::string verb = app->get_name();
-  for (const CLI::App* above = app->get_parent(); above != nullptr; above = above->get_parent()) {
-    verb = above->get_name() + " " + verb;
+/// The arguments as CLI11 takes them, last first. `help VERB` is `VERB --help`.
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
-  std::string what = error.what();
-  if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    what = std::string("unknown option or argument:") +
-           std::string(extras->what()).substr(std::string(what).find(':') + 1);
-  }
-  return fmt::format("{}: {}\n`{} --help` lists what it takes.\n", verb, printable_part(what), verb);
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
 }
 
-int run(CLI::App& program, const Run& chosen, int argc, char** argv) {
-  program.failure_message(usage_message);
+ExitStatus refuse(const CLI::App& app, const std::string& sentence) {
+  const std::string name = full_name(app);
+  tell(sentence, name);
+  std::fputs(fmt::format("`{} --help` lists what it takes.\n", name).c_str(), stderr);
+  return bad_usage;
+}
+
+ExitStatus run(CLI::App& program, const Run& chosen, int argc, char** argv) {
   try {
-    program.parse(argc, argv);
+    program.parse(reversed_arguments(argc, argv));
+  } catch (const CLI::CallForHelp&) {
+    // Not of a verb that there is not.
+    const auto unknown = unknown_word(program);
+    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->sentence);
+    print(program.help());
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return done;
   } catch (const CLI::ParseError& error) {
-    // Help and version are results like others: written whole, or it is said that they are not.
-    std::ostringstream told;
-    const bool wanted = program.exit(error, told) == 0;
-    if (wanted) print(told.str());
-    return wanted ? done : bad_usage;
+    const auto unknown = unknown_word(program);
+    if (unknown) return refuse(*unknown->app, unknown->sentence);
+    return refuse(reached(program), sentence_of(reached(program), error));
   }
   return chosen();
 }

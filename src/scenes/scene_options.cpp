@@ -8,6 +8,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/wander.h"
@@ -43,10 +44,10 @@ void SceneOptions::add_to(CLI::App& verb) {
 
 void SceneOptions::add_reading_to(CLI::App& verb) {
   verb.add_option("--up", up, "Axis that points up in the file, e.g. --up=-y (default: z; y for glTF)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}))
       ->type_name("AXIS");
   verb.add_option("--unit", unit, "Length of 1 in the file (default: m)")
-      ->check(CLI::IsMember({"m", "cm", "mm", "ft", "in"}))
+      ->check(one_of({"m", "cm", "mm", "ft", "in"}))
       ->type_name("m|cm|mm|ft|in");
   verb.add_option("--ignore", ignore, "Leave out objects whose name matches, e.g. --ignore 'Door*'; may be repeated")
       ->type_name("PATTERN")
@@ -57,11 +58,11 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->expected(1)
       ->take_all();
   verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
-      ->check(CLI::Range(1, 4096))
+      ->check(thread_count())
       ->type_name("N");
   verb.add_option("--memory", memory,
                   "Memory of a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(bytes())
       ->type_name("SIZE");
 }
 

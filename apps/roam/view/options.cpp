@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/exit_status.h"
+#include "cli/values.h"
 #include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"
@@ -18,16 +19,6 @@ namespace roam::app {
 namespace {
 
 constexpr int largest_side = 16384;  // pixels, of a picture
-
-CLI::Validator within(double least, double most) {
-  return CLI::Validator(
-      [least, most](const std::string& text) {
-        double value = 0.0;
-        const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-        return fits ? std::string() : fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
-      },
-      "");
-}
 
 /// "1280x720"
 std::array<int, 2> parse_size(const std::string& text) {
@@ -181,28 +172,28 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("STORE");
   constexpr double metres = Space::reach_limit / 4.0;
   verb.add_option("--mode", mode, "walk, fly or ghost to begin with (default: walk)")
-      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
+      ->check(one_of({"fly", "walk", "ghost"}))
       ->type_name("MODE");
   verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, or 0.3)")
-      ->check(within(1e-6, 0.5 * metres))
+      ->check(from_to(1e-6, 0.5 * metres))
       ->type_name("R");
   verb.add_option("--height", height, "Whole height, in metres (default: a person's 1.8; with --radius or --path: 2 R)")
-      ->check(within(1e-6, metres))
+      ->check(from_to(1e-6, metres))
       ->type_name("H");
   verb.add_option("--eye", eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H - R)")
-      ->check(within(0.0, metres))
+      ->check(from_to(0.0, metres))
       ->type_name("E");
   verb.add_option("--step", step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
-      ->check(within(0.0, metres))
+      ->check(from_to(0.0, metres))
       ->type_name("M");
   verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")
-      ->check(within(0.0, 89.0))
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
   verb.add_flag("--adapt", adapt,
                 "Learn on the way: a smaller body at an opening that stops it, a larger foot where it falls; kept in "
                 "SCENE.roam.json");
-  verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(within(1e-3, 1e4))->type_name("V");
+  verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(from_to(1e-3, 1e4))->type_name("V");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },
                        "Start with the body's centre here, looking there, in degrees: yaw 0 is +x, 90 is +y")
@@ -217,15 +208,15 @@ void ViewOptions::add_to(CLI::App& verb) {
           ->type_name("FILE");
   verb.add_option("--dt", dt, "Of one step of the path, in seconds, 1e-6 or more (default: 1/60)")
       ->needs(replay)
-      ->check(within(Route::shortest_step, 10.0))
+      ->check(from_to(Route::shortest_step, 10.0))
       ->type_name("S");
   verb.add_option("--size", size, "Of the picture, in pixels (default: 1280x720)")->type_name("WxH");
   verb.add_flag("--fullscreen", fullscreen, "Fill the screen");
   verb.add_option("--fov", fov, "Height of the field of view, in degrees (default: 65)")
-      ->check(within(least_fov, largest_fov))
+      ->check(from_to(least_fov, largest_fov))
       ->type_name("DEG");
   verb.add_option("--hud", hud, "full, minimal or off (default: full)")
-      ->check(CLI::IsMember({"full", "minimal", "off"}))
+      ->check(one_of({"full", "minimal", "off"}))
       ->type_name("MODE");
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--screenshot", screenshot,
@@ -234,7 +225,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
   verb.add_option("--time", time_limit, "End after so many seconds of roaming")
-      ->check(within(1e-3, 1e9))
+      ->check(from_to(1e-3, 1e9))
       ->type_name("S");
   verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");

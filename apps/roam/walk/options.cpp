@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cli/exit_status.h"
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "draw/draw.h"
 #include "roam/error.h"
 
@@ -66,6 +66,11 @@ WalkerSettings walker_settings(const WalkOptions& options) {
   return settings;
 }
 
+void check_way(const WalkOptions& options) {
+  if (options.path.empty() && !options.wander)
+    throw UsageError("walk: where to? Give it a --path FILE, or --wander S for S seconds");
+}
+
 void check_outputs(const WalkOptions& options) {
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
@@ -80,20 +85,19 @@ void check_outputs(const WalkOptions& options) {
 
 void WalkOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
-  auto* ways = verb.add_option_group("Way", "One of");
-  ways->add_option("--path", path, "Waypoints to go along")->type_name("FILE");
+  auto* way = verb.add_option("--path", path, "Waypoints to go along")->type_name("FILE");
   auto* wandering =
-      ways->add_option("--wander", wander, "Without a path: go where the body has been least, for S seconds")
-          ->check(positive)
+      verb.add_option("--wander", wander, "Without a path: go where the body has been least, for S seconds")
+          ->excludes(way)
+          ->check(positive())
           ->type_name("S");
-  ways->require_option(1);
   verb.add_option("--from", from, "Where to start wandering (default: where there is most room and walls in sight)")
       ->expected(3)
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->needs(wandering);
   verb.add_option("--mode", mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
-      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
+      ->check(one_of({"fly", "walk", "ghost"}))
       ->type_name("MODE");
   verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, see --no-profile, or 0.3)")
       ->type_name("R");
@@ -107,9 +111,9 @@ void WalkOptions::add_to(CLI::App& verb) {
       ->type_name("M");
   verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")->type_name("DEG");
   verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
-  verb.add_option("--speed", route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
+  verb.add_option("--speed", route.speed, "In metres per second (default: 1.4)")->check(positive())->type_name("V");
   verb.add_option("--dt", route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
-      ->check(positive)
+      ->check(positive())
       ->type_name("S");
   verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
   verb.add_option("--picture", picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
