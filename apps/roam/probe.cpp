@@ -191,61 +191,59 @@ ExitStatus probe(ProbeOptions o) {
 }
 
 constexpr const char* help =
-    "Says whether a body of a given size gets from one place to another: yes with the way and its narrowest place, or\n"
-    "no with the opening that stops it and what is missing. The widest way there is decides, not where some walker\n"
-    "stopped; the way is certified, and a walker has gone it before a yes is said. Exit status 0 for yes; 3 for no, "
-    "and\n"
-    "where the walker contradicts the way; of --matrix 0 when all sizes get there; 1 when it failed, as for a place\n"
-    "where nobody can be; 2 for wrong usage.\n\n"
-    "Places are of the feet or the eyes of a person, taken down to the floor; flying, of the centre. What is lower "
-    "than\n"
-    "--step above the floor is walked over: a sphere climbs at most its radius. --path writes the way as the body's\n"
-    "centre goes, with the body, for `roam walk --path FILE --verify`. --matrix takes sizes, R or RxH, separated by\n"
-    "commas, or a file with some in each line; one survey serves all.\n\n"
-    "Examples:\n"
-    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9\n"
-    "  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --path way.path --picture door.png\n"
-    "  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json\n"
-    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2\n";
+    R"(The answer is yes with the way and its narrowest place, or no with the opening that stops the body
+and the missing width. The widest way decides. It is certified, and a walker follows it before the answer is yes. Exit
+status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get there.
+
+Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
+anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
+body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them.
+
+Examples:
+  roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9
+  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --picture door.png
+  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json
+  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2
+)";
 
 }  // namespace
 
 void add_probe(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("probe", "Says whether a body of a given size gets from A to B");
+  CLI::App* verb = program.add_subcommand("probe", "Find out whether a body of a given size gets from A to B");
   verb->footer(help);
   const auto options = std::make_shared<ProbeOptions>();
   ProbeOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
+  verb->option_defaults()->group("Way");
   const auto place = [&](const char* name, std::vector<double>& value, const char* text) {
     verb->add_option(name, value, text)->expected(3)->delimiter(',')->type_name("X,Y,Z")->required();
   };
-  place("--from", o.from, "Where it starts");
-  place("--to", o.to, "Where it is to get");
-  verb->add_option("--radius", o.radius, "Of the body, in metres")->check(positive())->type_name("R");
-  verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")
-      ->check(positive())
-      ->type_name("H");
+  place("--from", o.from, "Start");
+  place("--to", o.to, "Target");
+  verb->add_option("--spacing", o.spacing,
+                   "Metres between tested places (default: 0.2); openings under 0.7 of it may be missed")
+      ->check(from_to(0.001, 100.0))
+      ->type_name("M");
+  verb->option_defaults()->group("Body, in metres");
+  verb->add_option("--radius", o.radius, "Radius")->check(positive())->type_name("R");
+  verb->add_option("--height", o.height, "Whole height (default: 2 R, a sphere)")->check(positive())->type_name("H");
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
+  verb->add_option("--step", o.step, "Height of steps that the body climbs (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
       ->type_name("M");
-  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
+  verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")
       ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--support-radius", o.support_radius,
-                   "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
+                   "Radius of the support disc, which carries the body over cracks (default: none)")
       ->check(positive())
       ->type_name("RS");
-  verb->add_option("--spacing", o.spacing,
-                   "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
-                   "overlooked")
-      ->check(from_to(0.001, 100.0))
-      ->type_name("M");
+  verb->option_defaults()->group("Results");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
-  verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return probe(*options); }; });
 }

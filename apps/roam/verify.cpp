@@ -121,30 +121,33 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
 }
 
 constexpr const char* help =
-    "Reads every byte of a store: the hash of every file, the checksum of every tile and page; decodes every tile, "
-    "and\n"
-    "compares counts, boxes and the hash of all triangles. What is damaged is named by tile and place: there the "
-    "store\n"
-    "is solid, everywhere else it can be walked. With --repair just the shards with damage are built again, from the\n"
-    "scene that the store was made of, read as it was then: the store knows --up, --unit, --ignore and --lossless.\n"
-    "A store that is whole is what was written, by you or by somebody else: it says which.\n"
-    "Exit status 0 when the store is whole, 3 when not, or when its build has not ended.\n\n"
-    "Examples:\n"
-    "  roam verify dam.roam\n"
-    "  roam verify dam.roam --repair Data/\n"
-    "  roam verify dam.roam --json\n";
+    R"(Verifying reads every byte of a store: the hash of each file, the checksum of each tile and page. It
+decodes every tile, and compares counts, boxes and the hash of all triangles. Damage is named by tile and place. The
+store is solid there; everywhere else you can walk in it.
+
+--repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
+--unit, --ignore and --lossless. The report also says whether you built the store or somebody else.
+
+Exit status 0 when the store is whole, 3 when it is not, or when its build is not finished.
+
+Examples:
+  roam verify dam.roam
+  roam verify dam.roam --repair Data/
+  roam verify dam.roam --json
+)";
 
 }  // namespace
 
 void add_verify(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("verify", "Says whether a store is whole, and repairs it");
+  CLI::App* verb = program.add_subcommand("verify", "Check whether a store is whole, and repair it");
   verb->footer(help);
   const auto options = std::make_shared<VerifyOptions>();
   VerifyOptions& o = *options;
   verb->add_option("STORE", o.store, "The store's folder")->required()->type_name("");
-  verb->add_option("--repair", o.scene, "The scene that the store was made of: build what is damaged again")
-      ->type_name("SCENE...");
-  verb->add_option("--threads", o.threads, "Threads to build with (default: all cores)")
+  verb->option_defaults()->group("Options");
+  verb->add_option("--repair", o.scene, "Build damaged parts again from this scene, which the store was made of")
+      ->type_name("SCENE");
+  verb->add_option("--threads", o.threads, "Threads for the repair (default: one per core)")
       ->check(thread_count())
       ->type_name("N");
   verb->add_flag("--json", o.json, "Print one JSON object");

@@ -301,28 +301,30 @@ ExitStatus walk(WalkOptions options) {
 }
 
 constexpr const char* help =
-    "Sends a body along a path and tells how it ended: reached, blocked where and by what, fell, left_scene or held;\n"
-    "how near it came to anything, certified; and how long its steps took. Exit status 0 when reached, 3 when not.\n\n"
-    "A path file holds waypoints `x y z`, one a line, or the lines `t x y z qx qy qz qw` that osgViewer records; "
-    "times\n"
-    "and rotations are not used, --speed and --dt say how it is walked. Positions are of the body's centre. A "
-    "waypoint\n"
-    "counts as reached within the body's radius, and, walking, within the step height above and below. A path that\n"
-    "`roam view` recorded says its body and mode: they are taken where --radius or --mode do not say another.\n\n"
-    "Without --radius the body is the one that `roam train` found for the scene, SCENE.roam.json beside it, smaller\n"
-    "where only a smaller one fits; --height, --step and --slope change it in that. A profile of another scene is\n"
-    "refused; --no-profile does without.\n\n"
-    "Examples:\n"
-    "  roam walk mine.dae --path tour.path\n"
-    "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
-    "  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv\n"
-    "  roam walk house.glb --path in.path --height 1.8 --picture in.svg\n"
-    "  roam walk Terrain/ --wander 60 --height 1.8 --verify\n";
+    R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
+or held. It gives the least clearance on the way, certified, and the time of the steps. Exit status 0 when the end is
+reached, 3 when not.
+
+A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
+rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint counts as reached
+within the body's radius; on foot, also within the step height above and below. A path that `roam view` recorded names
+its body and mode; --radius and --mode override them.
+
+Without --radius, the body is the one that `roam train` saved beside the scene, in SCENE.roam.json. It is smaller in
+places where only a smaller one fits. --height, --step and --slope change it. A profile of another scene is refused.
+
+Examples:
+  roam walk mine.dae --path tour.path --height 1.8
+  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify
+  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv
+  roam walk house.glb --path in.path --height 1.8 --picture in.svg
+  roam walk Terrain/ --wander 60 --height 1.8 --verify
+)";
 
 }  // namespace
 
 void add_walk(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("walk", "Sends a body through a scene and tells how it went");
+  CLI::App* verb = program.add_subcommand("walk", "Send a body along a path through a scene and report how it went");
   verb->footer(help);
   const auto options = std::make_shared<WalkOptions>();
   options->add_to(*verb);

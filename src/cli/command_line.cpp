@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
 #include "cli/tell.h"
@@ -35,6 +36,7 @@ ExitStatus refuse(const CLI::App& app, const std::string& sentence) {
 }
 
 ExitStatus run(CLI::App& program, const Run& chosen, int argc, char** argv) {
+  set_up_help(program);
   try {
     program.parse(reversed_arguments(argc, argv));
   } catch (const CLI::CallForHelp&) {

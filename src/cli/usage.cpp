@@ -20,8 +20,6 @@ std::vector<std::string> names_below(const CLI::App& app) {
   return names;
 }
 
-const char* noun_below(const CLI::App& app) { return app.get_parent() == nullptr ? "verb" : "kind"; }
-
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -117,6 +115,8 @@ std::string full_name(const CLI::App& app) {
   }
   return name;
 }
+
+const char* noun_below(const CLI::App& app) { return app.get_parent() == nullptr ? "verb" : "kind"; }
 
 std::string one_of_text(const std::vector<std::string>& words) {
   std::string text;

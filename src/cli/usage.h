@@ -14,6 +14,9 @@ namespace roam::app {
 /// "roam make gallery"
 [[nodiscard]] std::string full_name(const CLI::App& app);
 
+/// How names below `app` are called: "verb" or "kind".
+[[nodiscard]] const char* noun_below(const CLI::App& app);
+
 /// "gallery, terrain or city"
 [[nodiscard]] std::string one_of_text(const std::vector<std::string>& words);
 
