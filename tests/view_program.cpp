@@ -200,6 +200,8 @@ TEST(ViewUsage, SaysWhatIsWrong) {
   EXPECT_EQ(view.run({"--at", "1,2"}).result.status, 2);
   EXPECT_TRUE(contains(view.result.err, "X,Y,Z[,YAW[,PITCH]]")) << view.result.err;
   EXPECT_EQ(view.run({"--time", "0"}).result.status, 2);
+  EXPECT_EQ(view.run({"--headless", "--time", "1", "--path", "way.path"}).result.status, 2);
+  EXPECT_TRUE(contains(view.result.err, "--path and --time exclude each other")) << view.result.err;
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"view", ""}).status, 2);
   EXPECT_EQ(view.run({"--trace", view.scene + ".new", "--record-path", view.scene + ".new"}).result.status, 2);
   EXPECT_FALSE(std::filesystem::exists(view.scene + ".new"));

@@ -54,6 +54,20 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, c
           {"shards_repaired", repaired},     {"yours", origin.yours}};
 }
 
+/// The damage, one thing a line, and how much it is.
+std::string damage_text(const VerifyOptions& options, const StoreVerification& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
+    text += fmt::format("{}: {}\n", printable_part(found.damage[i].what), printable_part(found.damage[i].why));
+  }
+  if (found.damage.size() > most_lines) {
+    text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
+  }
+  return text +
+         fmt::format("{}: {} damaged\n", printable_part(options.store.string()),
+                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
+}
+
 std::string text_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin) {
   const std::string store = printable_part(options.store.string());
   if (!found.complete) {
@@ -62,21 +76,13 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
         "where it stopped\n",
         store);
   }
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
-    text += fmt::format("{}: {}\n", printable_part(found.damage[i].what), printable_part(found.damage[i].why));
-  }
-  if (found.damage.size() > most_lines) {
-    text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
-  }
   if (found.damage.empty()) {
     return fmt::format("{}: whole; {}B and {} tiles are what was written{}\n", store,
                        short_count(static_cast<double>(found.bytes)), found.tiles,
                        origin.yours ? " by you" : "; by whom is not known: " + printable_part(origin.why_not));
   }
-  return text +
-         fmt::format("{0}: {1} damaged; tiles that are, are solid; `roam verify {0} --repair SCENE` mends it\n", store,
-                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
+  return damage_text(options, found) +
+         fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);
 }
 
 StoreVerification look(const VerifyOptions& options) {
@@ -107,7 +113,7 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
   StoreVerification found = look(options);
   std::uint64_t repaired = 0;
   if (!found.whole() && !options.scene.empty()) {
-    if (!options.json) print(text_report(options, found, {}));
+    if (!options.json && !found.damage.empty()) print(damage_text(options, found));
     repaired = repair(options);
     found = look(options);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "files/file_error.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "text/printable.h"
@@ -180,10 +182,11 @@ void save_path(const std::filesystem::path& file, std::span<const Vec3> path, co
     }
     text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   }
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw Error(fmt::format("cannot write {}; is its folder yours, and the disk not full?", file.string()));
+  if (!out) files::fail("write", file, errno != 0 ? errno : EIO);
 }
 
 std::vector<Vec3> positions(const std::vector<Waypoint>& path) {

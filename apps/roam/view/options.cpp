@@ -224,7 +224,10 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->check(one_of({"full", "minimal", "off"}))
       ->type_name("MODE");
   verb.add_flag("--headless", headless, "Draw without a screen");
-  verb.add_option("--time", time_limit, "End after S seconds of roaming")->check(from_to(1e-3, 1e9))->type_name("S");
+  verb.add_option("--time", time_limit, "End after S seconds of roaming")
+      ->excludes(replay)
+      ->check(from_to(1e-3, 1e9))
+      ->type_name("S");
   verb.option_defaults()->group("Results");
   verb.add_option("--screenshot", screenshot,
                   "Write a picture (.png, .jpg) when all is loaded or the path ends, and end")
