@@ -12,10 +12,10 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/draw.h"
-#include "files/whole_file.h"
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
@@ -44,7 +44,7 @@ constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
-  std::istringstream in(files::read_named(file, longest_matrix));
+  std::istringstream in(read_input(file, longest_matrix));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -60,7 +60,7 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
   if (std::filesystem::is_directory(text, none))
     throw UsageError(fmt::format("--matrix {}: that is a folder; name a file of sizes, or sizes", text));
   std::vector<ProbedSize> sizes;
-  if (std::filesystem::exists(text, none)) {
+  if (is_standard(text) || std::filesystem::exists(text, none)) {
     sizes = read_sizes(text);
   } else {
     try {
@@ -125,7 +125,10 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // from a place to itself: a path has a start and a goal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
-  save_path(*o.path, path, &body, o.question.mode);
+  if (!is_standard(*o.path)) return save_path(*o.path, path, &body, o.question.mode);
+  std::string text = body_line(body, o.question.mode) + "\n";
+  for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  write_output(text);
 }
 
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
@@ -149,7 +152,8 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
 ExitStatus probe(ProbeOptions o) {
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
-  if (o.path) check_output(o.scene.scenes, "--path", *o.path);
+  if (o.path) demand_one_output("--path", *o.path, o.json);
+  if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   if (o.picture) draw::check_picture(*o.picture);
   std::optional<tbb::global_control> limit;
@@ -183,7 +187,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
-    print(o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
+    print_beside(o.path.value_or(""), o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
   }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
@@ -242,7 +246,8 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(positive())
       ->type_name("RS");
   verb->option_defaults()->group("Results");
-  verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
+  verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk` (-: standard output)")
+      ->type_name("FILE");
   verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return probe(*options); }; });

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/interrupt.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "scenes/open_scene.h"
@@ -141,19 +142,6 @@ Answers answer(Scene&& scene, const Rows& rows) {
   return answers;
 }
 
-void write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t put = ::write(STDOUT_FILENO, text.data(), text.size());
-    if (put < 0) {
-      if (errno == EPIPE) throw BrokenPipe();
-      if (errno != EINTR) throw Error(std::string("cannot write the answers: ") + std::strerror(errno));
-      stop_if_interrupted();
-      continue;
-    }
-    text.remove_prefix(static_cast<std::size_t>(put));
-  }
-}
-
 /// Tells what could not be read: each thing once, with the first line that needed it.
 class Missing {
  public:
@@ -189,7 +177,7 @@ ExitStatus sweep(const SceneOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
 
   PagedSweep paged(scene);
-  write(answer_header);
+  write_output(answer_header);
   RowReader reader;
   std::atomic<bool> failed_row{false};
   const auto read = [&](tbb::flow_control& flow) {
@@ -204,7 +192,7 @@ ExitStatus sweep(const SceneOptions& options) {
   };
   Missing missing;
   const auto put = [&](const Answers& answers) {
-    write(answers.text);
+    write_output(answers.text);
     missing.add(answers);
     if (answers.error) throw Error(*answers.error);
   };

@@ -9,6 +9,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "verbs.h"
@@ -101,7 +102,7 @@ ExitStatus view(const ViewOptions& options) {
   if (options.json) {
     print(json_report(report));
   } else {
-    print(text_report(report));
+    print_beside(options.trace, text_report(report));
   }
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);

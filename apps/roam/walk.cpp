@@ -12,6 +12,7 @@
 #include "cli/histogram.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/trace_file.h"
 #include "draw/picture.h"
@@ -292,7 +293,7 @@ ExitStatus walk(WalkOptions options) {
   if (options.json) {
     print(json_report(report));
   } else {
-    print(text_report(report));
+    print_beside(options.trace, text_report(report));
   }
   if (report.verified) {
     verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");

@@ -44,7 +44,7 @@ struct RecordedPath {
   }
 };
 
-/// Reads both at once: the file may be a pipe. Empty for no file.
+/// Reads both at once: the file may be a pipe, or `-` for standard input. Empty for no file.
 [[nodiscard]] RecordedPath load_recorded_path(const std::filesystem::path& file);
 
 /// A sentence when another body, or in another mode, is sent along the way; empty when it is the same.

@@ -11,6 +11,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/help.h"
+#include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "files/extension.h"
 #include "roam/error.h"
@@ -139,6 +140,9 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
                              {"--record", options.record},
                              {"--record-path", options.record_path},
                              {"--trace", options.trace}};
+  if (is_standard(options.record_path))
+    throw UsageError("--record-path -: standard output does not take a path; name a file");
+  demand_one_output("--trace", options.trace, options.json);
   for (const Written& output : outputs) {
     if (output.file.empty()) continue;
     const auto refuse = [&](const std::string& what) {
@@ -234,7 +238,7 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("FILE");
   verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
-  verb.add_option("--trace", trace, "Write every step to this CSV file")->type_name("FILE");
+  verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
   verb.add_flag("--json", json, "At the end, print one JSON object");
   verb.option_defaults()->group(other_group);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/exit_status.h"
+#include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "draw/draw.h"
 #include "roam/error.h"
@@ -72,6 +73,7 @@ void check_way(const WalkOptions& options) {
 }
 
 void check_outputs(const WalkOptions& options) {
+  demand_one_output("--trace", options.trace, options.json);
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
   if (options.picture.empty()) return;
@@ -86,7 +88,8 @@ void check_outputs(const WalkOptions& options) {
 void WalkOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   verb.option_defaults()->group("Way");
-  auto* way = verb.add_option("--path", path, "Follow the waypoints of this file")->type_name("FILE");
+  auto* way =
+      verb.add_option("--path", path, "Follow the waypoints of this file (-: standard input)")->type_name("FILE");
   auto* wandering = verb.add_option("--wander", wander, "Instead of --path: explore for S seconds")
                         ->excludes(way)
                         ->check(positive())
@@ -115,7 +118,7 @@ void WalkOptions::add_to(CLI::App& verb) {
   verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
   verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
   verb.option_defaults()->group("Results");
-  verb.add_option("--trace", trace, "Write every step to this CSV file")->type_name("FILE");
+  verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_option("--picture", picture, "Draw plan and section of the way (.svg or .png)")->type_name("FILE");
   verb.add_flag("--verify", verify, "Check every move against all triangles, in higher precision, without the index");
   verb.add_option("--against", against.scenes,
