@@ -10,9 +10,9 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
+#include "cli/values.h"
 #include "paper_scene.h"
 #include "roam/error.h"
 #include "roam/generate.h"
@@ -212,7 +212,11 @@ app::ExitStatus run(const Options& options) {
   }
   sizes.push_back(make_size(options.triangles, options, scratch.path()));
   const std::vector<Row> rows = measure(sizes, options);
-  app::print(options.json ? to_json(rows, options).dump(2) + "\n" : table(rows, options));
+  if (options.json) {
+    app::print(to_json(rows, options));
+  } else {
+    app::print(table(rows, options));
+  }
   if (!options.picture.empty()) {
     std::vector<StepTimes> curve;
     for (const Row& row : rows) curve.push_back({row.size->triangles, row.times[2].p50, row.times[2].p99});

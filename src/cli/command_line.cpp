@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/failure.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
@@ -17,9 +18,10 @@
 namespace roam::app {
 namespace {
 
+using Arguments = std::vector<std::string>;
+
 /// The arguments as CLI11 takes them, last first. `help VERB` is `VERB --help`.
-std::vector<std::string> reversed_arguments(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
+Arguments reversed(Arguments arguments) {
   if (!arguments.empty() && arguments.front() == "help") {
     arguments.erase(arguments.begin());
     arguments.emplace_back("--help");
@@ -28,21 +30,32 @@ std::vector<std::string> reversed_arguments(int argc, char** argv) {
   return arguments;
 }
 
-ExitStatus refuse(const CLI::App& app, const std::string& sentence) {
+/// Says why the program `name` fails. If JSON is wanted and nothing was printed, also as JSON.
+void tell_failure(const std::string& message, const std::string& name, const Arguments& arguments) {
+  tell(message, name);
+  if (!wants_json(arguments) || has_printed_json()) return;
+  try {
+    print(failure_report(message, arguments));
+  } catch (const std::exception&) {
+    // Standard output may be what fails.
+  }
+}
+
+ExitStatus refuse(const CLI::App& app, const std::string& sentence, const Arguments& arguments) {
   const std::string name = full_name(app);
-  tell(sentence, name);
+  tell_failure(sentence, name, arguments);
   std::fputs(fmt::format("`{} --help` lists what it takes.\n", name).c_str(), stderr);
   return bad_usage;
 }
 
-ExitStatus run(CLI::App& program, const Run& chosen, int argc, char** argv) {
+ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments) {
   set_up_help(program);
   try {
-    program.parse(reversed_arguments(argc, argv));
+    program.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {
     // Not of a verb that there is not.
     const auto unknown = unknown_word(program);
-    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->sentence);
+    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->sentence, arguments);
     print(program.help());
     return done;
   } catch (const CLI::CallForVersion& version) {
@@ -50,35 +63,44 @@ ExitStatus run(CLI::App& program, const Run& chosen, int argc, char** argv) {
     return done;
   } catch (const CLI::ParseError& error) {
     const auto unknown = unknown_word(program);
-    if (unknown) return refuse(*unknown->app, unknown->sentence);
-    return refuse(reached(program), sentence_of(reached(program), error));
+    if (unknown) return refuse(*unknown->app, unknown->sentence, arguments);
+    return refuse(reached(program), sentence_of(reached(program), error), arguments);
   }
   return chosen();
+}
+
+/// The message of the running exception.
+std::string message_of_exception() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory; take a smaller scene or a machine with more memory";
+  } catch (const std::exception& error) {
+    // Ctrl-C also reaches the reader's process; its end is then no error of the file.
+    return interrupted() ? "cancelled" : error.what();
+  }
+}
+
+int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& arguments) {
+  const std::string name = program.get_name();
+  try {
+    return run(program, chosen, arguments);
+  } catch (const UsageError& error) {
+    tell_failure(error.what(), name, arguments);
+    return bad_usage;
+  } catch (const BrokenPipe&) {
+    return failed;
+  } catch (const std::exception&) {
+    tell_failure(message_of_exception(), name, arguments);
+    return failed;
+  }
 }
 
 }  // namespace
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
   catch_signals();
-  const std::string name = program.get_name();
-  try {
-    return run(program, chosen, argc, argv);
-  } catch (const UsageError& error) {
-    tell(error.what(), name);
-    return bad_usage;
-  } catch (const BrokenPipe&) {
-    return failed;
-  } catch (const Cancelled&) {
-    tell("cancelled", name);
-    return failed;
-  } catch (const std::bad_alloc&) {
-    tell("out of memory; take a smaller scene or a machine with more memory", name);
-    return failed;
-  } catch (const std::exception& error) {
-    // Ctrl-C also reaches the reader's process; its end is then no error of the file.
-    tell(interrupted() ? "cancelled" : error.what(), name);
-    return failed;
-  }
+  return run_and_tell(program, chosen, Arguments(argv + 1, argv + argc));
 }
 
 }  // namespace roam::app
