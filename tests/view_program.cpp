@@ -342,7 +342,7 @@ TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
   const std::string pids = view.folder.file("pids");
   view.set_reader("echo $$ >> '" + pids + "'\nexec sleep 100\n");
   view.run({"--headless", "--screenshot", view.folder.file("shot.png")}, {.interrupt_after = 1.5});
-  EXPECT_EQ(view.result.status, 1);
+  EXPECT_EQ(view.result.status, 130);
   EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
   EXPECT_LT(view.seconds, 1.5 + 1.5);
   std::ifstream in(pids);
@@ -355,7 +355,7 @@ TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
 TEST(ViewInterrupt, WhileRoamingStillTellsAndVerifiesWhereThereIsTime) {
   View view;
   view.run({"--headless", "--time", "1e8", "--json", "--verify", "--at", "5,0,0.95,370"}, {.interrupt_after = 4.0});
-  EXPECT_EQ(view.result.status, 1);
+  EXPECT_EQ(view.result.status, 130);
   EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
   const nlohmann::json report = view.json();
   ASSERT_TRUE(report.is_object()) << view.result.out;

@@ -230,9 +230,8 @@ ExitStatus build(BuildVerb verb) {
   } catch (const std::exception&) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the scene.
     if (!interrupted()) throw;
-    tell(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
-                     verb.output.string()));
-    return failed;
+    throw Stopped(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
+                              verb.output.string()));
   }
 }
 

@@ -16,7 +16,7 @@ constexpr const char* help = R"(`roam help VERB` explains a verb, with examples.
 
 Results go to standard output, progress and notes to standard error.
 Exit status: 0 yes or done; 1 failed, and the message says what, where and what to do; 2 wrong usage; 3 the answer is
-no. Ctrl-C ends every verb in good order (1), or after 0.8 s at once (130).
+no. Ctrl-C ends every verb in good order, or after 0.8 s at once: 130 (SIGTERM: 143).
 
 Examples:
   roam view mine.dae

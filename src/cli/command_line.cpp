@@ -73,6 +73,8 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
 std::string message_of_exception() {
   try {
     throw;
+  } catch (const Stopped& stopped) {
+    return stopped.what();
   } catch (const std::bad_alloc&) {
     return "out of memory; take a smaller scene or a machine with more memory";
   } catch (const std::exception& error) {
@@ -100,7 +102,8 @@ int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& argument
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
   catch_signals();
-  return run_and_tell(program, chosen, Arguments(argv + 1, argv + argc));
+  const int status = run_and_tell(program, chosen, Arguments(argv + 1, argv + argc));
+  return status == failed && interrupted() ? interrupted_status() : status;
 }
 
 }  // namespace roam::app

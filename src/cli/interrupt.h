@@ -18,6 +18,14 @@ void catch_signals();
 /// A signal came: what runs should end.
 [[nodiscard]] bool interrupted();
 
+/// 128 + the number of the signal, as shells expect it of a program that a signal ended. Only after interrupted().
+[[nodiscard]] int interrupted_status();
+
+/// After a signal: the results that are there are being written, which may take longest_writing more. A further signal
+/// still ends the program at once.
+void give_time_to_write();
+inline constexpr std::chrono::milliseconds longest_writing{2000};
+
 /// Throws roam::Cancelled when a signal came.
 void stop_if_interrupted();
 
